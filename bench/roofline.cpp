@@ -92,7 +92,7 @@ Need element_need() {
   Counted::count = {};
   const HexReference<double> reference{};
   const auto corner = [](int, int, Counted&, Counted&) {};
-  const auto hourglass = [](ElementKinematics<Counted>&) {  // without the energy, which nobody reads in a step
+  const auto hourglass = [](ElementKinematics<Counted>&) {  // without the energy, which a step does not need
     const Counted a[5], b[7];
     Counted ka[5], kb[7];
     const auto entry = [](int) { return 1.0; };

@@ -1,4 +1,4 @@
-// What stands in a checkpoint, under a checksum that fits, so that HDF5 reads it. First byte even: changes (place,
+// Changed contents of a checkpoint, with a valid checksum, so that HDF5 reads them. First byte even: changes (place,
 // place, value) of the bytes of its HDF5 part; odd: changes made by HDF5 (see edit()): all that the reader asks of
 // HDF5.
 #include <hdf5.h>
@@ -175,7 +175,7 @@ std::string edited_image(Bytes in) {
   return image;
 }
 
-/// What was taken is a state that can be kept, and comes back the same.
+/// An accepted state can be saved and is read back unchanged.
 void check(const Checkpoint& c) {
   const std::string kept = checkpoint_bytes(c.origin, c.run);
   const Checkpoint again = checkpoint_of(kept, "again");
@@ -200,8 +200,8 @@ void leaves_nothing_open() {
 
 }  // namespace
 
-// HDF5 asks the heap for what a forged file says; where the system's heap would refuse, the sanitizers' are to refuse
-// too, and not to end the program.
+// HDF5 asks the heap for the sizes in a forged file; where the system's heap would refuse, the sanitizers' are to
+// refuse too, and not to end the program.
 extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1"; }
 extern "C" const char* __tsan_default_options() { return "allocator_may_return_null=1"; }
 

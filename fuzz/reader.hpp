@@ -27,13 +27,13 @@ bool accepts(Read&& read) {
     read();
     return true;
   } catch (const CaseError& e) {
-    promise(!e.diagnostics.empty(), "a refusal says why");
+    promise(!e.diagnostics.empty(), "a refusal has a reason");
     bool remedy = false;
     for (const Diagnostic& d : e.diagnostics) {
       promise(!d.message.empty(), "every fault has a message");
       remedy |= !d.remedy.empty();
     }
-    promise(remedy, "a refusal says what to do");
+    promise(remedy, "a refusal has a remedy");
     return false;
   }
 }

@@ -6,7 +6,7 @@
 run.json: --benchmark_out of a Google Benchmark program. Rates in GF/s and GB/s are divided by those of peak_arithmetic
 and memory_traffic on as many threads in the same run; the larger share is what limits. Where a line has a bound,
 limit/this above 1 keeps it; CONTACT/this is the factor over CONTACT's own time. Absolute numbers of a machine that
-others use mean little: the load average stands in the first lines, and shares and ratios tell more.
+others use mean little: the load average stands in the first lines, and shares and ratios are more reliable.
 """
 import argparse
 import csv

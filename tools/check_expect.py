@@ -63,7 +63,7 @@ def bounds(name, entry):
 
 
 def look_up(summary, path):
-    """The number at a dotted path; None where the summary says null or nothing."""
+    """The number at a dotted path; None where the summary has null or nothing."""
     found = {**summary, "checks": {check["name"]: check["value"] for check in summary.get("checks", [])}}
     for key in path.strip().split("."):
         if not isinstance(found, dict) or key not in found:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks every #include of src/ against src/LAYERS: a room sees itself and the rooms on lines above its own, nothing
-else. Beside src/, extras/LAYERS says of each extra which floors of src/ it sees and which rooms see it. Every room has
+else. Beside src/, extras/LAYERS has for each extra the floors of src/ it sees and the rooms that see it. Every room has
 a card, README.md, whose first heading is the room's name; the files that a card names exist. Below the highest room
 nothing prints, logs, ends the program or touches signals: others can call it.
 
@@ -21,7 +21,7 @@ RESULTS = {"view.py", "compare.svg"}  # written by the program into its results
 FOLDERS = ("src/", "extras/", "tests/", "docs/", "tools/", "cases/", "web/src", "data/", "fuzz/", "cmake/", "bench/")
 LOUD = re.compile(r"\bspdlog\b|\bfmt::print\b|\bstd::(?:cout|cerr|clog)\b|\bf?(?:printf|puts)\(|\bstd(?:out|err)\b"
                   r"|\b_?exit\(|\babort\(|\b(?:signal|sigaction)\(")
-# SI prefixes and units are said in record/unit.hpp alone
+# SI prefixes and units are defined in record/unit.hpp alone
 FACTOR = re.compile(r"\bconstexpr\b.*\bk(?:To)?(?:Milli|Micro|Nano|Mega|Kilo|Giga|Percent|Milli(?:metres?)|M(?:ega)?[Pp]a"
                     r"(?:scals?)?|Degrees?)\s*=\s*[-\d.(]")
 LOUD_FILES = {"mpi/plug_in.cpp",  # the end of all ranks, where one has died

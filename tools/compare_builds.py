@@ -6,7 +6,7 @@ FILE.csv]
 
 Builds each variant in WORK_DIR/<name>, runs the case twice with each, with one and two threads, and compares: the two
 runs must have the same bits in every file, and the numbers may differ from those of the first variant by the tolerance
-only. Whoever asks for less than the preload does (run.preload_tolerance) compares where its iterations end. Exits with
+only. A tolerance below that of the preload (run.preload_tolerance) compares where its iterations end. Exits with
 0 if both hold. --record keeps the rows in the table. Example: tools/compare_builds.py build-variants --set
 run.preload_tolerance=1e-10 --variant g++-native --variant g++-sse2
 """

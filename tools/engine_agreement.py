@@ -60,7 +60,7 @@ def von_mises_below(row, element_mm):
 
 
 def reason(values, bounds):
-    """What an exception is due to, as far as the runs tell."""
+    """The cause of an exception, as far as the runs show it."""
     beyond = [c for c, bound in bounds.items() if values[c] is not None and abs(values[c]) > bound
               and (c != "von_mises" or values["deep"])]
     if not beyond:

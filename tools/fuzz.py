@@ -3,7 +3,7 @@
 
 usage: fuzz.py BUILD [SECONDS] [--runs N] [--reader NAME]... [--merge]
 
-SECONDS: of each reader, 60 if nothing is said; --runs: until results.csv has so many executions of the reader, all runs
+SECONDS: of each reader, 60 by default; --runs: until results.csv has so many executions of the reader, all runs
 together. BUILD holds the targets (cmake --preset fuzz). What libFuzzer learns stays in BUILD/learned/READER and is
 taken up again; finds stay in BUILD/finds. Each run adds to fuzz/results.csv.
 --merge: puts what was learned into fuzz/corpus, as few inputs as cover the same code.
@@ -30,7 +30,7 @@ READERS = ["profile", "case_file", "history_table", "study_file", "published", "
 LONGEST = {"profile": 1200, "case_file": 1200, "history_table": 600, "study_file": 1600, "published": 1400,
            "results": 1200, "checkpoint": 700, "checkpoint_content": 700}
 LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-malloc_limit_mb=512"]
-# HDF5 asks for what a forged file says, is refused, and says so
+# HDF5 asks for the sizes in a forged file, is refused, and reports it
 OWN_LIMITS = {"checkpoint_content": ["-malloc_limit_mb=2147483647"]}
 # less paging than the defaults
 ENVIRONMENT = {**os.environ, "ASAN_OPTIONS": "quarantine_size_mb=8:malloc_context_size=8"}

@@ -8,9 +8,10 @@ usage: lint.py [--jobs N] [--csv docs/reliability/lint.csv] [FILE.cpp ...]
                     by version 14 alone: others break lines elsewhere
   statement_lines   one statement a line, at most 120 columns (tools/statement_lines.py)
   function_lengths  no function of src/ over 60 lines (tools/function_lengths.py)
+  plain_words       no private words in comments, messages and pages (tools/plain_words.py)
 
 What clang-tidy and cppcheck do not look for, and why, stands in .clang-tidy and tools/cppcheck.txt. Without files: all
-of them (some minutes); with files only these, by clang-tidy and the three above. --quick: the three above and
+of them (some minutes); with files only these, by clang-tidy and the four above. --quick: the four above and
 shellcheck. Exit code: 0 clean, 1 findings, 4 a tool is missing.
 """
 import argparse
@@ -23,6 +24,7 @@ import subprocess
 import sys
 
 import function_lengths
+import plain_words
 import records
 import statement_lines
 
@@ -108,16 +110,19 @@ def shown(found):
 
 
 def layout(files):
-    """Findings of the three that read sources as text; no files: all."""
+    """Findings of the four that read sources as text; no files: all."""
     code = files or [f for pattern in FORMATTED for f in sorted(ROOT.glob(pattern))]
     code = [f for f in code if f.suffix in FORMATTED_SUFFIXES]
     lines = files or statement_lines.all_files()
     statement_lines.self_test()
     function_lengths.self_test()
+    plain_words.self_test()
+    worded = files or plain_words.all_files()
     sized = files or sorted(f for place in PLACES for f in place.rglob("*") if f.suffix in {".cpp", ".hpp"})
     return {"clang-format": (code, clang_format(code)),
             "statement_lines": (lines, shown(set(statement_lines.findings(lines)))),
-            "function_lengths": (sized, shown(set(function_lengths.findings(sized))))}
+            "function_lengths": (sized, shown(set(function_lengths.findings(sized)))),
+            "plain_words": (worded, shown(set(plain_words.findings(worded))))}
 
 
 def version(tool):

@@ -26,7 +26,7 @@ TAG = "manylinux_2_36_x86_64"
 EVERYWHERE = re.compile(r"(libc|libm|libdl|librt|libpthread|libstdc\+\+|libgcc_s|libz|ld-linux-x86-64)\.so\.\d+")
 NEWEST = {"GLIBC": (2, 36), "GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13), "GCC": (12, 0, 0)}
 REMOTE = {"libcurl.so.4", "libcrypto.so.3"}
-# What is compiled in, by the Debian packages whose copyright files tell its licence.
+# What is compiled in, by the Debian packages whose copyright files give its licence.
 INSIDE = ["libfmt-dev", "libtomlplusplus-dev", "nlohmann-json3-dev", "libeigen3-dev", "zlib1g-dev", "libcli11-dev"]
 EPOCH = (1980, 1, 1, 0, 0, 0)
 
@@ -202,7 +202,7 @@ share/railstrata/examples).
 
 
 def ordinary(entry):
-    """Whoever packs does not show, and two of one build are the same."""
+    """Without the name of the packer; two of one build are the same."""
     entry.uid = entry.gid = entry.mtime = 0
     entry.uname = entry.gname = "root"
     return entry

@@ -35,7 +35,7 @@ def five_digits(text):
 
 
 def without_folders(value):
-    """The same with the names of files in place of their paths: where a study was computed is nobody's business."""
+    """The same with the names of files in place of their paths: the place where a study was computed is private."""
     if isinstance(value, dict):
         return {key: without_folders(v) for key, v in value.items() if key != "host"}
     if isinstance(value, list):
@@ -76,7 +76,7 @@ def study_anew(old, new, to):
 
 def published_anew(old, new, numbers, study, published):
     """The half-space's column from `new`; where that is a part of a finite element answer (`engines`) that too. What
-    the reason says must not change by it: it is not made anew."""
+    the reason names must not change by it: it is not made anew."""
     asked = {(n["section"], n["quantity"]): n for n in published["number"]}
     prefixes = {c["name"]: c.get("prefix", "") for c in published["column"] if c["engine"] == "fem"}
     out = []

@@ -23,7 +23,7 @@ def rows_of(path):
 
 
 def write(path, rows):
-    """The whole table at once: whoever is stopped leaves the one before."""
+    """The whole table at once: an interrupted call leaves the one before."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_suffix(".part")
     with part.open("w", newline="") as file:

@@ -6,7 +6,7 @@
 
 namespace railstrata {
 
-/// What one case is estimated to need; 0 where it is not known.
+/// Estimated time and memory of one case; 0: not known.
 struct CaseNeed {
   double seconds = 0, memory_bytes = 0;
 };
@@ -21,7 +21,7 @@ struct BatchJob {
 };
 
 /// A job script for Slurm: memory and time from the needs with a margin (three times the time, a quarter of an hour at
-/// least; half as much memory again), and a task that is told to stop before its end puts itself into the queue again.
+/// least; half as much memory again), and a task that is stopped before its end requeues itself.
 std::string slurm_script(const BatchJob& job);
 
 /// "1-3,7": ascending.

@@ -11,7 +11,7 @@ namespace railstrata::cntc {
 
 inline constexpr int kBlockColumns = 21;
 
-/// What a caller gives for one block; z in the user's unit of length, x and y too where ISUBS = 9.
+/// A caller's input for one block; z in the user's unit of length, x and y too where ISUBS = 9.
 struct BlockInput {
   int number = 0, kind = 0;
   std::span<const double> x, y, z;

@@ -61,7 +61,7 @@ std::unique_lock<std::mutex> alone(Problem& problem) {
   return lock;
 }
 
-/// What was refused when it was set is refused now.
+/// Throws the refusal of a setting that was refused and has not been set again.
 void require_all_taken(Problem& problem) {
   int code = 0;
   std::string text;

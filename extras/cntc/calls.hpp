@@ -1,5 +1,5 @@
 #pragma once
-// Between the functions of the interface, which have no way to fail, and those that throw.
+// Wraps functions that throw for the interface, whose functions must not throw.
 #include <limits>
 #include <new>
 #include <span>
@@ -36,7 +36,7 @@ int guarded(int ire, int icp, Problem* problem, const char* call, Work&& work) n
   }
 }
 
-/// The problem, made where there is none yet; null, and told, for wrong numbers.
+/// The problem, created if needed; null, with a report, for wrong numbers.
 inline Problem* problem_of(int ire, int icp, const char* call) noexcept {
   Problem* out = nullptr;
   guarded(ire, icp, nullptr, call, [&] { out = &registry().problem(ire, icp); });

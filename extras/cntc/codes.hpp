@@ -66,7 +66,7 @@ enum Field : int {
   kSlipY = 16
 };
 
-/// What is not offered, or cannot be: CONTACT's code and a line for the user.
+/// A request that is not supported or not possible: CONTACT's code and a line for the user.
 struct Refused : std::runtime_error {
   Refused(int error_code, const std::string& text) : std::runtime_error(text), code(error_code) {}
   int code;

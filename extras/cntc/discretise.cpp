@@ -19,7 +19,7 @@ double hertz_load(const Settings& s, double modulus, double a, double b, const H
   if (!(s.approach > 0))
     throw Refused(kOther, "an ellipse of Hertz needs an approach above 0: call cntc_setpenetration");
   if (curvatures) return std::pow(s.approach / hertz_contact(curvatures->A, curvatures->B, modulus, 1).approach, 1.5);
-  // Of given semi-axes curvatures and approach are both in proportion to the load.
+  // With given semi-axes, curvatures and approach are proportional to the load.
   const HertzGap of_one = hertz_gap(a, b, modulus, 1);
   return s.approach / hertz_contact(of_one.A, of_one.B, modulus, 1).approach;
 }

@@ -8,8 +8,8 @@
 
 namespace railstrata::cntc {
 
-/// Solves the problem as it is set: `solved` is the new state. What is taken otherwise than it was asked for is said in
-/// `remarks`. Throws Refused, with CONTACT's code; then there is no solution, and none to go on from.
+/// Solves the problem as it is set: `solved` is the new state. Settings that were changed are reported in `remarks`.
+/// Throws Refused, with CONTACT's code; then there is no solution, and none to go on from.
 void solve(Problem& problem, std::vector<std::string>& remarks);
 
 }  // namespace railstrata::cntc

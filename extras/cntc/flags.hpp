@@ -9,7 +9,7 @@ namespace railstrata::cntc {
 /// Takes a value. Returns a remark where it has no effect, "" otherwise; throws Refused for what is not offered.
 std::string set_flag(Problem& problem, int code, int value);
 
-/// As it was set, or its default; -1 for one that is not known.
+/// The flag's value or its default; -1: unknown flag.
 int get_flag(const Problem& problem, int code);
 
 }  // namespace railstrata::cntc

@@ -19,7 +19,7 @@
 
 namespace railstrata::cntc {
 
-/// Of one call that sets something; what was refused is so until the same call is taken.
+/// The calls that set something. A refused setting stays refused until the same call succeeds.
 enum class Setting {
   units = 1,
   solver,

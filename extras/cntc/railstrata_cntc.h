@@ -1,12 +1,12 @@
 /* RailStrata behind the library interface of CONTACT (eve70a/CONTACT, contact_addon.h): the basic contact module
- * (module 3) by RailStrata's half-space engine, and one call more for layers. C89. docs/contact-interface.md says what
- * is offered, what is refused, and how CONTACT's MATLAB and Python wrappers find it.
+ * (module 3) by RailStrata's half-space engine, and one call more for layers. C89. docs/contact-interface.md describes
+ * what is offered, what is refused, and how CONTACT's MATLAB and Python wrappers find it.
  *
  * `ire` is a result element, 1 to 999, `icp` a contact problem on it, 1 to 9. Units and signs: flag 1933. Every
  * argument is a pointer. Arrays of elements run with x fastest: element (ix, iy) is at ix + mx iy, both from 0.
  *
  * What is not offered is not done: the next cntc_calculate of that problem answers with a negative code of CONTACT's
- * list, outputs are NaN (integers -1), and rscntc_lasterror and the file <experiment>.out say why.
+ * list, outputs are NaN (integers -1), and rscntc_lasterror and the file <experiment>.out have the reason.
  *
  * Threads: initialisation, global flags and finalisation outside of parallel regions; several problems at once, each by
  * one thread at a time. */

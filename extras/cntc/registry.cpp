@@ -79,7 +79,7 @@ void Registry::remove_all() {
 
 void Registry::tell(int ire, int icp, Problem* problem, const char* call, int code, const std::string& text) {
   {
-    const std::lock_guard lock(mutex_);  // a second thread on a busy problem is told too
+    const std::lock_guard lock(mutex_);  // a second thread on a busy problem gets a report too
     if (problem) problem->last = {code, text};
     last_ = {code, text};
   }

@@ -1,6 +1,6 @@
 #pragma once
-// What the cntc_get… calls take from a contact problem, in the user's units and on the user's body. Those that need a
-// solution throw Refused without one.
+// Results that the cntc_get… calls return, in the user's units and on the user's body. Those that need a solution throw
+// Refused without one.
 #include <array>
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the cntc_set calls give to a contact problem, in the user's units. Each throws Refused for what is not offered
-// and then changes nothing; where it returns a text, that is a remark.
+// Settings of the cntc_set calls, in the user's units. Each throws Refused, and then changes nothing, for a value that
+// is not supported; a returned text is a remark.
 #include <span>
 #include <string>
 

@@ -32,7 +32,7 @@ class DeckWriter {
   void heading() {
     add(out_, "*HEADING\nRailStrata: {}\n", one_line(model_.title));
     add(out_, "** units: mm, t, s, N, MPa; x rolling direction, y to the field side, z up\n");
-    add(out_, "** static preload, {:.1f} N on the rail; README.txt says what was not carried over\n",
+    add(out_, "** static preload, {:.1f} N on the rail; README.txt lists what was not carried over\n",
         model_.static_load);
   }
 

@@ -112,7 +112,7 @@ ExitCode command_export(const CommandOptions& options) {
   if (options.json)
     fmt::print("{}\n", json_text(nlohmann::json{{"folder", out.generic_string()}}));
   else
-    fmt::print("{} is in {}; README.txt there says what was not carried over\n", files.contents.front().first,
+    fmt::print("{} is in {}; README.txt there lists what was not carried over\n", files.contents.front().first,
                out.string());
   return ExitCode::ok;
 }

@@ -66,8 +66,8 @@ void require_plain(const CaseSpec& spec) {
   if (spec.third_body.thickness) refuse("film of this form", "third_body.thickness");
 }
 
-/// What the rigid slip of a cell has beyond creepages and spin about the patch's middle, in CONTACT's signs: the
-/// variation of the rolling radius across the patch and the local angle of spin. Empty: none.
+/// Rigid slip of a cell beyond creepages and spin about the patch's middle, in CONTACT's signs: the variation of the
+/// rolling radius across the patch and the local angle of spin. Empty: none.
 PlanePair extra_rigid_slip(const CaseSpec& spec, const Placement& placement, const BemPatch& patch) {
   Placement own = placement;
   own.contact = patch.contact;

@@ -1,5 +1,5 @@
 #pragma once
-// What the writers of decks share: units mm, t, s, MPa, and text on one line.
+// Shared by the writers of decks: units mm, t, s, MPa, and text on one line.
 #include <fmt/format.h>
 
 #include <cctype>

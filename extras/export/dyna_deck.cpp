@@ -22,7 +22,7 @@ class DynaWriter {
                       "make it coarser: mesh.element_size");
     add(out_, "*KEYWORD\n*TITLE\nRailStrata: {:.60}\n", one_line(model_.title));
     add(out_, "$ units: mm, t, s, N, MPa; x rolling direction, y to the field side, z up\n");
-    add(out_, "$ static preload, {:.1f} N on the rail; README.txt says what was not carried over\n",
+    add(out_, "$ static preload, {:.1f} N on the rail; README.txt lists what was not carried over\n",
         model_.static_load);
     nodes();
     body(model_.rail, "rail", 0, 0);

@@ -10,7 +10,7 @@ namespace railstrata {
 
 enum class ExportTarget { calculix, abaqus, lsdyna, contact };
 
-/// What of a case is not in the files, one line each; never empty.
+/// Parts of the case that the files lack, one line each; never empty.
 std::vector<std::string> not_carried_over(const CaseSpec& spec, ExportTarget target);
 
 /// The text. `files`: a line each. `friction`: the deck's contact has it. `comparison`: what to expect of numbers there

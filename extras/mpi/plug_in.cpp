@@ -58,7 +58,7 @@ const char* missing_peer() {
   return nullptr;
 }
 
-// look(done) says what went wrong; nap: seconds asleep between two looks.
+// look(done) describes a fault; nap: seconds asleep between two looks.
 template <class Look>
 const char* wait_until(Look&& look, double nap) {
   auto next_look = Clock::now() + kLookAround;
@@ -89,7 +89,7 @@ const char* wait_for(MPI_Request& request, double nap) {
   return wait_until(look, nap);
 }
 
-// Lists of up to kSharedNumbers in memory that ranks on one machine share: each puts its part there, says so by the
+// Lists of up to kSharedNumbers in memory that ranks on one machine share: each puts its part there, marks it by the
 // number of the exchange, and copies those of the others. Two lists take turns: who is at the next exchange has read
 // this one, so that the one after it may be written.
 class SharedLists {

@@ -34,7 +34,7 @@ struct UsetabOptions {
   std::function<void(double fraction)> solved;  ///< of an ellipse; from any thread, one at a time
 };
 
-/// Of one ellipse: index (ixi * eta.size() + ieta) * psi.size() + ipsi. The creepages are
+/// Forces of one ellipse: index (ixi * eta.size() + ieta) * psi.size() + ipsi. The creepages are
 ///   -3 xi f N/(G c² C11), -3 eta f N/(G c² C22), -psi f N/(G c³ C23), c² = a b.
 /// Throws as solve_rolling.
 std::vector<UsetabForce> usetab_forces(double a_over_b, const UsetabAxes& axes, const UsetabOptions& options);

@@ -81,7 +81,7 @@ class Answer:
 
 
 def _plain(value: Any) -> Any:
-    """A value as JSON has it. Arrays go by their address: whoever calls keeps them."""
+    """A value as JSON has it. Arrays go by their address: the caller keeps them alive."""
     if isinstance(value, Answer):
         return value.address
     if isinstance(value, np.ndarray):

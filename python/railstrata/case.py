@@ -1,4 +1,4 @@
-"""Cases: what a case file says."""
+"""Cases: the contents of a case file."""
 from __future__ import annotations
 
 import json

@@ -86,7 +86,7 @@ def rcf_damage(
     """Rolling contact fatigue per axle passage over T-gamma [N]; 1 is a crack of visible size [Burstow2004].
 
     function: "15" (break points 15, 65 and 175 N), "15 clipped", "20", or break points [(N, damage), ...]; for these
-    wear_removes says whether the last slope goes on.
+    wear_removes: whether the last slope continues.
     """
     points = function if isinstance(function, str) else [(float(at), float(damage)) for at, damage in function]
     return _value("rcf_damage", t_gamma=t_gamma, function=points, wear_removes=bool(wear_removes))

@@ -36,11 +36,11 @@ class CaseError(ValueError):
 
 
 class NumericalError(ArithmeticError):
-    """The numbers went wrong (no convergence, an inverted element); the text says where and when."""
+    """The numbers went wrong (no convergence, an inverted element); the text names where and when."""
 
 
 class MachineError(OSError):
-    """The machine cannot do it: memory, disk, permissions. `remedy` says what to do, if something can be done."""
+    """The machine cannot do it: memory, disk, permissions. `remedy`: what the user can do, if anything."""
 
     def __init__(self, text: str, remedy: str = "") -> None:
         self.remedy = _in_python(remedy)
@@ -48,7 +48,7 @@ class MachineError(OSError):
 
 
 def raised(kind: str, text: str, remedy: str, diagnostics: list) -> BaseException:
-    """The exception of a fault that the library tells: one of these classes, or one of Python's own by its name."""
+    """The exception of a fault that the library reports: one of these classes, or one of Python's own by its name."""
     if kind == "CaseError":
         return CaseError(text, [Diagnostic(*one) for one in diagnostics])
     if kind == "MachineError":

@@ -148,7 +148,7 @@ def material(
     `increments` steps of backward Euler each, `cycles` times through the rows; prescribed stresses are met to 1e-9 of
     the yield stress. Strains are small: a CheckWarning from 5 % plastic strain on, no claim above 10 %.
 
-    Raises CaseError (the card says no strength; a stress that the material does not bear, with its row, the first one
+    Raises CaseError (the card gives no strength; a stress that the material does not bear, with its row, the first one
     0), NumericalError (increments too large), ValueError (shapes). Ctrl-C stops it.
     """
     if (strain is None) == (stress is None):

@@ -160,7 +160,7 @@ class Result:
 
     @property
     def shakedown(self) -> Optional[dict]:
-        """The summary's shakedown factors, where the case says strengths; else None."""
+        """The summary's shakedown factors, where the case gives strengths; else None."""
         return self.summary.get("shakedown")
 
     @property
@@ -170,7 +170,7 @@ class Result:
 
     @property
     def fatigue(self) -> Optional[list]:
-        """The summary's fatigue below the surface by body, where the case says what it needs; else None."""
+        """The summary's fatigue below the surface by body, where the case gives the data for it; else None."""
         return self.summary.get("fatigue")
 
     def __repr__(self) -> str:

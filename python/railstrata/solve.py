@@ -67,7 +67,7 @@ def bem(
     case: a Case, or the path of one. cell: m, or a text with a unit ("0.2 mm"), side of the cells of the potential
     contact area, 0.02e-3 to 5e-3. threads: 0 for all. stresses: False leaves out the search for the largest stresses,
     which costs more than the contact. single_track: the limit of shakedown for traffic on one line too, where the case
-    says strengths (some seconds). progress: of a transient; True, or a function of the fraction that is done. Raises
+    gives strengths (some seconds). progress: of a transient; True, or a function of the fraction that is done. Raises
     CaseError, NumericalError, MachineError; warns with CheckWarning where a check fails and where run.rolling = false
     makes a drive void. Several Python threads may call it at a time.
     """
@@ -82,7 +82,7 @@ def bem(
 def shakedown(case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0) -> BemResult:
     """Load factors of shakedown of a case by half-spaces, at every level (`railstrata shakedown`); some seconds.
 
-    The case must say strengths (yield_strength or grade). `result.shakedown` has the factors by body and zone.
+    The case must give strengths (yield_strength or grade). `result.shakedown` has the factors by body and zone.
     """
     case = _case_of(case)
     result = BemResult(_bridge.work(
@@ -90,7 +90,7 @@ def shakedown(case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0) -> Bem
         stresses=True, single_track=True, maps=False,
     ))
     if not result.shakedown:
-        raise ValueError('the case says no strength: give yield_strength = "500 MPa" or grade = "R260" to materials')
+        raise ValueError('the case gives no strength: give yield_strength = "500 MPa" or grade = "R260" to materials')
     return _say(result, case._loaded["static_notes"])
 
 
@@ -151,7 +151,7 @@ def sweep(
 
     varied: keys of the case and their values, {"layer.0.thickness": ["1 mm", "3 mm"]}; the last key changes fastest.
     A text or a number alone is one value, or a range like "0.5:3 mm:6"; words and ranges are those of
-    `railstrata sweep`. A case that cannot be solved says why in the column "fault"; CaseError: a key without values, or
+    `railstrata sweep`. A case that cannot be solved has a "fault" (a column); CaseError: a key without values, or
     all cases refused.
     """
     if not hasattr(varied, "items"):

@@ -28,7 +28,7 @@ _TABLES = ("passes", "residual", "profile", "loops", "along")
 class PassesResult:
     """Passes of wheels over a yielding rail, from their folder (docs/passes.md).
 
-    `summary` is passes.json. A table is a dict of read-only arrays, in the units that its names say:
+    `summary` is passes.json. A table is a dict of read-only arrays, in the units that its names give:
 
         result.table("passes")["net_strain"]          # a number a pass
         result.table("residual")["sigma_xx_MPa"]      # a number a point of the section, after the last pass
@@ -163,7 +163,7 @@ def passes(
         E(x, y, z) = e_contact(x, y, z) + e_before(y, z) + e_residual(x, y, z)      strain along every streamline
         elastic shakedown: dp < 1e-6 in a pass;  plastic: net < 1 % of dp;  ratchetting: net the same, at least that
 
-    The case says strengths (and hardening, docs/material.md), and in [passes] how wheels differ. passes: since the
+    The case gives strengths (and hardening, docs/material.md), and in [passes] how wheels differ. passes: since the
     first one, so that resume=True with a larger number goes on with those of the folder, to the same bits; force:
     older results in the folder are removed.
 

@@ -15,7 +15,7 @@ void warn_of(const std::vector<std::string>& notes) {
 
 LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
   std::filesystem::path file = shipped_unless_there(options.case_file);
-  std::error_code error;  // of a name too long: load_case tells
+  std::error_code error;  // a name that is too long: load_case reports it
   if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error))
     file /= "case.toml";
   LoadedCase loaded = load_case(file, options.overrides);
@@ -28,7 +28,7 @@ LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
 LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use) {
   LoadedCase loaded = load_case_of(options, use);
   const RunSpec& run = loaded.spec.run;
-  if (run.rolling && run.device != ComputeDevice::cpu)  // else a note of the case says so
+  if (run.rolling && run.device != ComputeDevice::cpu)  // else a note of the case reports it
     spdlog::warn("run.device has no effect: half-spaces are computed on processors");
   return loaded;
 }

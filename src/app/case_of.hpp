@@ -9,14 +9,14 @@
 
 namespace railstrata {
 
-/// What a command makes of a case: elastic contact, rolling or at rest; steady rolling whatever run.rolling says; the
-/// same over a body that yields.
+/// How a command uses a case. contact: elastic, rolling or at rest; steady_rolling: elastic, run.rolling is ignored;
+/// yielding: the same over a body that yields.
 enum class CaseUse { contact, steady_rolling, yielding };
 
 /// The case with the overrides applied; those of its notes that hold for the use are logged.
 LoadedCase load_case_of(const CommandOptions& options, CaseUse use = CaseUse::contact);
 
-/// The same for the half-space engine, which says what it passes over: run.device.
+/// The same for the half-space engine, which warns that it ignores run.device.
 LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use = CaseUse::contact);
 
 /// The work's result; CaseErrors of it get their places in the case (in_case_file).
@@ -36,7 +36,7 @@ void require_finite_elements(const LoadedCase& loaded);
 std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,
                                        const std::string& suffix = {});
 
-/// What any job on the case is asked for on the command line.
+/// Folder and options of a job, from the command line.
 JobOrder job_order_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix, bool resume);
 
 ExitCode code_of(JobEnd end);

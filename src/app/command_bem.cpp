@@ -23,7 +23,7 @@ namespace {
 
 bool shown() { return spdlog::should_log(spdlog::level::info); }
 
-/// What `bem` computes, and where its results go.
+/// Input of `bem` and the folder of its results.
 struct HalfSpaceJob {
   LoadedCase loaded;
   Placement placement;

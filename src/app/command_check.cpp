@@ -25,7 +25,7 @@ void print_title(const LoadedCase& loaded) {
   fmt::print("{}\n\n", printable(fmt::format("{}: {}", loaded.file.string(), loaded.spec.title)));
 }
 
-/// Of the contact point, from the tape circle.
+/// y of the contact point on the wheel, m from the tape circle.
 double wheel_y(const Placement& p) {
   return p.contact.roll == 0 ? p.contact.point.y - p.contact.wheel_offset_y : p.wheel.at(p.contact.wheel_s).position.y;
 }
@@ -115,7 +115,7 @@ void print_estimate(const Model& m, const RunEstimate& e) {
   print_card(e);
 }
 
-/// Of the last position, which is the result's.
+/// Warnings of the last position, which the result belongs to.
 std::vector<Warning> warnings_of(const Model& m, const RunEstimate& e) {
   const std::vector<double>& positions = m.spec.run.positions;
   std::vector<Warning> out =
@@ -197,7 +197,7 @@ nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
   return out;
 }
 
-/// Of a case for the half-space engine alone: where the bodies touch, and why `run` refuses it.
+/// For a case of the half-space engine alone: reports where the bodies touch, and why `run` refuses it.
 ExitCode check_without_mesh(const LoadedCase& loaded, bool json) {
   const Placement placement = place(loaded.spec, loaded.folder());
   for (const std::string& note : placement.notes) spdlog::info("{}", note);
@@ -259,7 +259,7 @@ ExitCode command_check(const CommandOptions& options) {
 }  // namespace
 
 const Command kCheckCommand{
-    "check", "Read a case and tell what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
+    "check", "Read a case and report what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 "
     "mm\"\n  railstrata check cases/paper/base.toml --json\n",
     add_case, command_check};

@@ -65,7 +65,7 @@ void write_row(const CommandOptions& options, const LoadedCase& loaded, const st
   write_half_space_result(folder, table_origin(one), one.spec, placement, solution);
 }
 
-/// What the terminal shows of a load.
+/// Columns of a load on the terminal.
 const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_z kN", "F_z_kN"},
                                         {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
                                         {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};

@@ -36,7 +36,7 @@ struct Row {
   std::string of_a{};  ///< patch
   std::string of_b{};
   double shown(double v) const { return std::abs(v) <= noise ? 0 : v; }
-  /// Of noise there is no share.
+  /// NaN where b is not above the noise.
   double relative() const {
     return std::abs(b) <= noise ? std::numeric_limits<double>::quiet_NaN() : (a - b) / std::abs(b);
   }
@@ -44,7 +44,7 @@ struct Row {
 
 std::size_t patches_of(const ResultFolder& r) { return 1 + r.further.size(); }
 
-/// What a number of a result is of: "patch", "patch 1 of 2", "2 patches".
+/// The part of the contact that a number belongs to: "patch", "patch 1 of 2", "2 patches".
 std::string of_text(const ResultFolder& r, const ResultColumn& column) {
   const std::size_t patches = patches_of(r);
   if (patches == 1) return "patch";
@@ -68,12 +68,12 @@ std::vector<Row> rows_of(const ResultFolder& a, const ResultFolder& b) {
   return rows;
 }
 
-/// Of the largest pressure, m.
+/// y of the largest pressure, m.
 double place_of(const ResultFolder& r) {
   return r.field.y[static_cast<std::size_t>(std::max_element(r.field.p.begin(), r.field.p.end()) - r.field.p.begin())];
 }
 
-/// What the table cannot say.
+/// Notes on differences that the table does not show.
 std::vector<std::string> notes_of(const ResultFolder& a, const ResultFolder& b) {
   std::vector<std::string> out;
   for (const auto& [name, r] : {std::pair{"A", &a}, std::pair{"B", &b}})

@@ -54,7 +54,7 @@ nlohmann::ordered_json as_json(const std::string& title, const std::vector<CsvCo
   return out;
 }
 
-/// What of the case a curve leaves out.
+/// Notes on settings of the case that a curve ignores.
 std::vector<std::string> notes_of(const CaseSpec& spec) {
   std::vector<std::string> out;
   if (spec.transient.kind != TransientKind::none)
@@ -105,9 +105,8 @@ void declare_creep_curve(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-creep-curve");
   add_cell(sub, options);
-  sub.add_option(
-         "--of", options.creep_curve.of,
-         "What varies: creepage (longitudinal, default), lateral_creepage or spin; the rest is as the case says")
+  sub.add_option("--of", options.creep_curve.of,
+                 "What varies: creepage (longitudinal, default), lateral_creepage or spin; the rest is as in the case")
       ->check(CLI::IsMember(creep_curve_words()));
   sub.add_option("--largest", options.creep_curve.largest, "Largest creepage (default: 0.02), or spin in 1/m (5)")
       ->check(CLI::Range(1e-6, 1000.0))

@@ -55,7 +55,7 @@ void declare_demo(CLI::App& sub, CommandOptions& options) {
 }  // namespace
 
 const Command kDemoCommand{
-    "demo", "Run the shipped case cases/quick, in a minute or two, and tell what the results are",
+    "demo", "Run the shipped case cases/quick, in a minute or two, and print where the results are",
     "Examples:\n  railstrata demo\n  railstrata demo --out /tmp/quick\n", declare_demo, command_demo};
 
 }  // namespace railstrata

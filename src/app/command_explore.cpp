@@ -16,7 +16,7 @@
 namespace railstrata {
 namespace {
 
-/// What there is to look at without a case: a layer on a rail.
+/// The case when none is given: a layer on a rail.
 constexpr const char* kShippedCase = "cases/paper/layer_3mm_2E0.toml";
 
 ExitCode command_explore(const CommandOptions& given) {

@@ -45,7 +45,7 @@ std::vector<std::string> grade_names() {
   return out;
 }
 
-/// What run.device = "gpu" would take, or why there is none.
+/// The card that run.device = "gpu" would use, or why there is none.
 std::string card() {
   try {
     device::require_card();

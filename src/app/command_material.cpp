@@ -46,7 +46,7 @@ double depth_of(const std::string& text) {
   throw CaseError(fmt::format("--depth {}: must be at least 0 mm", text), "write for example --depth \"2 mm\"");
 }
 
-/// A table of this command, and a file that is empty, are made anew; others are somebody's.
+/// Only a table of this command or an empty file is overwritten.
 bool replaceable(const fs::path& file, const std::string& first_line) {
   std::error_code error;
   if (!fs::exists(file, error) || fs::file_size(file, error) == 0) return true;
@@ -192,7 +192,7 @@ ExitCode command_material(const CommandOptions& options) {
         "give one of --strain PATH.csv, --stress PATH.csv, --calibrate LOOP.csv and --cyclic-curve CURVE.csv");
   if (path && !o.monotonic.empty())
     throw CaseError("--monotonic belongs to a fit", "give --calibrate LOOP.csv or --cyclic-curve CURVE.csv with it");
-  // The notes of a case are of its contact, which nobody asked for here.
+  // A case's notes concern its contact, which is not computed here.
   const LoadedCase loaded = load_case(card_of(options), options.overrides);
   return path ? drive(options, loaded) : calibrate(options, loaded);
 }

@@ -34,7 +34,7 @@ void warn_of_shared_processors(int threads) {
   if (const std::string busy = competition(threads); !busy.empty()) spdlog::info("{}", busy);
 }
 
-// What of the ranks is not 0: silent.
+// Runs on ranks other than 0: no output.
 ExitCode run_along(const CommandOptions& options, const FemOptions& fem) {
   spdlog::set_level(spdlog::level::off);
   if (!options.run.resume.empty()) require_resume_alone(options);
@@ -110,7 +110,7 @@ const Command kRunCommand{
     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n "
     " railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n"
     "  railstrata run cases/paper/base.toml --max-time \"110 min\"; railstrata run --resume results/base\n\n"
-    "Ctrl-C, SIGTERM: finish the step, write a checkpoint, say how to go on (a second one quits at once). SIGUSR1: "
+    "Ctrl-C, SIGTERM: finish the step, write a checkpoint, print how to go on (a second one quits at once). SIGUSR1: "
     "write a checkpoint, go on.\n",
     declare_run,
     command_run,

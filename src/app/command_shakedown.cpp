@@ -22,7 +22,7 @@ void require_elastic_run(const LoadedCase& loaded) {
 /// Without a strength there is nothing to hold the stresses against.
 void require_strength(const LoadedCase& loaded) {
   if (strength_given(loaded.spec, BodyId::rail) || strength_given(loaded.spec, BodyId::wheel)) return;
-  throw CaseError("the case does not say how strong rail, wheel or layers are",
+  throw CaseError("the case gives no strength of rail, wheel or layers",
                   "give yield_strength = \"500 MPa\", or grade = \"R260\", in [material.rail], [material.wheel] or a "
                   "[[layer]]",
                   loaded.file.string());

@@ -88,7 +88,7 @@ struct SchemaOptions {
   bool results = false;                        ///< --results: of results instead of cases
 };
 
-/// What the command line says: what several commands have, then what one has.
+/// Values from the command line: options of several commands first, then those of one.
 struct CommandOptions {
   std::filesystem::path case_file;     ///< a file, or a folder that holds case.toml; first folder of `compare`
   std::filesystem::path reference;     ///< second folder of `compare`

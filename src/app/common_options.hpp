@@ -24,7 +24,7 @@ void add_output(CLI::App& sub, CommandOptions& options, const char* preset);
 void add_case_and_output(CLI::App& sub, CommandOptions& options);
 void add_no_report(CLI::App& sub, CommandOptions& options);
 void add_cell(CLI::App& sub, CommandOptions& options);
-/// Of a number: CLI::Range takes what is none.
+/// Accepts finite numbers only; CLI::Range would accept NaN.
 CLI::Validator finite();
 
 }  // namespace railstrata

@@ -7,8 +7,8 @@
 namespace {
 
 // Threads that spin long while they wait cost more than they win where cores are shared; those that sleep at once take
-// longer to wake than many a sweep lasts. g++'s OpenMP runtime is told to spin for some ten microseconds, others to
-// sleep. They read such wishes before main() starts, hence once more from the top.
+// longer to wake than many a sweep lasts. g++'s OpenMP runtime is set to spin for some ten microseconds, others to
+// sleep. They read these settings before main() starts, so the program starts itself again.
 void wait_briefly(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);

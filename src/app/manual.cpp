@@ -10,7 +10,7 @@
 namespace railstrata {
 namespace {
 
-// What a terminal without Unicode shows as a question mark.
+// Replacements of characters that a terminal without Unicode shows as question marks.
 constexpr std::array kPlain{std::pair{"…", "..."}, std::pair{"√", "sqrt "}, std::pair{"±", "+-"}};
 
 /// Text as roff prints it: no request at the start of a line, hyphens that can be copied.
@@ -103,7 +103,7 @@ ManualPage program_page(const std::vector<CommandWords>& commands, const std::st
   std::string text = head("railstrata", 1, version, program.what.substr(program.what.find(": ") + 2));
   text += ".SH SYNOPSIS\n.B railstrata\n.I command\n[\\fIargument\\fR...]\n.SH DESCRIPTION\n" + roff(program.what) +
           ".\nA case is a text file with what differs from the defaults; "
-          "every command says its options by \\fB\\-\\-help\\fR.\n.SH COMMANDS\n";
+          "every command lists its options with \\fB\\-\\-help\\fR.\n.SH COMMANDS\n";
   for (const CommandWords& command : commands)
     if (!command.name.empty()) text += fmt::format(".TP\n{}\n{}.\n", bold(command.name), roff(command.what));
   return {"railstrata", 1, text + options_section(program) + footer_sections(program.footer) + see_also("railstrata")};
@@ -124,7 +124,7 @@ ManualPage command_page(const CommandWords& command, const std::vector<OptionWor
 ManualPage case_page(const std::vector<CaseKey>& keys, const std::string& version) {
   std::string text = head("railstrata-case", 5, version, "keys of a RailStrata case file");
   text +=
-      ".SH DESCRIPTION\nA case is a TOML file. Every key has a default, so a case says only what differs. A value "
+      ".SH DESCRIPTION\nA case is a TOML file. Every key has a default, so a case gives only what differs. A value "
       "with a dimension is a text with its unit: \\(dq0.2 mm\\(dq, \\(dq210 GPa\\(dq.\nOn the command line\n"
       ".B \\-\\-set\n.IR key = value\noverrides a key; those of the first layer are layer.0.key.\n.SH KEYS\n";
   for (const CaseKey& key : keys) {

@@ -1,5 +1,5 @@
 #pragma once
-// What `check` and `mesh` say about a model's meshes.
+// The text of `check` and `mesh` about a model's meshes.
 #include <string>
 #include <vector>
 
@@ -15,7 +15,7 @@ struct MeshRow {
                     ///< block limits the step
 };
 
-/// One row per block of both bodies.
+/// Rows of the table of meshes: one per block of both bodies.
 std::vector<MeshRow> mesh_rows(const Model& model);
 
 /// The rows as an aligned table.

@@ -20,7 +20,7 @@ int number_in_environment(const char* name) {
   return text == nullptr ? 0 : std::atoi(text);
 }
 
-// Open MPI says how many; of others that speak PMIx a rank is enough to ask MPI itself.
+// Open MPI gives the number of ranks; srun with PMIx gives a rank, and Slurm the number of tasks.
 bool started_among_ranks() {
   if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr) return number_in_environment("OMPI_COMM_WORLD_SIZE") > 1;
   return std::getenv("PMIX_RANK") != nullptr && number_in_environment("SLURM_NTASKS") > 1;
@@ -53,7 +53,7 @@ void require(const char* trouble) {
     throw EnvironmentError(trouble, "look for the message of the rank that ended first; checkpoints stay as they are");
 }
 
-// Of those that do not speak.
+// Ranks other than 0 wait here.
 void wait_for_the_end() {
   constexpr unsigned kSeconds = 5;  // signals wake; what ends the others when rank 0 has ended comes sooner
   for (unsigned left = kSeconds; left > 0;) left = sleep(left);

@@ -1,6 +1,6 @@
 #pragma once
-// The ranks among which mpirun (or srun with PMIx) has started this process. The plug-in that speaks MPI is loaded here
-// and only where there are any.
+// The ranks among which mpirun (or srun with PMIx) has started this process. The plug-in with MPI is loaded here and
+// only where there are any.
 #include <string>
 
 #include "core/rank_plug_in.hpp"
@@ -10,7 +10,7 @@ namespace railstrata {
 
 class MpiRanks {
  public:
-  /// Joins the others; alone where nobody has started any. Throws EnvironmentError where the plug-in is not there or
+  /// Joins the other ranks; a single rank without a launcher. Throws EnvironmentError where the plug-in is not there or
   /// refuses.
   MpiRanks();
   MpiRanks(const MpiRanks&) = delete;
@@ -22,20 +22,19 @@ class MpiRanks {
   void leave();
   /// Any of them has been asked to stop; all call it and get the same answer.
   bool any_asked(bool this_one);
-  /// Of a rank with a fault that all have: those that do not speak wait for the end, which rank 0 brings when it has
-  /// told it. Who ends without leave() ends them all.
+  /// After a fault that all ranks have. Ranks other than 0 wait until rank 0 has reported it and ends them. A rank that
+  /// ends without leave() ends all.
   void let_rank_0_speak() const;
 
  private:
   RailstrataRanks joined_{1, 0, 1, nullptr, nullptr};
 };
 
-/// Throws CaseError among ranks: so many of a command that knows nothing of them would do the same work and write the
-/// same files.
+/// Throws CaseError among several ranks: without this, a command that does not share its work would run once on each
+/// rank and write the same files.
 void refuse_ranks(const std::string& command);
 
-/// Before a message that all ranks have: those that do not speak wait for the end, which rank 0 brings when it has told
-/// it.
+/// Before a message that all ranks have. Ranks other than 0 wait until rank 0 ends them, after it has reported it.
 void leave_words_to_rank_0();
 
 /// The programs that this one starts from now on are no ranks, whatever it is.

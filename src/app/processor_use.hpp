@@ -1,5 +1,5 @@
 #pragma once
-// What the system tells about processors.
+// Number and load of the processors, as the system reports them.
 
 namespace railstrata {
 

@@ -11,7 +11,7 @@
 namespace railstrata {
 namespace {
 
-// Of a rank among several on this machine that are not bound to cores of their own: its part of them.
+// Cores for one of several ranks on this machine that are not bound to cores: an equal part.
 int cores_of_rank(int cores) {
   const char* const ranks = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
   const bool bound = allowed_processors() < all_processors();

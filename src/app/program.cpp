@@ -134,7 +134,7 @@ int parse_and_run(const std::vector<std::string>& given, CommandOptions& options
       ->check(CLI::Range(1, kMostThreads));
   app.add_flag("--json", options.json, "Results on standard output as JSON");
   app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
-  app.add_flag("-v,--verbose", verbose, "Say more");
+  app.add_flag("-v,--verbose", verbose, "More messages");
   for (const Command* c : kCommands) {
     CLI::App* sub = app.add_subcommand(c->name, c->what);
     sub->footer(c->examples);
@@ -190,7 +190,7 @@ int run_program(int argc, const char* const* argv) {
   } catch (const std::system_error& e) {  // of a file system, or of standard output
     return tell(ExitCode::environment, e.what());
   } catch (const std::bad_alloc&) {
-    return tell(ExitCode::environment, "not enough memory; `railstrata check` tells what a case needs");
+    return tell(ExitCode::environment, "not enough memory; `railstrata check` reports what a case needs");
   } catch (const std::exception& e) {
     return tell(ExitCode::internal,
                 fmt::format("{} (a fault of the program: please report it with the case file)", e.what()));

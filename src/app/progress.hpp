@@ -13,7 +13,7 @@ std::string progress_bar(const std::string& what, double fraction, double elapse
 
 class Progress {
  public:
-  /// Writes to standard error. `shown` = false: says nothing at all.
+  /// Writes to standard error. `shown` = false: no output.
   explicit Progress(std::string what, bool shown = true);
   ~Progress();
   Progress(const Progress&) = delete;

@@ -31,7 +31,7 @@ CaseNeed need_of(const StudyCase& c, const std::string& cell) {
     }
     const Model model = build_model(c.loaded.spec, c.loaded.folder());
     return {estimate_run(model).seconds, memory_needed(model)};
-  } catch (const std::exception& e) {  // the case will fail, and say why then
+  } catch (const std::exception& e) {  // the case will fail and report why
     spdlog::warn("{}: cannot be estimated: {}", c.label(), e.what());
     return {};
   }

@@ -129,7 +129,7 @@ std::string fatigue_text(const Summary& s) {
   return out;
 }
 
-/// Of every body the zones from the surface down, with what decides them.
+/// Shakedown factors of each body's zones, from the surface down, with the level that decides.
 std::string shakedown_text(const Summary& s) {
   std::string out;
   for (const BodyShakedown& b : s.shakedown.bodies) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a person reads of a result, the same for both engines.
+// A result as text for the terminal, the same for both engines.
 #include <string>
 
 #include "result/summary.hpp"

@@ -23,7 +23,7 @@ void occupy_standard_streams() {
 
 void settle_in() {
   occupy_standard_streams();
-  std::signal(SIGUSR1, SIG_IGN);  // a wish for a checkpoint where there is none to make
+  std::signal(SIGUSR1, SIG_IGN);  // a request for a checkpoint where none can be made
   for (const int limit : {SIGXFSZ, SIGPIPE})
     std::signal(limit, SIG_IGN);  // a limit on file sizes, a reader that is gone: errors of the write, with a message
 }

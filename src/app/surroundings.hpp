@@ -1,5 +1,5 @@
 #pragma once
-// What a program must see to before it begins.
+// Set-up of standard streams and signals at the program's start.
 
 namespace railstrata {
 

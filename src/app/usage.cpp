@@ -24,7 +24,7 @@ std::vector<std::string> option_names(const CLI::App& app, const CLI::App* sub) 
   return names;
 }
 
-/// The first of the words that nobody takes: an option if there is one, for what follows it is left over because of it.
+/// The first word that no option or command accepts: an unknown option first, since the words after it belong to it.
 std::string first_left_over(const std::vector<std::string>& words, const std::vector<std::string>& left) {
   std::string first;
   for (const std::string& word : words) {

@@ -12,7 +12,7 @@ class ParseError;
 
 namespace railstrata {
 
-/// What CLI11 refuses. words: the command line; commands: the names of all commands.
+/// The error for a command line that CLI11 refuses. words: the command line; commands: the names of all commands.
 CaseError usage_error(const CLI::App& app, const CLI::ParseError& e, const std::vector<std::string>& words,
                       const std::vector<std::string>& commands);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the screen shows while something is computed that cannot say how far it is, and what Ctrl-C answers meanwhile.
+// Screen and answer to Ctrl-C during a computation of unknown progress.
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -12,7 +12,7 @@ namespace railstrata {
 /// Writes to standard error from a thread of its own; what it has drawn is gone when it ends.
 class Waiting {
  public:
-  /// `shown` = false: says nothing.
+  /// `shown` = false: no output.
   Waiting(std::string what, bool shown);
   ~Waiting();
   Waiting(const Waiting&) = delete;

@@ -1,5 +1,5 @@
 #pragma once
-// From a case to the problem on a grid: what solve_bem and creep_curve share.
+// Makes the problem on a grid from a case, for solve_bem and creep_curve.
 #include <limits>
 #include <memory>
 #include <string>

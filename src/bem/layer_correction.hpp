@@ -1,6 +1,6 @@
 #pragma once
-// What layers change inside a body against the half-space of its substrate's material: wave by wave (layer_waves.hpp),
-// on a grid whose periodic images are far away.
+// Difference that layers make inside a body to the half-space of its substrate's material: wave by wave
+// (layer_waves.hpp), on a grid whose periodic images are far away.
 #include <array>
 #include <vector>
 

@@ -32,7 +32,7 @@ namespace railstrata {
 /// do not lie on the grid, or their gap does not open. Between 0 and 0.64: 0.55 for an edge at the centre of the first
 /// cell; what is more is the staircase's.
 Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal, double film = 0);
-/// That share for an operator.
+/// `film` of leading_weights() for an operator.
 double film_share(const InfluenceOperator& influence);
 
 /// The last term above [m]: what the step of each first cell slips ahead of the edge by pressure; weight from

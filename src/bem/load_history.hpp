@@ -1,9 +1,9 @@
 #pragma once
 // The history of a case's [transient] table: load, forces and motions at any place of its course, linear between rows.
 //
-// What rolls has its rows at rolled distances, from 0 on (times are distances at the case's speed); before a jump (two
-// rows at one place) the first of them holds, beyond the last row the last. A shift has no length: row k ends at k, and
-// at 0 the bodies are pressed together by the first row's load, with nothing sideways.
+// Rows of a rolling history are at rolled distances, from 0 on (times are distances at the case's speed). At a jump
+// (two rows at one place) the first row holds up to there; beyond the end the last row holds. A shift has no length:
+// row k ends at k, and at 0 the bodies are pressed together by the first row's load, with nothing sideways.
 #include <optional>
 #include <vector>
 

@@ -121,7 +121,8 @@ class ActiveSetSolver {
     return (gap * u - n * both) / (n * square - gap * gap);
   }
 
-  /// What the tolerance refers to. A gap that is flat over the patch has no range: then a thousandth of the approach.
+  /// Range of the gap over the active cells, the scale of the tolerance. At least a thousandth of the approach, for a
+  /// flat gap.
   double gap_range() const {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < n_; ++i)

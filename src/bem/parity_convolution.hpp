@@ -8,7 +8,7 @@
 
 namespace railstrata {
 
-/// Of an influence in x and in y: +1 even, -1 odd.
+/// Parity of an influence in x and in y: +1 even, -1 odd.
 struct Parity {
   int x, y;
 };

@@ -29,8 +29,8 @@ void add_history_by_pressure(const InfluenceOperator& influence, const PatchGrid
   });
 }
 
-/// What the tangential problem sees of the displacement by pressure: rigid slip in steady rolling, else a part of the
-/// history.
+/// Adds the tangential displacement by pressure: as rigid slip in steady rolling, else to the displacements of the step
+/// before.
 void add_displacement_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure,
                                   TangentialProblem& t) {
   const PlanePair u = displacement_by_pressure(influence, grid, pressure);

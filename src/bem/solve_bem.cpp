@@ -74,7 +74,7 @@ void spread_over_line(double length, ContactField& f) {
   }
 }
 
-/// Of every cell.
+/// One value per cell, from the values of its points.
 Plane of_cells(const BemPatch& r, const Plane& of_points) {
   if (r.field.line_length == 0) return of_points;
   Plane out;

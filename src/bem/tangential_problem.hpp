@@ -42,7 +42,7 @@ struct CreepOrForce {
   std::optional<double> force;
 };
 
-/// How two surfaces move over each other, what was before and how friction depends on slip: whatever the pressure.
+/// Motion of two surfaces over each other, the state before and the law of friction: all but the pressure.
 struct RollingConditions {
   RollingKind kind = RollingKind::steady;
   CreepOrForce x, y;

@@ -1,5 +1,5 @@
 #pragma once
-// What the solution of a tangential problem changes from step to step: traction, slip, and which cells stick.
+// State of a tangential solution from step to step: traction, slip, and which cells stick.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -100,7 +100,7 @@ struct TangentialState {
     return total;
   }
 
-  /// What a given force lacks, over the area of a cell.
+  /// (Given force - force of the tractions) / area of a cell, Pa.
   double missing_force(int direction) const {
     const double* values = q.data() + (direction ? n : 0);
     return (direction ? *problem.y.force : *problem.x.force) / grid.cell_area() -

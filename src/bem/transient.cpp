@@ -30,8 +30,8 @@ double largest_normal_load(const LoadHistory& history, double friction, const Ri
   return share < c ? std::min(alone * c / (c - share), kMostOfNormal * alone) : kMostOfNormal * alone;
 }
 
-/// What a step lacks of a given force the next one makes up for, within a cell: the first creepage from rest errs by
-/// twenty times the force's tolerance over friction.
+/// A tenth of the tolerance: the next step corrects the force error of this one within one cell, so the first creepage
+/// from rest would err by twenty times the force's tolerance over friction.
 RollingOptions sharper(RollingOptions options) {
   options.tangential.tolerance *= 0.1;
   return options;
@@ -68,7 +68,7 @@ class Course {
  private:
   double place(int step) const { return history_.end() * step / state_.steps; }
 
-  /// What rolls is at whole cells; its history ends within half a cell of the last.
+  /// Rolling steps are whole cells; the history ends within half a cell of the last step.
   double place_at_end(int step) const { return history_.rolls() ? step * patch_.grid.dx : place(step); }
 
   void require_a_cell() const {
@@ -197,7 +197,8 @@ class Course {
                     "drive.friction_coefficient");
   }
 
-  /// Of a line contact: how far a force that changes moves distant points, and the creepage of such a step.
+  /// Line contact: the displacement of distant points under a changing force, and the creepage of such a step, are not
+  /// known.
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   const CaseSpec& spec_;

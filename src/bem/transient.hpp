@@ -26,7 +26,7 @@ struct TransientState {
   BemResult result;
 };
 
-/// Hears of every state; false: stop after it.
+/// Called with every state; false: stop after it.
 using TransientObserver = std::function<bool(const TransientState&)>;
 
 /// How many steps a case takes on cells of this size [m], the beginning not counted.

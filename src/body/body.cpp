@@ -86,8 +86,8 @@ Vec3 reference_position(const Body& body, int block, int node, int station) {
 
 namespace {
 
-// Of one element's stiffness in its own frame: xx, yy, zz, xz of each corner's own block. It is the same at both
-// stations but for the sign of xz.
+// Diagonal blocks of an element's stiffness in its own frame: xx, yy, zz, xz of each corner. Both stations have the
+// same values but for the sign of xz.
 using CornerBlocks = std::array<double, 32>;
 
 CornerBlocks corner_blocks(SweepKind kind, const BlockElements& elements, int cls, int quad) {

@@ -25,7 +25,7 @@ struct ElementOptions {
 
 inline constexpr int kHourglassGroup = 8;  ///< elements that share one hourglass stiffness; whole packs of doubles
 
-/// In the number type of the arithmetic. Lines by station are padded with zeros to whole packs.
+/// Tables in the number type of the arithmetic. Lines by station are padded with zeros to whole packs.
 template <class Real>
 struct ElementTable {
   using Line = std::vector<Real, CacheLineAllocator<Real>>;

@@ -17,11 +17,11 @@ struct SweptBody;
 
 class InitialStress {
  public:
-  /// In the element's frame: 11 along the sweep, 22 lateral, 33 up, 12, 23, 13 [Pa].
+  /// Stress in the element's frame: 11 along the sweep, 22 lateral, 33 up, 12, 23, 13 [Pa].
   using Stress = std::array<double, 6>;
   using StressOf = std::function<Stress(int block, int quad)>;
 
-  /// None.
+  /// No initial stress.
   InitialStress() = default;
   InitialStress(const SweptBody& mesh, const StressOf& stress_of);
 

@@ -12,7 +12,7 @@ struct StationRun {
   int begin, end;
 };
 
-/// By block of a body.
+/// Values that a rank keeps, by block of a body.
 struct KeptValues {
   std::vector<std::vector<char>> line;        ///< per section node: kept at all stations
   std::vector<std::vector<StationRun>> runs;  ///< of the other nodes, in their order

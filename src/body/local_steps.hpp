@@ -48,7 +48,7 @@ struct FrozenAcceleration {
   double centrifugal = 0;  ///< 1/s²
 };
 
-/// On one component of a node: index into the body's fields.
+/// Force on one component of a node; index into the body's fields.
 struct NodalForce {
   std::ptrdiff_t index;
   double value;  ///< N

@@ -11,8 +11,8 @@
 // to chains down the rows; M + A is tridiagonal along a chain (the 2x2 pair in closed form when there is one row) and
 // its inverse costs two sweeps [ConfalonieriGhisiPerego2015]. Sums of mass, statics, uniform translation and, as A is
 // the same in all directions, the response to rigid rotation but for the a h^2 of rotary inertia stay what they were.
-// What is left is the in-plane speed of the layer: no inertia across it can slow that down, so the step comes from the
-// scaled model (lanczos_stable_step).
+// The in-plane wave speed of the layer is unchanged, since inertia across it does not affect it. So the step comes from
+// the scaled model (lanczos_stable_step).
 #include <map>
 #include <string>
 #include <vector>

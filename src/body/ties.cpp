@@ -151,7 +151,7 @@ void Ties::add_line(const SweptBody& body, const Tie& tie) {
   }
 }
 
-// Of every line the level that its masters' own ties leave it.
+// Sets the level of every line: one above the levels of its masters' own ties.
 void Ties::add_levels() {
   std::map<std::pair<int, int>, std::size_t> level_of;  // of slaves, by block and node
   for (std::size_t k = 0; k < lines_.size(); ++k) {

@@ -24,7 +24,7 @@ struct StationRange {
 /// so that loops over them make the same packs as those over whole lines.
 using StationRanges = std::vector<StationRange>;
 inline constexpr int kStationGroup = 8;
-/// By block and section node.
+/// Ranges of stations, by block and section node.
 using LineStations = std::vector<std::vector<StationRanges>>;
 
 /// The lines at ties that one of several processes keeps (fem/line_reach.hpp).
@@ -73,7 +73,7 @@ class Ties {
   /// Scatter at the stations within the tiles first <= t < end, and on the planes between them: those that only these
   /// tiles give forces. pieces: of this line.
   void find_moment_pieces(const Line& line, const TiedField& field, int first, int end, double* pieces) const;
-  /// Where those of a line begin in a list of all, and the size of that list for the line behind the last.
+  /// Index of a line's first piece in the list of all; for the line after the last, the size of that list.
   std::ptrdiff_t first_piece(std::size_t line) const { return first_piece_[line]; }
 
   bool is_slave(int block, int node) const { return slave_[block][node]; }
@@ -85,7 +85,7 @@ class Ties {
     int interpolation;     ///< index into interpolations()
     std::ptrdiff_t delta;  ///< start in the offsets
   };
-  /// From the stations of one block to those of another.
+  /// Interpolation from the stations of one block to those of another.
   struct Interpolation {
     int slave_block, master_block;
     std::vector<int> left, right;

@@ -65,13 +65,13 @@ class Traversal {
   void internal_force_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f,
                          const PlasticHistory& history);
   void linear_force_of(const std::vector<Chain>& chains, Field& u, Field& f);
-  /// At u.
+  /// Strain energy at the displacements u [J].
   StrainEnergy energy(Field& u, double psi, const PlasticHistory& history);
 
   // -- a step in pieces: begin, every chain once (in parallel if wanted), end
   // ------------------------------------------
   void begin(Field& u, double psi);
-  /// In the precision of the body's options.
+  /// Runs in the precision of the body's options.
   template <class Policy>
   void chain_forces(const Chain& chain, const Field& u, Field& f, const PlasticHistory& history, const Policy& policy);
   /// Forces on the border planes of all chains, and on the last station of an open block.
@@ -80,7 +80,7 @@ class Traversal {
   void end(const std::vector<Chain>& chains, Field& f, const std::vector<std::vector<int>>& nodes);
 
   /// Forces that the chains leave on the first plane of a tile and behind its last element, [node][component], tile
-  /// after tile within a block: for tiles that somebody else has evaluated, to be put here before end().
+  /// after tile within a block: for tiles that another rank or device has evaluated; to be put here before end().
   double* front_forces(int tile) { return &border_first_[body_->tiling.border[tile]]; }
   double* rear_forces(int tile) { return &border_end_[body_->tiling.border[tile]]; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What body/traversal.cpp does with a tile's quadrilaterals, for those who measure it alone.
+// Inner loop of body/traversal.cpp over a tile's quadrilaterals; a header so that benchmarks can measure it alone.
 #include <algorithm>
 #include <cmath>
 
@@ -58,7 +58,7 @@ void reserve_scratch(const Tiling& tiling) {
   thread_scratch<Real>().fit(slots);
 }
 
-// What one quadrilateral of a tile works on.
+// Data of one quadrilateral of a tile.
 template <class Real>
 struct QuadRows {
   Real* node[4];              // rows of the corners
@@ -139,7 +139,7 @@ inline void evaluate_quad(const BlockElements& elements, int quad, const Station
   using Rows = ScratchRows<Real>;
   constexpr int lanes = kLanesOf<Real>;
   const auto& reference = elements.of<Real>().quads[quad];
-  // copies whose address nobody has: stores to the rows would else make the compiler read the pointers again
+  // copies whose address is not taken: else the compiler would read the pointers again after every store to the rows
   Real* const node[4] = {rows.node[0], rows.node[1], rows.node[2], rows.node[3]};
   const Real* const so_far[4] = {rows.forces[0], rows.forces[1], rows.forces[2], rows.forces[3]};
   const Rotation<Real> turned = turn;

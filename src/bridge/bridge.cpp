@@ -22,7 +22,7 @@ Json fault(const char* kind, const std::string& text, const std::string& remedy 
   return {{"fault", {{"kind", kind}, {"text", text}, {"remedy", remedy}, {"diagnostics", diagnostics}}}};
 }
 
-/// What the call throws, as an answer.
+/// A thrown exception as an answer.
 Json fault_of(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);

@@ -52,7 +52,7 @@ class Call {
   std::string text(const char* name) const;
   std::vector<std::string> texts(const char* name) const { return texts_of(argument(name)); }
   Array array(const char* name) const { return array_of(argument(name)); }
-  /// What an earlier call has made; it lives as long as this call does too.
+  /// Object made by an earlier call; kept alive by this call as well.
   template <class T>
   std::shared_ptr<T> made(const char* name) {
     return std::static_pointer_cast<T>(made_before(name, typeid(T)));
@@ -75,7 +75,7 @@ class Call {
 
   // while it lasts
   Control control;
-  /// What a progress function is called with.
+  /// Progress, for the caller's progress function.
   void tell(const Json& how_far);
   std::string told() const;
 

@@ -12,7 +12,7 @@ using Functions = std::map<std::string, void (*)(Call&)>;
 /// All of them.
 const Functions& functions();
 
-// One list for each file.
+// Functions of the bridge, one list for each source file.
 Functions case_functions();
 Functions damage_functions();
 Functions folder_functions();

@@ -30,7 +30,7 @@ struct HalfSpaceRun {
   }
 };
 
-/// What a caller wants of a solution.
+/// A caller's options for a solution.
 struct Wanted {
   double cell = kDefaultCell;
   int threads = 0;

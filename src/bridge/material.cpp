@@ -110,7 +110,7 @@ void driven_table(Call& call) {
   }
 }
 
-/// Adds to `notes` what reading says.
+/// Adds the notes of reading to `notes`.
 std::vector<CurvePoint> curve_of(const Given& given, TestCurve kind, double young, std::vector<std::string>& notes) {
   if (!given.file.empty()) {
     std::vector<std::string> more;

@@ -11,7 +11,7 @@ std::vector<Axis> keys_of(const Json& varied) {
   return out;
 }
 
-/// Of a case: `values` (one per key), `summary` (null without a result), `fault`, `static_notes`.
+/// Row of a case: `values` (one per key), `summary` (null without a result), `fault`, `static_notes`.
 Json row_of(const SweepCase& c) {
   return {{"values", c.values},
           {"summary", c.summary},

@@ -1,5 +1,5 @@
 #pragma once
-// Between exceptions of the library and the codes of its C interface.
+// Converts exceptions of the library to the codes of its C interface.
 #include "capi/railstrata.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-// What the next solution of a contact starts from: the last one, continued along the line from the one before it.
+// Start of a contact's next solution: the last one, extrapolated along the line from the one before it.
 #include <array>
 
 #include "bem/bem_options.hpp"
@@ -17,7 +17,7 @@ class NextStart {
   void add(const CaseSpec& spec, BemNeighbour solved);
 
  private:
-  /// What a state can change, in steps of about the same weight.
+  /// The inputs that a state can change, scaled to steps of similar weight.
   using Coordinates = std::array<double, 12>;
   struct Known {
     Coordinates at;

@@ -98,7 +98,7 @@ typedef struct rs_forces {
   int patches;                        /* contacts that share the load */
   int cells;                          /* with pressure, of the first patch */
   int iterations;                     /* products with the influence matrix */
-  int checks_hold;                    /* 1: every check of the result holds; rs_remarks says what does not */
+  int checks_hold;                    /* 1: every check of the result holds; rs_remarks lists those that do not */
 } rs_forces;
 
 /* Side of the cells [m], 0.02e-3 to 5e-3; 0.25e-3 unless set. */
@@ -108,7 +108,7 @@ RS_API int rs_set_cell(rs_contact* contact, double cell, rs_error* error);
 RS_API int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_error* error);
 
 /* Solutions start from the one before, which halves their time in a sweep; their numbers then depend on it in the sixth
- * digit. Forgets it: the next solution has the bits of a new contact's first. */
+ * digit. Discards it: the next solution has the bits of a new contact's first. */
 RS_API void rs_forget(rs_contact* contact);
 
 /* The checks that fail and the notes of the last solution, one a line; "" if there are none. Belongs to the contact,

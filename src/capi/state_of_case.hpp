@@ -1,5 +1,5 @@
 #pragma once
-// What a state of the C interface changes of a case.
+// Applies a state of the C interface to a case.
 #include "capi/railstrata.h"
 #include "case/case_spec.hpp"
 

@@ -15,7 +15,7 @@ struct LoadedCase {
   std::string source_text;                    ///< the file as it was read
   std::vector<std::string> overrides;         ///< "key=value", as given
   std::string resolved_toml;                  ///< every option with its value: reads back to the same spec, bit for bit
-  std::vector<std::string> notes;             ///< what is allowed and yet worth saying
+  std::vector<std::string> notes;             ///< what is allowed but reported
   std::vector<std::string> elastic_notes;     ///< the same where nothing yields: laws that are not read
   std::vector<std::string> static_notes;      ///< the same where run.rolling counts: what its false makes void
   std::vector<std::filesystem::path> inputs;  ///< every file that went in: the case and the profile files

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNanometre = 1e-9;
 
-/// For messages: sums of lengths carry round-off that nobody wants to read.
+/// For messages: rounded, since sums of lengths carry round-off.
 std::string length(double value) { return format_quantity(std::round(value / kNanometre) / 1e9, dimension::kLength); }
 
 /// Under a given approach the load is a result, and a force over it is not known beforehand.

@@ -102,7 +102,7 @@ constexpr const char* kAboutTransient =
     "is\nfollowed and what comes out: [docs/bem.md](bem.md#transients). Signs: "
     "[conventions](conventions.md#axes-and-signs).\n";
 
-/// What a table's rows cannot say: how values of more than one number are written.
+/// Text below a table, on how values of more than one number are written.
 std::string more_about(const OptionTable& table) {
   if (table.name == "geometry")
     return "\n`rail_profile` and `wheel_profile` also take an arc, `\"arc:R=200 mm\"`: convex of this radius, hollow "
@@ -127,7 +127,7 @@ std::string more_about(const OptionTable& table) {
   if (table.name == "transient") return kAboutTransient;
   if (table.name == "collective")
     return "\nThe file has the keys of [[load]] under their names with units, `wheel_load [kN]` or `wheel_load_kN`, a "
-           "line a row; an empty\ncell says nothing. What comes out: "
+           "line a row; an empty\ncell means the value of the case. Results: "
            "[docs/damage.md](damage.md#load-collectives-and-the-wear-loop).\n";
   if (table.name == "layer")
     return "\n`young_table` gives a modulus that varies with depth, row by row from the layer's top, linear between "
@@ -203,8 +203,8 @@ std::string case_reference_markdown() {
       "# Case file reference\n\n"
       "<!-- Written by `railstrata schema --markdown` from src/case/option_table.cpp; a test holds this page against "
       "the program. -->\n\n"
-      "A case is a TOML file. Every key has a default, so a case says only what differs. A value with a dimension is a "
-      "text\n"
+      "A case is a TOML file. Every key has a default, so a case gives only what differs. "
+      "A value with a dimension is a text\n"
       "with its unit (`\"210 GPa\"`, `\"0.2 mm\"`, `\"100 km/h\"`, `\"10.4 kN s/m\"`); inclinations are written "
       "`\"1:40\"`,\n"
       "`\"1/40\"`, `\"25 mrad\"` or as a bare tangent; plain numbers may be given in per cent (`\"20 %\"`).\n\n"

@@ -11,7 +11,7 @@
 namespace railstrata {
 namespace {
 
-/// What is known of a key or of the nearest table above it.
+/// The entry of a key or of the nearest table above it.
 template <class Value>
 const Value* nearest(const std::map<std::string, Value>& known, std::string key) {
   for (;; key.resize(key.rfind('.'))) {

@@ -12,7 +12,7 @@
 
 namespace railstrata {
 
-/// One-based; line 0: not in the text (a default, or an override of the command line).
+/// Line and column, one-based; line 0: not in the text (a default, or an override of the command line).
 struct TextPlace {
   int line = 0, column = 0;
 };
@@ -44,7 +44,7 @@ class CaseSource {
   void complain_at(TextPlace place, const std::string& message, const std::string& remedy);
   /// Throws CaseError with everything recorded, in the order of the file; overrides last.
   void finish() const;
-  /// No error stands at these keys (or inside them): a rule between options speaks only about values that were
+  /// No error is recorded at these keys (or inside them): a rule between options checks only values that were
   /// understood.
   bool sound(std::initializer_list<std::string_view> keys) const;
 

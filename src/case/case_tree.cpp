@@ -179,7 +179,7 @@ class TreeReader {
                      fmt::format("{}tables: {}", hint_for(name, names), fmt::join(names, ", ")));
   }
 
-  /// What to do without a thing that no case has, else the known name that is meant.
+  /// Advice for a known unsupported name, else the most similar known name.
   static std::string hint_for(const std::string& name, const std::vector<std::string>& known) {
     if (const std::string_view answer = answer_for_absent(name); !answer.empty()) return fmt::format("{}. ", answer);
     const std::string near = nearest_word(name, known);
@@ -208,7 +208,7 @@ class TreeReader {
 
   static double rounded(double value) { return std::stod(fmt::format("{:.5g}", value)); }
 
-  /// What may be written where the slot has this range; every derivation is linear.
+  /// Range of the written value for this range of the slot; every derivation is linear.
   Range range_behind(const Derived& d, const Range& slot) const {
     const auto value = [&](double written) { return d.option->derivation.value(spec_, d.index, written); };
     const double at_zero = value(0), slope = value(1) - at_zero;

@@ -1,5 +1,5 @@
 #pragma once
-// From a TOML document to a CaseSpec by the option tables. toml++ stays in this room.
+// Converts a TOML document to a CaseSpec by the option tables. toml++ is used in this room only.
 #include <string>
 #include <vector>
 

@@ -33,7 +33,7 @@ struct TransientSpec {
   std::vector<double> spin;  ///< 1/m
 };
 
-/// How deep wear is (damage/wear.hpp).
+/// The law of wear depth (damage/wear.hpp).
 enum class WearLaw {
   usfd,    ///< University of Sheffield, from T-gamma over the area
   kth,     ///< Archard with Jendel's map of coefficients

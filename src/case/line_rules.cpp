@@ -59,7 +59,7 @@ class LineRules {
   }
 
   /// In plane strain a force that changes moves distant points by any amount: creepages and displacements of a history
-  /// say nothing.
+  /// have no meaning.
   void check_transient() {
     const TransientSpec& t = spec_.transient;
     if (t.kind == TransientKind::none) return;

@@ -12,7 +12,7 @@
 namespace railstrata {
 namespace {
 
-/// What is wrong with a row.
+/// A fault of a row.
 struct RowFault {
   const char* key;
   std::string message, remedy;

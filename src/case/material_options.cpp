@@ -75,7 +75,7 @@ OptionTable layer_table() {
               "surface down"),
        choice<&L::on>("on", layer<&L::on>, "The body that carries the layer",
                       {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
-       option("thickness", layer<&L::thickness>, "Along the normal of the surface; a young_table tells it itself",
+       option("thickness", layer<&L::thickness>, "Along the normal of the surface; a young_table gives it itself",
               kLength, kLayerThickness)
            .where(uniform)
            .with_remedy(kBeyondThickness),

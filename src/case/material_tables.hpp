@@ -36,8 +36,8 @@ MaterialPathTable material_path_of(const std::vector<PathColumn>& columns, Presc
 
 enum class TestCurve { curve, amplitudes };
 
-/// Plastic strain is the total one less the stress over `young` [Pa]. Columns of other words are not read; `notes` says
-/// so, and that amplitudes are meant where the names do not.
+/// Plastic strain is the total one less the stress over `young` [Pa]. Columns of other words are not read; `notes`
+/// lists them, and reports columns taken as amplitudes although their names do not show it.
 std::vector<CurvePoint> read_test_curve(const std::string& text, const std::filesystem::path& file, TestCurve kind,
                                         double young, std::vector<std::string>* notes = nullptr);
 

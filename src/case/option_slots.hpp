@@ -11,7 +11,7 @@ namespace railstrata::option_slot {
 /// Whether an option applies: one that never does is read and not written out.
 inline bool never(const CaseSpec&, std::size_t) { return false; }
 
-/// A list or an optional of rows that are told by their columns.
+/// A list or an optional of rows that are described by their columns.
 template <class T>
 concept HasRows = requires(typename T::value_type& row) {
   columns(row);

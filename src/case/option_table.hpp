@@ -38,7 +38,7 @@ class RowsSlot {
   using Rows = std::vector<std::vector<double>>;
   template <class Row>
   explicit RowsSlot(std::vector<Row>& member) : member_(&member), read_(read<Row>), write_(write<Row>) {}
-  /// One row at most.
+  /// A table with at most one row.
   template <class Row>
   explicit RowsSlot(std::optional<Row>& member) : member_(&member), read_(read_one<Row>), write_(write_one<Row>) {}
   Rows operator*() const { return read_(member_); }
@@ -106,8 +106,8 @@ struct Range {
   bool holds(double v) const { return (open ? v > min : v >= min) && v <= max; }
 };
 
-/// Of an option that is a second way of giving the slot of another one: young_ratio, a multiple of the body's modulus,
-/// gives young; wheel_load gives the sprung mass.
+/// A second way of giving another option's slot: young_ratio, a multiple of the body's modulus, gives young; wheel_load
+/// gives the sprung mass.
 struct Derivation {
   /// The slot's value for the number written, SI; all other options are read by then.
   double (*value)(const CaseSpec&, std::size_t index, double written) = nullptr;
@@ -131,11 +131,11 @@ struct Option {
   Range range{};
   std::vector<Choice> choices{};  ///< of a ChoiceSlot, the only place where its words stand
   Derivation derivation{};
-  /// Set for an option that only some cases have (the thickness of a layer, unless a table tells it): whether this case
+  /// Set for an option that only some cases have (the thickness of a layer, unless a table gives it): whether this case
   /// does. Else the resolved case leaves it out.
   bool (*applies)(const CaseSpec&, std::size_t index) = nullptr;
-  std::string_view beyond{};  ///< what to do who needs a value out of the range
-  /// Of a table by depth: what each number of a row must be, the depth first; its `doc` says where depth 0 is.
+  std::string_view beyond{};  ///< advice for a value out of the range
+  /// For a table by depth: the numbers of a row, the depth first; its `doc` gives where depth 0 is.
   std::vector<Option> columns{};
   std::string_view example{};  ///< of a list or a table by depth
   RowForm form = RowForm::by_depth;
@@ -169,7 +169,7 @@ struct Option {
   }
 };
 
-/// Of a list of tables: how many a case has, and a case with so many.
+/// For a list of tables: the number in a case, and how to change it.
 struct TableList {
   std::size_t (*count)(const CaseSpec&) = nullptr;
   void (*resize)(CaseSpec&, std::size_t) = nullptr;
@@ -181,14 +181,14 @@ struct OptionTable {
   std::string_view doc;
   std::vector<Option> options;
   TableList repeated{};  ///< set for [[name]], any number of times
-  /// Groups of keys that say the same thing in different ways: a case gives at most one of each.
+  /// Groups of keys for the same quantity: a case gives at most one of each.
   std::vector<std::vector<std::string_view>> rivals{};
 };
 
 /// The words of an option with choices, in the table's order.
 std::vector<std::string> words_of(const Option& option);
 
-/// In the order of the reference page and of a resolved case.
+/// All tables, in the order of the reference page and of a resolved case.
 const std::vector<OptionTable>& case_tables();
 
 /// The table of a name; null if there is none.
@@ -197,7 +197,7 @@ const OptionTable* find_table(std::string_view name);
 /// The default case with one entry in every list of tables, so that each option has a place.
 CaseSpec one_of_each();
 
-/// What type of value an option has: its place in some case.
+/// The option's place in some case, for its type of value.
 Slot any_slot(const Option& option);
 
 /// A text in quotes as TOML reads it back; control characters are escaped.

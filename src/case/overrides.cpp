@@ -17,7 +17,8 @@ namespace {
       "write --set table.key=value, e.g. --set mesh.element_size=\"2 mm\" or --set layer.0.thickness=\"0.5 mm\"");
 }
 
-/// What the parts of a key name: "layer.0.young", "run.positions", and what is inside a list ("run.positions.0").
+/// The option that the parts of a key name: "layer.0.young", "run.positions", and what is inside a list
+/// ("run.positions.0").
 struct NamedOption {
   const Option* option = nullptr;  ///< null: no option
   std::size_t parts = 0;           ///< of the key up to the option
@@ -115,7 +116,8 @@ toml::table& descend(toml::table& document, const std::vector<std::string>& part
   return *table;
 }
 
-/// What is set takes the place of the file's other ways of saying it; two that are set contradict each other.
+/// An override removes the file's other keys for the same quantity; two overrides of one quantity contradict each
+/// other.
 void remove_rivals(toml::table& table, const std::vector<std::string>& parts, const CaseSource& source) {
   const std::string& key = parts.back();
   const std::string name = fmt::format("{}", fmt::join(parts.begin(), parts.end() - 1, "."));

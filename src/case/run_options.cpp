@@ -87,9 +87,8 @@ OptionTable run_table() {
        option("history_interval", at<&C::run, &R::history_interval>, "Rolling distance between rows of history.csv",
               kLength, above(0, 1)),
        option("rolling", at<&C::run, &R::rolling>, "false stops after the static preload"),
-       option(
-           "plasticity", at<&C::run, &R::plasticity>,
-           "Finite elements: materials that say a strength or a hardening yield; the half-space engine stays elastic"),
+       option("plasticity", at<&C::run, &R::plasticity>,
+              "Finite elements: materials with a strength or a hardening yield; the half-space engine stays elastic"),
        option("plastic_depth", at<&C::run, &R::plastic_depth>,
               "Depth of a box under the path whose elements follow the law of yielding from the start; without a box "
               "those that come near yielding do, as they do outside of one",
@@ -106,7 +105,7 @@ OptionTable bem_table() {
       "The half-space engine",
       {choice_at<&C::bem, &BemSpec::leading_edge>(
            "leading_edge",
-           "Where rows of cells meet the leading edge of the patch: inside a cell, as the gap tells, or between two "
+           "Where rows of cells meet the leading edge of the patch: inside a cell, from the gap, or between two "
            "cells, as Kalker's method and CONTACT have it",
            {{"sub_cell", LeadingEdge::sub_cell}, {"whole_cell", LeadingEdge::whole_cell}}),
        choice_at<&C::bem, &BemSpec::spin_angle>("spin_angle",

@@ -58,7 +58,7 @@ struct RunSpec {
   double preload_tolerance = 1e-6;                     ///< relative residual of the static equilibrium
   double history_interval = 0.2e-3;                    ///< m of rolling between rows of history.csv
   bool rolling = true;                                 ///< false: stop after the static preload
-  bool plasticity = false;                             ///< finite elements: materials that say a strength yield
+  bool plasticity = false;                             ///< finite elements: materials with a strength yield
   std::optional<double> plastic_depth, plastic_width;  ///< m, box of the elements that may (fem/plastic_zone.hpp)
 };
 

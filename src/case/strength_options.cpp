@@ -83,7 +83,7 @@ bool set_named(const CaseSpec& spec, std::size_t index) {
   return !Place::strength(spec, index).hardening.empty();
 }
 
-/// What follows the yield strength: the law of docs/material.md.
+/// Options of hardening, the law of docs/material.md.
 template <class Place>
 std::vector<Option> hardening_options() {
   return {

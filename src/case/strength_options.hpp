@@ -11,7 +11,7 @@ enum class StrengthPlace { rail, wheel, layer };
 
 std::vector<Option> strength_options(StrengthPlace place);
 
-/// Keys of these options that say the same thing in different ways.
+/// Keys of these options for the same quantity.
 std::vector<std::vector<std::string_view>> strength_rivals();
 
 /// The depth of a table by depth, which begins at `top` and ends at most at `deepest` [m].

@@ -105,7 +105,7 @@ class StrengthRules {
                                                                 : nullptr;
     if (!given) return;
     if (!begins_to_yield())
-      complain(given, ": says how the material hardens, and nothing where it begins to yield",
+      complain(given, ": gives how the material hardens, but not where it begins to yield",
                "add for example yield_strength = \"300 MPa\"");
     if (s_.kinematic_hardening.size() > kMostBackstresses)
       complain("kinematic_hardening",
@@ -115,7 +115,7 @@ class StrengthRules {
     if (s_.isotropic_hardening) check_softening(*s_.isotropic_hardening);
   }
 
-  /// What softens must keep some strength, and must not soften faster than it unloads.
+  /// A softening material must keep some strength, and must not soften faster than it unloads.
   void check_softening(const IsotropicHardening& h) const {
     double least = s_.yield_strength.value_or(std::numeric_limits<double>::infinity());
     for (const DepthPoint& row : s_.strength_table) least = std::min(least, row.value);

@@ -13,8 +13,8 @@
 namespace railstrata {
 namespace {
 
-constexpr std::size_t kLargest = std::size_t{4} << 20;  // nobody writes more by hand
-constexpr int kPatience = 2000;                         // ms, for somebody to open a named pipe for writing
+constexpr std::size_t kLargest = std::size_t{4} << 20;  // bytes; more than is written by hand
+constexpr int kPatience = 2000;                         // ms, until a writer opens a named pipe
 constexpr int kForEver = -1;
 
 [[noreturn]] void refuse_unreadable(const std::filesystem::path& file, int reason, const std::string& remedy) {
@@ -27,7 +27,7 @@ constexpr int kForEver = -1;
 }  // namespace
 
 std::string read_text_file(const std::filesystem::path& file, const std::string& remedy) {
-  std::error_code error;  // of a name too long, a folder that may not be looked into: open() says it below
+  std::error_code error;  // of a name too long, a folder that may not be looked into: open() reports it below
   if (std::filesystem::is_directory(file, error))
     throw CaseError(fmt::format("{} is a folder", file.string()), "name the file in it");
   const OpenFile in(file);

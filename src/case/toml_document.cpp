@@ -8,8 +8,8 @@
 namespace railstrata {
 namespace {
 
-/// Of a text of three quotes at each end, that may go over lines and end with up to two quotes of its own; open, it
-/// takes all the rest.
+/// Length of a text in triple quotes, which may span lines and end with up to two quotes of its own; without a closing
+/// mark, all the rest.
 std::size_t length_of_long_text(std::string_view rest, std::string_view quotes) {
   for (std::size_t i = quotes.size(); i < rest.size(); ++i) {
     if (rest[i] == '\\' && quotes[0] == '"') {

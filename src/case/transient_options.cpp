@@ -76,7 +76,7 @@ std::vector<Option> course_options() {
           .where(shifts),
       option("history_file", at<&C::transient, &T::history_file>,
              "A CSV file with the columns below, relative to the case file, instead of the lists; "
-             "the resolved case has what it says")
+             "the resolved case has its values")
           .where(never)};
 }
 

@@ -35,7 +35,7 @@ class TransientRules {
     source_.complain(key, fmt::format("{}: {}", key, what), remedy);
   }
 
-  /// Of a row, from 1 on: a history file has a line for it.
+  /// Refuses a row, counted from 1, which in a history file has a line.
   void refuse_row(const std::string& key, std::size_t row, const std::string& what, const std::string& remedy) {
     source_.complain(fmt::format("{}.{}", key, row), fmt::format("{}: {}", key, what), remedy);
   }

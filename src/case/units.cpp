@@ -342,7 +342,7 @@ std::string suggest_quantity(std::string_view whole, const Dimension& dimension,
   const std::string_view text = trim(whole), number = text.substr(0, number_length(text));
   if (number.empty() || scaled_number(number, 0) == 0) return {};
   for (std::string_view unit : customary(dimension).units) {
-    if (unit.empty() || unit.starts_with("µ")) continue;  // for mm or s nobody's finger slips to micro
+    if (unit.empty() || unit.starts_with("µ")) continue;  // micro is no likely typing error for mm or s
     std::string candidate = fmt::format("{} {}", number, unit);
     if (allowed(parse_quantity(candidate, dimension))) return candidate;
   }

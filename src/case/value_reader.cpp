@@ -30,7 +30,7 @@ std::string columns_text(const Option& option) {
   return out;
 }
 
-/// What the value of an option must look like, with an example.
+/// Description of an option's value, with an example.
 std::string wanted(const Option& option) {
   struct Say {
     const Option& option;
@@ -61,7 +61,7 @@ void refuse_type(CaseSource& source, const WrittenValue& w) {
                   fmt::format("write {}", wanted(w.option)));
 }
 
-/// Another unit is offered where the value lies far from the range: who misses it by less means what he wrote.
+/// Suggests another unit where the value lies far from the range; a smaller miss is taken as meant.
 std::string remedy_beyond(const Option& option, const std::string& quantity, double value) {
   constexpr double kClose = 3;
   const bool close = option.range.holds(kClose * value) || option.range.holds(value / kClose);
@@ -234,7 +234,7 @@ class ValueReader {
     return true;
   }
 
-  /// A graded layer is as thick as its table says, and as stiff on the mean.
+  /// A graded layer takes its thickness and its mean stiffness from its table.
   void take_moduli(const std::string& key, LayerSpec& layer) {
     const std::vector<ModulusPoint>& rows = layer.young_table;
     const OptionTable& table = *find_table("layer");

@@ -28,7 +28,7 @@ void refuse_range(CaseSource& source, const Option& option, const std::string& k
 /// A value in a message, cut to 60 characters.
 std::string shown(const toml::node& node);
 
-/// Of a list or of a table by depth.
+/// Example of a list or of a table by depth.
 std::string_view example_of(const Option& option);
 
 void remember_place(CaseSource& source, const std::string& key, const toml::node& node);

@@ -61,7 +61,7 @@ struct RowLaw {
   double penalty_stiffness = 0;  ///< Pa/m
 };
 
-/// Before the step; only asked where there is a film.
+/// State of a row before the step; used only where there is a film.
 struct RowStart {
   double q1 = 0, q2 = 0, plastic = 0;
 };

@@ -52,7 +52,7 @@ struct RowMeasure {
   double area = 0, gap = 0;  ///< m², m
 };
 
-/// In facet (c, j) at the coordinates wy, wx of [0, 1].
+/// Value in facet (c, j) at the coordinates wy, wx in [0, 1].
 template <class Surface, class U>
 RAILSTRATA_POINTWISE Vec3 rail_point(const Surface& rail, const U& u, int c, int j, double wy, double wx) {
   const Vec2 a = rail.node[c], b = rail.node[c + 1], sag = rail.sagitta[c];

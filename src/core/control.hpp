@@ -1,6 +1,6 @@
 #pragma once
-// What is asked of a long computation from outside and what it reports of itself: one object, from a signal's handler
-// or a thread of another language down to the loop that looks at it between two steps.
+// Requests to a long computation and its reports, in one object: set by a signal handler or a thread of another
+// language, read by the loop between two steps.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -12,7 +12,7 @@ namespace railstrata {
 
 struct Control {
   /// Set from any thread or by a signal's handler. stop: end in good order and keep what is done; save: save the state
-  /// and go on, set back by who does so.
+  /// and go on; the code that saves resets it.
   std::atomic<bool> stop{false}, save{false};
 
   /// Called one at a time, from any thread; any may be empty. A phase ("rolling"; empty: none is under way), how far it
@@ -37,7 +37,7 @@ struct Control {
   }
 };
 
-/// Nobody asks where there is no control.
+/// Without a control nothing is asked.
 inline bool asked_to_stop(const Control* control) { return control && control->stop; }
 inline Control& control_or_none(Control* control) {
   static Control none;

@@ -20,7 +20,7 @@ struct EngineRow {
   std::string_view about;
 };
 
-/// In the order in which people list them.
+/// All engines, in the order of lists on screen.
 inline constexpr std::array kEngines{
     EngineRow{Engine::fem, "fem", "finite elements", "run", "explicit rolling of two meshed bodies"},
     EngineRow{Engine::bem, "bem", "half-space", "bem", "layered half-spaces, no meshes"}};
@@ -52,7 +52,7 @@ inline std::vector<std::string> engine_words() {
 /// Whether a word read from a result is that of an engine.
 constexpr bool is_engine(std::string_view word, Engine engine) { return word == engine_word(engine); }
 
-/// Its word, in any JSON type.
+/// The engine's word, in any JSON type.
 template <class Json>
 void to_json(Json& json, const Engine& engine) {
   json = engine_word(engine);

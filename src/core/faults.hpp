@@ -20,7 +20,7 @@ enum class ExitCode : int {
 };
 
 /// Something the user wrote is wrong: a case file, a profile, a command line. Exit code 2.
-/// `where` is "file:line:column" as far as it is known, `remedy` says what to do.
+/// `where` is "file:line:column" as far as it is known; `remedy`: what the user can do.
 struct Diagnostic {
   std::string where;
   std::string message;
@@ -48,14 +48,14 @@ class CaseError : public std::runtime_error {
   }
 };
 
-/// The numbers went wrong: NaN, inverted element, no convergence. The message says where and when. Exit code 3.
+/// The numbers went wrong: NaN, inverted element, no convergence. The message names where and when. Exit code 3.
 class NumericalError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The machine cannot do it: disk full, no permission, not enough memory. Exit code 4. `remedy` says what to do; it may
-/// be empty.
+/// The machine cannot do it: disk full, no permission, not enough memory. Exit code 4. `remedy`: what the user can do;
+/// may be empty.
 class EnvironmentError : public std::runtime_error {
  public:
   explicit EnvironmentError(const std::string& message, std::string what_to_do = {})

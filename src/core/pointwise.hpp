@@ -1,5 +1,5 @@
 #pragma once
-// What stands in front of functions that host and device compute alike.
+// Declaration macro of functions for host and device.
 
 /// In front of every pointwise function (laws and elements): inline, and for host and device where nvcc reads it.
 /// RAILSTRATA_UNROLL stands in front of a short loop of a law: packs stay in registers only if the compiler takes the

@@ -1,6 +1,6 @@
 #pragma once
-// What the program asks of a plug-in that joins the processes of one run (extras/mpi/plug_in.cpp). C on both sides:
-// plug-in and program may be of different compilers. Texts that are returned say what went wrong; null: nothing.
+// Interface of a plug-in that joins the processes of one run (extras/mpi/plug_in.cpp). C on both sides: plug-in and
+// program may be of different compilers. A returned text describes a fault; null: no fault.
 #include <cstddef>
 
 extern "C" {

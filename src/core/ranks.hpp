@@ -1,7 +1,8 @@
 #pragma once
 // Processes that compute one run together, and the one thing that they do with one another: each gives a part of a list
 // of numbers and gets the whole. There is one such operation only, it is blocking, and all ranks call it the same
-// number of times in the same order. Who provides it (extras/mpi/plug_in.cpp; threads, in tests) is not known here.
+// number of times in the same order. This room does not know the implementation (extras/mpi/plug_in.cpp; threads, in
+// tests).
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -17,12 +18,12 @@ struct Ranks {
   void (*gather_parts)(void* context, double* all, const std::ptrdiff_t* sizes) = nullptr;
 
   bool alone() const { return count == 1; }
-  /// Rank 0 speaks for all: it writes files and messages.
+  /// Rank 0 writes files and messages for all.
   bool speaks() const { return rank == 0; }
   void gather(double* all, const std::ptrdiff_t* sizes) const { gather_parts(context, all, sizes); }
 };
 
-/// The largest of what the ranks say; all get it.
+/// The largest of the ranks' values; all get it.
 inline double largest_of_all(const Ranks& ranks, double own) {
   if (ranks.alone()) return own;
   std::vector<double> of_each(static_cast<std::size_t>(ranks.count));

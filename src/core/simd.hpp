@@ -2,8 +2,8 @@
 // The SIMD pack: a vector as wide as the machine's registers, with + - * / and mixed scalar operations from the
 // compiler's vector extension. Laws are templates on the number type and take a scalar or a pack alike.
 //
-// What depends on the width stands in a namespace named after it, so that the same function of two instruction sets is
-// two functions to the linker: the installed library holds rooms of both (cmake/rooms.cmake).
+// Functions that depend on the width are in a namespace named after it, so that the same function of two instruction
+// sets is two functions to the linker: the installed library holds rooms of both (cmake/rooms.cmake).
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -71,8 +71,8 @@ inline void store(float* p, PackOf<float> v) { std::memcpy(p, &v, sizeof v); }
 }  // namespace RAILSTRATA_PACKS
 #endif
 
-/// Of a scalar, or of every lane of a pack. To choose between two values a law writes `a > b ? x : y`, which packs do
-/// lane by lane.
+/// Square root of a scalar, or of every lane of a pack. To choose between two values a law writes `a > b ? x : y`,
+/// which packs do lane by lane.
 template <class T>
 RAILSTRATA_POINTWISE T square_root(const T& x) {
   if constexpr (std::is_floating_point_v<T>) {

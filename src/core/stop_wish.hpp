@@ -1,6 +1,6 @@
 #pragma once
-// A wish to stop what a thread computes. Who starts a computation has a flag and a StopWish; solvers that iterate call
-// stop_if_wished between two iterations.
+// A request to stop what a thread computes. The caller of a computation has a flag and a StopWish; solvers that iterate
+// call stop_if_wished between two iterations.
 #include <atomic>
 
 namespace railstrata {

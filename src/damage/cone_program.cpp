@@ -69,7 +69,7 @@ struct Cone {
   }
 };
 
-/// Step lengths and the products that say what the gap becomes.
+/// Step lengths, and the products that give the gap after the step.
 struct Reach {
   double primal = std::numeric_limits<double>::infinity(), dual = primal;
   double s_dz = 0, ds_z = 0, ds_dz = 0;
@@ -318,7 +318,7 @@ InteriorPoint::Direction InteriorPoint::direction(bool with_right) {
   return d;
 }
 
-/// What a step does to a sample and its dual, into `r`.
+/// Adds a step's effect on a sample and its dual to `r`.
 void take_step(const Vec6& s, const Vec6& ds, const Vec6& z, const Vec6& dz, Reach& r) {
   r.primal = std::min(r.primal, way_to_boundary(s, ds));
   r.dual = std::min(r.dual, way_to_boundary(z, dz));

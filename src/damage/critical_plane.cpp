@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFine = 0.2 * kDegree;
-// Of the largest so far: what may become the largest on planes at 2.5 degrees, and on the finest.
+// Shares of the largest value so far above which a plane is refined: at 2.5 degrees, and on the finest planes.
 constexpr double kNear = 0.9, kNearFine = 0.98;
 
 constexpr std::array<double Sym3::*, 6> kComponents{&Sym3::xx, &Sym3::yy, &Sym3::zz, &Sym3::xy, &Sym3::yz, &Sym3::xz};
@@ -178,7 +178,7 @@ class PointCycle {
       }
     return found;
   }
-  /// Of the smallest and largest value of every component.
+  /// Mean of the smallest and largest value of every component.
   Sym3 middle() const {
     Sym3 low = cycle_[0], high = cycle_[0];
     for (const Sym3& s : cycle_)

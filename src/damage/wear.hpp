@@ -56,7 +56,7 @@ struct ArchardMap {
   double slow = 0, middle = 0, fast = 0, seizure = 0;
 };
 /// 5e-4, 35e-4, 5e-4 and 350e-4, the middle of the published ranges (1 to 10, 30 to 40, 1 to 10 and 300 to 400e-4): dry
-/// laboratory surfaces. Lubrication of a track by nature divides them by some 5, and nobody knows by how much: scale.
+/// laboratory surfaces. Natural lubrication of a track divides them by some 5; the factor is uncertain: scale.
 ArchardMap laboratory_dry_archard();
 
 /// Throws CaseError unless coefficients are >= 0, the velocities ascend and the pressure's share is positive.

@@ -1,6 +1,6 @@
 #pragma once
-// What yields of an element of kind `full` (element/swept_hex.hpp): plastic strains Ep at its 2 x 2 x 2 Gauss points
-// enter as eigenstress, in numbers that are added to those of the elastic element. Pointwise, for scalars and packs.
+// Yielding elements of kind `full` (element/swept_hex.hpp): plastic strains Ep at its 2 x 2 x 2 Gauss points enter as
+// eigenstress, in numbers that are added to those of the elastic element. Pointwise, for scalars and packs.
 //
 // The strain at Gauss point g is the Green strain of the mean gradient and what hourglass amplitudes q and incompatible
 // modes alpha (Taylor–Wilson) add to it, as small strains in the element's frame:
@@ -114,7 +114,7 @@ RAILSTRATA_POINTWISE void pair_strains(const GaussPair<Real>& g, const Scale& in
   set(5, half * (common[0][2] + common[2][0]), half * (opposite[0][2] + opposite[2][0]));
 }
 
-/// What the plastic strains of the Gauss points add up to, before the incompatible modes are eliminated.
+/// Sums of the Gauss points' plastic strains, before the incompatible modes are eliminated.
 template <class T>
 struct PlasticSums {
   T mean[6];               ///< sum_g w_g 2 mu Ep_g

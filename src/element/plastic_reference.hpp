@@ -1,5 +1,5 @@
 #pragma once
-// What elements that yield read of a mesh (element/plastic_hex.hpp), made once before the computation.
+// Mesh data of elements that yield (element/plastic_hex.hpp), computed once before the run.
 #include <array>
 
 #include "element/plastic_hex.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// What the element class reads of a mesh (element/swept_hex.hpp), made once before the computation.
+// Mesh data of the elements (element/swept_hex.hpp), computed once before the run.
 #include <array>
 
 #include "core/vec.hpp"

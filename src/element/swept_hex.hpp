@@ -1,6 +1,6 @@
 #pragma once
 // The 8-node hexahedron of a swept mesh: the element class, pointwise. Compiled for scalars and for float and double
-// packs alike; what it reads is made in element/reference.hpp, who calls it is body/traversal.cpp.
+// packs alike. Its data are made in element/reference.hpp; body/traversal.cpp calls it.
 //
 // An element is a quadrilateral (corners k = 0..3, section coordinates y_k, z_k) carried over one station spacing. In
 // its own frame (1 along the sweep, 2 lateral, 3 up) the corners stand at (-+ a_k, y_k, b_k) with, for a spacing D,
@@ -238,13 +238,13 @@ RAILSTRATA_POINTWISE void element_forces(const QuadShape<Real>& r, const Station
 /// How an element is evaluated: the stiffness of the undeformed body; at finite rotation and strain.
 enum class Evaluation { linear, finite };
 
-/// Of an element without eigenstress, as one has that may yield (body/plastic_pass.hpp).
+/// For elements without eigenstress; those that may yield have one (body/plastic_pass.hpp).
 struct NoEigenstress {
   template <class T>
   RAILSTRATA_POINTWISE void operator()(T (&)[6]) const {}
 };
 
-/// What the elements of one quadrilateral read: their shape and their material.
+/// Shape and material of the elements of one quadrilateral.
 template <class Real>
 struct HexReference {
   QuadShape<Real> shape;

@@ -17,7 +17,7 @@ std::optional<double> number_in(const Slot& slot) {
   return std::nullopt;
 }
 
-/// What would have been written: every derivation is linear.
+/// The value as a case file would have it; every derivation is linear.
 double written(const Option& option, const CaseSpec& spec, std::size_t index, double value) {
   if (!option.derivation) return value;
   const double at_zero = option.derivation.value(spec, index, 0),

@@ -56,7 +56,7 @@ Request request_of(const std::string& text) {
   return out;
 }
 
-/// Arrays are appended to the numbers; the head says where they are.
+/// Arrays are appended to the numbers; the head has their positions.
 template <class Range, class Value>
 Json array_of(const Range& range, std::vector<float>& numbers, Value&& value) {
   const std::size_t first = numbers.size();
@@ -103,7 +103,7 @@ Json layers_json(const CaseSpec& spec) {
   return out;
 }
 
-/// What is not as it should be, for people: checks that fail and warnings.
+/// Failed checks and warnings as text.
 Json doubts_json(const Summary& s) {
   const auto unit = [](const CheckRow* row) { return row ? row->unit : unit::kNone; };
   const auto name = [](const CheckRow* row, const std::string& key) { return row ? std::string(row->name) : key; };
@@ -135,7 +135,7 @@ Json one_fault(std::string_view message, std::string_view remedy = {}) {
   return Json::array({{{"where", ""}, {"message", message}, {"remedy", remedy}}});
 }
 
-/// What influence operators depend on besides the grid.
+/// Material and layer data that the influence operators depend on, besides the grid.
 std::vector<double> stiffness_of(const CaseSpec& spec) {
   std::vector<double> out{spec.rail_material.young, spec.rail_material.poisson, spec.wheel_material.young,
                           spec.wheel_material.poisson};
@@ -171,8 +171,8 @@ struct Explorer::State {
   bool has_stress = false, has_shakedown = false;
   std::optional<StressSections> sections;
 
-  /// Operators of other layers are of no use again: who moves a slider leaves them behind. A cache that is begun anew
-  /// keeps the memory bounded.
+  /// Operators of other layers are not needed again after a slider has moved. A cache that is begun anew keeps the
+  /// memory bounded.
   InfluenceCache& cache_for(const CaseSpec& spec) {
     constexpr int kUses = 16;
     if (std::vector<double> stiffness = stiffness_of(spec); !cache || stiffness != cached || ++uses > kUses) {

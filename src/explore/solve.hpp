@@ -1,5 +1,5 @@
 #pragma once
-// What the explorer's page asks of the half-space engine, as texts: the page runs this very code in WebAssembly. Its
+// Interface of the explorer's page to the half-space engine, as texts: the page runs this code in WebAssembly. Its
 // numbers are those of `railstrata bem` with the same case, --set and --cell.
 #include <memory>
 #include <string>

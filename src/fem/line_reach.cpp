@@ -46,7 +46,7 @@ class Groups {
   std::vector<std::vector<std::vector<char>>> in_;
 };
 
-// What all ranks look at: the running surface around the contact, and the ends of open blocks.
+// Values that all ranks read: the running surface around the contact, and the ends of open blocks.
 void add_seen_by_all(const SharedLines& body, Groups& groups) {
   constexpr double kTurn = 2 * std::numbers::pi;
   const int contact = body.mesh.contact.block;
@@ -64,7 +64,7 @@ void add_seen_by_all(const SharedLines& body, Groups& groups) {
   }
 }
 
-// What the elements of a rank read.
+// Values that a rank's elements read.
 void add_own(const SharedLines& body, int rank, Groups& groups) {
   for (std::size_t t = 0; t < body.tiling.tiles.size(); ++t) {
     if (body.cut.owner[t] != rank) continue;

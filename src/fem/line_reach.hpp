@@ -56,7 +56,7 @@ inline int moment_numbers(const Chain& stretch) { return 2 * (stretch.end_tile -
 
 /// Forces on lines that a stretch's owner gives in a usual step, by section node: those that another rank collects.
 using LineGift = std::vector<StationRanges>;
-/// Numbers of it.
+/// Number of values in it.
 std::ptrdiff_t given_numbers(const LineGift& gift);
 /// By stretch, in their order (body/tile_cut.hpp).
 std::vector<LineGift> line_gifts(const SharedLines& body, const std::vector<LineReach>& reaches);

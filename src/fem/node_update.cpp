@@ -38,7 +38,7 @@ NodeRows rows_of(const RollingBody& b, BodyState& state, SectionNode node, const
           b.turns() ? line_radius(b.body, node.block, node.node) : 0.0};
 }
 
-// What the updates of one body's nodes share in a step.
+// Data shared by the updates of one body's nodes in a step.
 struct BodyUpdate {
   RollingBody& body;
   BodyState& state;

@@ -15,7 +15,7 @@ struct StepScope {
   double damping_rate = 0;  ///< 1/s, run-up damping
   bool energy_wanted = false;
   PlasticLook look = PlasticLook::all;  ///< at elements that may yield
-  StepLaps* laps = nullptr;             ///< if somebody wants to know
+  StepLaps* laps = nullptr;             ///< null: not measured
   bool sums_wanted() const { return damping_rate > 0 || energy_wanted; }
   void lap(StepPart part) const {
     if (laps) laps->lap(part);

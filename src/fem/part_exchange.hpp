@@ -1,6 +1,6 @@
 #pragma once
-// What the exchanges of several ranks have in common: parts that stand in many places of memory are packed one behind
-// the other, gathered (core/ranks.hpp) and put where they belong.
+// Shared by the exchanges of several ranks: parts from many places of memory are packed into one array, gathered
+// (core/ranks.hpp) and written to their places.
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -54,7 +54,7 @@ struct Stretch : OwnedChain {
   int first, end;  ///< stations within it, without the border plane in front of it
 };
 
-/// Of all bodies, in their order.
+/// The stretches of all bodies, in the order of the bodies.
 std::vector<Stretch> all_stretches(const std::vector<const Body*>& bodies, const std::vector<TileCut>& cuts);
 
 /// numbers: so many of each rank, one rank behind the other. Throws EnvironmentError where those of a rank differ in

@@ -90,7 +90,7 @@ class Zone {
   bool yields() const {
     return std::any_of(laws_.begin(), laws_.end(), [](const Law& l) { return l.law.has_value(); });
   }
-  /// Of any quadrilateral, in the box or not.
+  /// Material of a quadrilateral, also outside the box.
   std::optional<PlasticMaterial> material(int block, int quad) const {
     const Section& section = mesh_.blocks[block].section;
     const Law& law = laws_[section.quad_material[quad]];
@@ -158,7 +158,7 @@ class ProcessStress {
 PlasticElements plastic_zone(const Model& model, BodyId id, const Body& body) {
   if (!model.spec.run.plasticity) return {};
   if (!Zone(model, BodyId::rail, model.rail).yields() && !Zone(model, BodyId::wheel, model.wheel).yields())
-    throw CaseError("run.plasticity = true, but no material of the case says a strength",
+    throw CaseError("run.plasticity = true, but no material of the case has a strength",
                     "give material.rail.yield_strength, or a ready set: material.rail.hardening = \"R260\"");
   const Zone zone(model, id, body.mesh);
   const ProcessStress process(model, id, body.mesh);

@@ -1,12 +1,11 @@
 #pragma once
 // The parts of rail and wheel that may yield, and the initial stress of their manufacture.
 //
-// With run.plasticity materials that say a strength yield (model/material_strength.hpp). Their elements become hot
-// where the elastic stress comes near the strength: in the equilibrium before the rolling, and ahead of the wheel on
-// its way (extend_plastic_elements, body/plastic_pass.hpp). run.plastic_depth and run.plastic_width make those of a box
-// under the path of the contact hot from the start: so deep, so wide to either side, and from a patch length behind the
-// start to one ahead of the end; the one that is not given is 2.5 times Hertz's larger half-axis or 1.6 times the
-// half-width.
+// With run.plasticity materials with a strength yield (model/material_strength.hpp). Their elements become hot where
+// the elastic stress comes near the strength: in the equilibrium before the rolling, and ahead of the wheel on its way
+// (extend_plastic_elements, body/plastic_pass.hpp). run.plastic_depth and run.plastic_width make those of a box under
+// the path of the contact hot from the start: so deep, so wide to either side, and from a patch length behind the start
+// to one ahead of the end; the one that is not given is 2.5 times Hertz's larger half-axis or 1.6 times the half-width.
 //
 // Initial stress lies along the surface: in the block of the running surface along the facet above and by the depth of
 // the row, elsewhere along the contact plane and by the depth below the contact point. Longitudinal: along the sweep.

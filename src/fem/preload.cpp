@@ -249,7 +249,7 @@ class Preload {
       advance_plastic_elements(body, u_.body[k], 0, history_[k]);
     }
   }
-  // What comes near yielding at the present displacements becomes hot; false if nothing does.
+  // Makes elements hot that are near yielding at the present displacements; false if there are none.
   bool extend() {
     int added = 0;
     for (std::size_t k = 0; k < history_.size(); ++k)

@@ -46,7 +46,7 @@ class RailAtRest {
     });
     make_uniform(f);
   }
-  /// Of an endless rail: to its mean along the sweep, the orthogonal projection on uniform fields.
+  /// Endless rail: replaces f by its mean along the sweep, the orthogonal projection on uniform fields.
   void make_uniform(Field& f) const {
     if (!endless_) return;
     for_each(static_cast<std::ptrdiff_t>(rail_.lines.size()), [&](std::ptrdiff_t k) {

@@ -9,8 +9,8 @@
 namespace railstrata {
 namespace {
 
-// Of a step of cases/paper/base.toml (bench/rank_steps.cpp): the contact by the share of the nodes that are on lines;
-// lines, planes and copies by the share that a rank keeps.
+// Shares of the time of a step of cases/paper/base.toml (bench/rank_steps.cpp). Contact: by the share of nodes on
+// lines; lines, planes and copies: by the share that a rank keeps.
 constexpr double kContact = 0.055 / 0.229, kOwnLines = 0.13 / 0.141;
 
 // By block: section nodes on lines, others on the axle, and how many slaves there are.
@@ -56,7 +56,7 @@ double line_nodes(const Skeleton& b) {
   return out;
 }
 
-// Of one body, added to what each rank gives in a step and to the nodes on lines that it keeps.
+// Adds one body's numbers that each rank sends in a step, and its nodes on lines that the rank keeps.
 void add_lines(const Skeleton& b, const TileCut& cut, double contact, double half_width, std::vector<double>& given,
                std::vector<double>& kept) {
   const Lines lines = lines_of(b.mesh);

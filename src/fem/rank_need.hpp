@@ -1,6 +1,6 @@
 #pragma once
-// What several ranks would do of one run (fem/rank_exchange.hpp), counted from the meshes alone, and the time that a
-// step of theirs takes by a model of it:
+// Work of several ranks on one run (fem/rank_exchange.hpp), counted from the meshes alone, and the time that a step of
+// theirs takes by a model of it:
 //
 //   T(n)/T(1) = r_n + (1 - r_n) s_n + (l ceil(log2 n) + B_n/b)/T(1),   r_n = c L + o K_n
 //

@@ -4,8 +4,8 @@
 // A rank evaluates the elements of its own tiles (body/tile_cut.hpp) and keeps vectors up to date at the nodes there,
 // on the planes between stretches, and on the lines that ties, contact and axle read (body/kept_values.hpp); those
 // every rank has, as in the steps (fem/rank_exchange.hpp). A sum over a vector is made of sums over parts of tiles,
-// each by who has the tile, and added in the order of tiles by everybody: the same bits for any number of ranks and
-// threads. One rank alone has all tiles and exchanges nothing.
+// each by the rank that has the tile, and added in the order of tiles by every rank: the same bits for any number of
+// ranks and threads. One rank alone has all tiles and exchanges nothing.
 #include <array>
 #include <vector>
 

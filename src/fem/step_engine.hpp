@@ -1,5 +1,5 @@
 #pragma once
-// What takes whole steps in the stepper's place: a device (device/engine.hpp).
+// An engine takes whole steps in the stepper's place: a device (device/engine.hpp).
 //
 // Fields, axle, suspension, contact and energy book then live in the engine. The stepper asks for some steps at once
 // and gets a record of each: what its callers look at between steps.
@@ -37,7 +37,7 @@ class StepEngine {
 /// Makes the engine of a stepper with steps of dt [s]; empty: none.
 using EngineOf = std::function<std::unique_ptr<StepEngine>(const RollingSystem&, const RollingBodies&, double dt)>;
 
-/// What computes the steps: several ranks, or an engine; neither: the stepper's own loops.
+/// Who computes the steps: several ranks, or an engine; neither: the stepper's own loops.
 struct StepBy {
   Ranks ranks;
   EngineOf engine;

@@ -1,5 +1,5 @@
 #pragma once
-// How long the parts of a step take. Only measured for those who ask (bench/roofline.cpp).
+// How long the parts of a step take. Measured only on request (bench/roofline.cpp).
 #include <array>
 #include <chrono>
 #include <cstddef>

@@ -1,11 +1,11 @@
 #pragma once
-// What is looked at between two steps that an engine takes (fem/step_engine.hpp).
+// Values that an engine returns after a step (fem/step_engine.hpp).
 #include "fem/axle_law.hpp"
 #include "fem/contact_law.hpp"
 
 namespace railstrata {
 
-/// After a step.
+/// Values after a step.
 struct StepRecord {
   double time = 0;
   long step = 0;  ///< number of steps taken

@@ -50,7 +50,7 @@ Eigen::internal::kissfft_impl<Lanes>& kiss_of_lanes() {
   return fft;
 }
 
-/// What a thread transforms from and to.
+/// Buffers of a thread: input and output of a transform.
 struct SideBySide {
   std::vector<Four> from, to;
   std::vector<Complex> nobody;  // in place of rows that are not there

@@ -39,7 +39,7 @@ class Lanes {
     put(__builtin_shufflevector(re.high_, im.high_, 1, 3), d);
   }
 
-  // What a library's product of complex numbers asks of its scalar, to mend infinities: there are none to be mended.
+  // Required by the library's product of complex numbers, which corrects infinities; none occur here.
   friend bool isnan(Lanes) { return false; }
   friend bool isinf(Lanes) { return false; }
   friend Lanes copysign(Lanes size, Lanes) { return size; }

@@ -14,7 +14,7 @@ namespace railstrata {
 
 enum class FrictionForm { coulomb, falling_exponential, falling_rational };
 
-/// What a law may see of a point. A law of pressure or temperature has them as further members.
+/// Variables of a friction law at a point. A law of pressure or temperature adds them as members.
 struct FrictionPoint {
   double slip_velocity = 0;  ///< m/s, >= 0
 };

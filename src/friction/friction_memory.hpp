@@ -5,7 +5,7 @@
 // d [m] memory distance, v_0 [m/s] the least velocity by which it follows, so that friction comes back at rest. A
 // particle enters the contact with m = 1. Over a step of constant v, exactly:
 //   m = m_s + (m_before - m_s) exp(-max(v, v_0) dt/d)
-// What is kept is the lost share 1 - m: 0 for a particle that has not slipped.
+// The stored value is the lost share 1 - m: 0 for a particle that has not slipped.
 //
 // Stability of sliding of two half-spaces, quasi-dynamic: inertia as the plane waves that both radiate, traction
 // eta = G/(2 c_s) by slip velocity. Without a memory a law with P |m_s'| > eta, P = f_stat p, makes every disturbance
@@ -40,7 +40,7 @@ RAILSTRATA_POINTWISE RememberedShare remembered_share(const FallingFriction& law
   return {{steady.value - excess * kept, (1 - kept) * steady.by_slip_velocity + by_way}, kept};
 }
 
-/// What is lost after a step. 0 for laws that do not fall.
+/// The lost share 1 - m after a step. 0 for laws that do not fall.
 RAILSTRATA_POINTWISE double lost_after(const FallingFriction& law, double lost, double slip_velocity, double dt) {
   return law.falls() ? remembered_share(law, lost, {slip_velocity}, dt).lost() : 0.0;
 }

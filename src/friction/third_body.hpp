@@ -22,7 +22,7 @@ struct ThirdBody {
   RAILSTRATA_POINTWISE bool yields() const { return thickness > 0 && yield_shear > 0; }
 };
 
-/// What film and friction in series carry after a further slip of one face over the other.
+/// Traction of film and friction in series after a further slip of one face over the other.
 struct FilmStep {
   double bound = 0;    ///< Pa
   double by_slip = 0;  ///< Pa/m, the bound's derivative by the further slip

@@ -212,9 +212,9 @@ NumberTable parse_miniprof(std::string_view text, const std::string& name) {
   if (switched_off > 0) table.notes.push_back(fmt::format("{} points in quotes are switched off.", switched_off));
   const auto there = static_cast<double>(table.rows.size());
   if (announced && there + static_cast<double>(switched_off) < *announced)
-    refuse(fmt::format("XYPoints says {}, but there are {} points: the file is cut off", *announced, there),
+    refuse(fmt::format("XYPoints gives {}, but there are {} points: the file is cut off", *announced, there),
            "put a whole copy of the file back, or correct XYPoints if points were taken out by hand", name, 0);
-  if (announced && *announced != there) table.notes.push_back(fmt::format("XYPoints says {}.", *announced));
+  if (announced && *announced != there) table.notes.push_back(fmt::format("XYPoints gives {}.", *announced));
   table.columns = 2;  // the others are angle, curvature and the like
   return table;
 }

@@ -90,7 +90,7 @@ class Gap {
     const Vec2 t = roll(cant_, rail_.at(s).tangent), w = wheel_.at(wheel_.s_at_y(p.y)).tangent;
     return t.y * w.z / w.y * steeper(p) - t.z;
   }
-  /// Of a point of the wheel, below the axle.
+  /// Depth of a point of the wheel below the axle, m.
   double depth(const LowestPoint& p) const {
     const double radius = track_.wheel_radius - wheel_.height(p.y);
     return std::sqrt((radius - p.x) * (radius + p.x));

@@ -1,6 +1,6 @@
 #pragma once
-// Walks along a profile over many places: what Profile::at and Profile::height say of each, for a tenth of the work.
-// Arcs are walked by turning the arm to their centre and looked at as a whole where that is enough.
+// Walks along a profile over many places: the values of Profile::at and Profile::height at each, for a tenth of the
+// work. Arcs are walked by turning the arm to their centre and looked at as a whole where that is enough.
 #include <cstddef>
 #include <vector>
 

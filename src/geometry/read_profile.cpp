@@ -124,7 +124,7 @@ class Reading {
     const bool claims_mm = std::regex_search(table_.heading, says_mm),
                claims_m = std::regex_search(table_.heading, says_m);
     if (claims_mm != claims_m && claims_mm != millimetres)
-      fail(fmt::format("the heading says {}, but the curve would then be {:.4g} m long",
+      fail(fmt::format("the heading gives {}, but the curve would then be {:.4g} m long",
                        claims_mm ? "millimetres" : "metres", claims_mm ? 1e-3 * length : length),
            "correct the heading or the numbers");
     if (metres) note("The numbers were taken as metres.");

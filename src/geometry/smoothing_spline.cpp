@@ -65,7 +65,8 @@ void add_row(Rows& rows, int row, int first, const std::array<double, 4>& values
   for (int j = 0; j < 4; ++j) rows.emplace_back(row, first + j, scale * values[j]);
 }
 
-/// A weak wish for one cubic over the first two and the last two intervals; it decides only what the points leave open.
+/// A weak preference for one cubic over the first two and the last two intervals; it decides only what the points leave
+/// open.
 void add_end_rows(Rows& rows, const Basis& basis, int row) {
   for (const int knot : {1, basis.intervals() - 1}) {
     const double h = basis.knot(knot + 1) - basis.knot(knot - 1), scale = kEndWeight * h * h * h / 48;

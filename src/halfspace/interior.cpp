@@ -35,7 +35,7 @@ struct Corner {
   }
 };
 
-/// Of each pair f, f1 the second is that of kz E = -z dE/dz.
+/// In each pair f, f1 the second belongs to kz E = -z dE/dz.
 InteriorInfluence corner(double nu, double c, double x, double y, double z) {
   const auto [R, xz, yz, Rz, area, bx, by, ax, ay, axy] = Corner(x, y, z);
   const double area1 = z > 0 ? z * x * y * (R * R + z * z) / (R * xz * yz) : 0.0;
@@ -61,7 +61,7 @@ InteriorInfluence difference(const InteriorInfluence& pp, const InteriorInfluenc
   return out;
 }
 
-/// What the displacement has beside exp(-kz)/k times the surface's: z exp(-kz)/(2G).
+/// The part of the displacement beside exp(-kz)/k times the surface's: z exp(-kz)/(2G).
 InteriorDisplacement corner_beside_surface(double c, double x, double y, double z) {
   if (z == 0) return {};
   const Corner at(x, y, z);

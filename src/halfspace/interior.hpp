@@ -29,7 +29,7 @@ using InteriorInfluence = std::array<InteriorState, 3>;
 InteriorInfluence rectangle_interior(const HalfSpaceMaterial& material, double x, double y, double z, double dx,
                                      double dy);
 
-/// For offsets (i dx, j dy) as rectangle_influence_table.
+/// Table for offsets (i dx, j dy), indexed as in rectangle_influence_table.
 std::vector<InteriorInfluence> rectangle_interior_table(const HalfSpaceMaterial& material, double z, int nx, int ny,
                                                         double dx, double dy);
 

@@ -66,8 +66,8 @@ Eigen::MatrixXd exponentials(const Eigen::VectorXd& k, const Eigen::VectorXd& de
   return (-(k * depth.transpose())).array().exp().matrix();
 }
 
-/// Of a fit from the compliances, relative to them; what is over `enough` need not be the largest. The coupling may
-/// pass through zero: it counts over the geometric mean of the two that it couples.
+/// Largest relative deviation of a fit from the compliances; the search ends at the first one above `enough`. The
+/// coupling may pass through zero: it counts over the geometric mean of the two that it couples.
 double largest_deviation(const Samples& s, const Four& top, const Eigen::VectorXd& depth,
                          const Compliances& coefficient, double enough) {
   constexpr Eigen::Index kTogether = 32;

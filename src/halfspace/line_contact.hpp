@@ -24,14 +24,15 @@ LineHertz hertz_line(double A, double contact_modulus, double load_per_length);
 /// are zero. yy: of traction along the strip.
 RectangleInfluence strip_influence(const SurfaceCompliance& compliance, double x, double dx, double far);
 
-/// At x = i dx, i = 0 … nx-1. far: the largest distance, or the depth of the farthest image where that is more.
+/// Influences at x = i dx, i = 0 … nx-1. far: the largest distance, or the depth of the farthest image where that is
+/// more.
 std::vector<RectangleInfluence> strip_influence_table(const SurfaceCompliance& compliance, int nx, double dx);
 
 /// The state at x from the middle of a strip and at the depth z >= 0, under unit p, q_x, q_y (index 0, 1, 2): Flamant's
 /// solutions integrated. Strains along y are zero. On the surface not on the strip's edges.
 InteriorInfluence strip_interior(const HalfSpaceMaterial& material, double x, double z, double dx);
 
-/// At x = i dx, i = 0 … nx-1.
+/// Interior influences at x = i dx, i = 0 … nx-1.
 std::vector<InteriorInfluence> strip_interior_table(const HalfSpaceMaterial& material, double z, int nx, double dx);
 
 }  // namespace railstrata

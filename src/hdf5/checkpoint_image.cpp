@@ -165,8 +165,8 @@ class Reader {
     checked(H5Lget_info(at_, name, &link, H5P_DEFAULT), name);
     if (link.type != H5L_TYPE_HARD) throw Damage{fmt::format("{} is a link", name)};
   }
-  /// What was never written HDF5 would make up; only what stands in one piece in this file has an offset: no chunks,
-  /// which may be filtered, and no file elsewhere.
+  /// Refuses data that HDF5 would fill in because they were never written. Only data in one piece in this file have an
+  /// offset: no chunks, which may be filtered, and no external file.
   static void require_stored(hid_t set, const char* name, hsize_t bytes) {
     if (H5Dget_storage_size(set) != bytes || (bytes > 0 && H5Dget_offset(set) == HADDR_UNDEF))
       throw Damage{fmt::format("{} is not stored in one piece", name)};

@@ -4,8 +4,8 @@
 
 namespace railstrata {
 
-/// A file, array, type or space of HDF5, closed with it. What a refusal of HDF5 (a negative number) means is for those
-/// who ask to say: the number that comes here is good.
+/// A file, array, type or space of HDF5, closed with it. The caller checks for errors of HDF5 (negative numbers) first:
+/// the number given here is valid.
 class Hdf5Handle {
  public:
   using Close = herr_t (*)(hid_t);

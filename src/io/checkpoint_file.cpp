@@ -32,7 +32,7 @@ std::string header_of(std::string_view image) {
   return text;
 }
 
-/// Of a checkpoint in another format.
+/// The fault of a checkpoint in another format.
 Damage of_another_program(std::string_view format) {
   int number = 0;
   const auto [end, error] = std::from_chars(format.data(), format.data() + format.size(), number);

@@ -14,11 +14,12 @@
 
 namespace railstrata {
 
-/// 2: the columns of contact_facets have their own names. A checkpoint of another format is refused, its text says
+/// 2: the columns of contact_facets have their own names. A checkpoint of another format is refused, the message gives
 /// which program wrote it.
 inline constexpr int kCheckpointFormat = 6;
 
-/// The file's bytes, and back. checkpoint_of throws CaseError that tells what is wrong with them; `file` names them.
+/// The file's bytes, and back. checkpoint_of throws CaseError with the fault in the bytes; `file`: their name in the
+/// message.
 std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run);
 Checkpoint checkpoint_of(std::string_view bytes, const std::filesystem::path& file);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What shakedown has found, as files: shakedown.json, and of each body what every depth asks for and the map of the
+// Files of shakedown: shakedown.json, and for each body the strength required at every depth and the map of the
 // section.
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -16,7 +16,7 @@ namespace railstrata {
 /// {"factors": {...}, "verdict": words, "governing": {body, zone, depth_m, y_m}, "bodies": [...]}; null without bodies.
 nlohmann::ordered_json shakedown_json(const Summary& summary);
 
-/// Of every body its fatigue parameters with their places, zones and interfaces.
+/// Fatigue parameters of every body with their places, zones and interfaces.
 nlohmann::ordered_json fatigue_json(const Summary& summary);
 
 /// shakedown.json; shakedown_<body>.csv, a row a depth: yield strengths there and asked for by each level; and
@@ -30,7 +30,7 @@ void write_shakedown(const std::filesystem::path& folder, const std::vector<std:
 void write_sliding_maps(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                         const std::vector<SlidingMap>& maps);
 
-/// What one passage does along each streamline: a row each, y ascending. Nothing without rows.
+/// Wear, heat and fatigue of one passage: a row per streamline, y ascending. Writes nothing without rows.
 void write_streamlines(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                        const std::vector<StreamlineRow>& rows);
 

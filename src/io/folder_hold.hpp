@@ -1,5 +1,5 @@
 #pragma once
-// One writer a folder.
+// Lock of a folder: one writer at a time.
 #include <cstdint>
 #include <filesystem>
 

@@ -22,7 +22,7 @@ bool has(const fs::path& folder, const char* name) {
   return fs::exists(folder / name, error);
 }
 
-/// The words of the command line in provenance.json; none if it does not say.
+/// The words of the command line in provenance.json; none if it has none.
 std::vector<std::string> command_line_of(const fs::path& folder) {
   std::ifstream in(folder / "provenance.json", std::ios::binary);
   const auto origin = nlohmann::json::parse(in, nullptr, false);
@@ -33,7 +33,7 @@ std::vector<std::string> command_line_of(const fs::path& folder) {
   return words;
 }
 
-/// The command that has written the folder ("run", "study"), by its provenance.json; empty if that does not say.
+/// The command that has written the folder ("run", "study"), by its provenance.json; empty if that has none.
 std::string command_of(const fs::path& folder) {
   for (const std::string& word : command_line_of(folder))
     for (const char* command : {"run", "bem", "study", "sweep", "creep-curve", "collective", "passes", "mesh"})

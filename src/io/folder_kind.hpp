@@ -1,5 +1,5 @@
 #pragma once
-// What a folder without a finished result holds, for people who gave it to a command that reads results.
+// Kind of a folder without a finished result, for the message of a command that reads results.
 #include <filesystem>
 #include <string>
 
@@ -7,12 +7,12 @@
 
 namespace railstrata {
 
-/// Says what the folder is (not there, an unfinished run, a study, a sweep, a creep curve, a collective, a
-/// comparison, a folder of results) and which command goes with it.
+/// Names what the folder is (not there, an unfinished run, a study, a sweep, a creep curve, a collective, a comparison,
+/// a folder of results) and which command goes with it.
 Diagnostic no_result_here(const std::filesystem::path& folder);
 
-/// The command line that has begun a folder, with --force, for people to give again; "railstrata run CASE --out FOLDER
-/// --force" where provenance.json does not say.
+/// The command line that began a folder, with --force, for the user to repeat; "railstrata run CASE --out FOLDER
+/// --force" where provenance.json does not give it.
 std::string command_again(const std::filesystem::path& folder);
 
 }  // namespace railstrata

@@ -15,7 +15,7 @@ namespace railstrata {
 namespace {
 constexpr const char* kProbe = ".writable";  // is made and removed: whether a folder can be written
 
-/// What `run` and `bem` write into a folder or one below it, but for the case and its origin.
+/// Removes what `run` and `bem` write into a folder or one below it, but for the case and its origin.
 void remove_results(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const char* name : {"centre_line.csv",

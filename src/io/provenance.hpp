@@ -29,7 +29,7 @@ std::vector<std::pair<std::string, std::string>> library_versions();
 std::string sha256_of(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& file);
 
-/// What a result folder keeps of its inputs.
+/// Inputs kept in a result folder: hash of the case, copies of files.
 struct KeptOrigin {
   std::string case_sha256;                                            ///< of case.toml there; empty: there is none
   std::vector<std::pair<std::filesystem::path, std::string>> copies;  ///< an input file and its copy in the folder

@@ -43,7 +43,7 @@ void doubt_version(const nlohmann::json& origin, std::vector<ResultDoubt>& out) 
   out.push_back(
       {"other_version",
        fmt::format("written by RailStrata {}, {} than this one ({}): {}", theirs, newer ? "newer" : "older", ours,
-                   newer ? "its files may say more or other things than are read here"
+                   newer ? "its files may have more or other data than are read here"
                          : "today's program may give other numbers"),
        false});
 }
@@ -64,7 +64,7 @@ void doubt_checks(const ResultFolder& result, std::vector<ResultDoubt>& out) {
     if (c.said_ok && !c.ok)
       out.push_back(
           {kContradicted,
-           fmt::format("summary.json says that the check {} holds, and its value is {:.4g}, its limit {:.4g}: it "
+           fmt::format("summary.json reports that the check {} holds, but its value is {:.4g}, its limit {:.4g}: it "
                        "was changed after the run",
                        c.name, c.value, c.limit),
            true});

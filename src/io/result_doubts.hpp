@@ -1,5 +1,5 @@
 #pragma once
-// What speaks against believing a result folder although its files can be read.
+// Reasons to doubt a result folder although its files can be read.
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@ struct ResultDoubt {
 };
 
 /// By provenance.json: another version of the program wrote the result; case.toml is not the one of the run (its
-/// SHA-256 differs); summary.json says of a check that it holds whose value is beyond its limit, or has other largest
+/// SHA-256 differs); summary.json marks a check as holding whose value is beyond its limit, or has other largest
 /// tractions or another normal force than patch.csv. Folders from before 0.2.0 do not have that hash and are not asked
 /// for it. A position_<mm> folder has both files in the folder it stands in.
 std::vector<ResultDoubt> result_doubts(const ResultFolder& result);

@@ -125,7 +125,7 @@ void write_section(const std::filesystem::path& file, const std::vector<std::str
   write_stress_table(file, provenance, section_points(section, longitudinal), columns);
 }
 
-/// Of a body without layers only the rail's: the wheel's would say the same.
+/// Slices of a body without layers are written for the rail only: the wheel's would be equal.
 bool shows_slices(const std::string& body, const StressSections& sections) {
   const auto& material = sections.cross.material;
   return !sections.slices.empty() &&

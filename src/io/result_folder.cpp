@@ -105,7 +105,7 @@ void require_numbers(const nlohmann::json& v, const std::string& name, const fs:
   for (const auto& [key, value] : v.items()) require_numbers(value, fmt::format("{}.{}", name, key), file, depth + 1);
 }
 
-/// Every value is of the kind that this program writes; otherwise a page would leave it out and say nothing.
+/// Every value is of the kind that this program writes; otherwise a page would leave it out without a message.
 void require_kinds(const nlohmann::json& summary, const fs::path& file) {
   for (const char* table : {"contact", "stress", "energy", "position_m"})
     if (summary.contains(table)) require_numbers(summary[table], table, file);
@@ -163,7 +163,7 @@ ResultFolder parse_results(const std::string& summary, const std::string& patch,
 }
 
 ResultFolder read_result_folder(const fs::path& folder) {
-  const std::string summary = text_of(folder / "summary.json");  // the one whose absence is told first
+  const std::string summary = text_of(folder / "summary.json");  // the one whose absence is reported first
   return parse_results(summary, text_of(folder / "patch.csv"), folder);
 }
 

@@ -25,10 +25,10 @@ struct ResultFolder {  // NOLINT(bugprone-exception-escape): the move of json is
 
 /// A check as summary.json has it.
 struct KeptCheck : Check {
-  bool said_ok = false;  ///< the file says that it holds
+  bool said_ok = false;  ///< `ok` in the file
 };
 
-/// The checks of summary.json. One holds if it says so and its value is within its limit.
+/// The checks of summary.json. One holds if its `ok` is true and its value is within its limit.
 std::vector<KeptCheck> checks_of(const nlohmann::json& summary);
 
 /// Throws CaseError when the folder is not there, holds no summary.json or patch.csv, or they are not as this program

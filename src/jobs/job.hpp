@@ -1,8 +1,8 @@
 #pragma once
 // A job: what takes long and lives in a folder. The frame is the same for all: one process holds the folder; a new job
 // removes older results of its kind and writes where it comes from and its identity, one that is resumed compares the
-// identity and reads its state; then it takes steps until it is finished. The state is saved every so often and when
-// somebody asks to stop, so that a job that was stopped or killed and resumed has the bits of one in one go.
+// identity and reads its state; then it takes steps until it is finished. The state is saved every so often and when a
+// stop is requested. So a job that was stopped or killed and resumed gives the same bits as one in one go.
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -21,7 +21,7 @@ struct RunCommand {
   int threads = 0;
 };
 
-/// What is wanted of any job.
+/// Settings common to all jobs.
 struct JobOrder {
   std::filesystem::path folder;
   bool resume = false;  ///< go on with the job of the folder
@@ -30,10 +30,10 @@ struct JobOrder {
   RunCommand command;
 };
 
-/// What a kind of job is called, and what its folder is known by.
+/// Names of a kind of job and of the files that identify its folder.
 struct JobKind {
   const char* name;       ///< of its results: "passes"
-  const char* identity;   ///< file that says which job the folder holds; null: the state says it
+  const char* identity;   ///< file with the identity of the folder's job; null: the state has it
   const char* to_repeat;  ///< what must be given again to resume: "the case and the --set of its beginning"
 };
 
@@ -53,17 +53,17 @@ class Job {
   const std::filesystem::path& folder() const { return order_.folder; }
 
  protected:
-  // What a kind of job says; called in this order, but for save().
-  /// Holds the folder; before that, whatever refuses it.
+  // Implemented by each kind of job; called in this order, but for save().
+  /// Locks the folder, after the checks that may refuse it.
   virtual FolderHold hold();
-  /// One line; jobs of different lines cannot go on with one another's state.
+  /// One line; a job resumes only a state with the same identity.
   virtual std::string identity() const { return {}; }
   /// A new job: removes older results of this kind, writes its origin.
   virtual void begin() = 0;
   /// Reads the state that an earlier call has left.
   virtual void resume() = 0;
   virtual bool finished() const = 0;
-  /// False: it was given up on the way because somebody asks to stop; what it had done since the last save may be lost.
+  /// False: abandoned because a stop was requested; work since the last save may be lost.
   virtual bool step() = 0;
   /// The state as it is after the last step: whole or not there.
   virtual void save() {}
@@ -71,18 +71,18 @@ class Job {
   virtual void finish() = 0;
   /// Their page. False: a check of it fails.
   virtual bool write_page() { return true; }
-  /// In place of the results when it was stopped: keeps what is done.
+  /// Called instead of finish() after a stop: saves what is done.
   virtual void stop() { save(); }
-  /// It stopped by itself, for a limit of time.
+  /// True: stopped by itself, at a limit of time.
   virtual bool out_of_time() const { return false; }
 
   // For "stopped after pass 3; go on with --resume"; where nothing is to be added, to_resume() is empty.
   virtual std::string how_far() const { return {}; }
   virtual std::string to_resume() const { return " --resume"; }
-  /// There is something to go on from.
+  /// The folder has a state to resume from.
   virtual bool has_state() const { return true; }
 
-  /// For steps that take long: saves if the last time is more than 20 s ago or somebody asks for it.
+  /// For steps that take long: saves if the last save was more than 20 s ago or a save is requested.
   void save_when_due();
 
   const JobOrder order_;

@@ -22,7 +22,7 @@ Summary bem_summary(const CaseSpec& spec, const BemResult& result);
 /// Contact and checks alone, without the stresses, which cost more than the contact itself.
 Summary bem_contact_summary(const CaseSpec& spec, const BemResult& result);
 
-/// What of a summary, with the stresses it has, is not plausible. coarsest: cell_of_patch of a transient's worst state.
+/// Warnings for implausible values of a summary and its stresses. coarsest: cell_of_patch of a transient's worst state.
 std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& result,
                                   double coarsest = 0);
 

@@ -17,7 +17,7 @@ enum class CheckKind {
   run,      ///< asked of a single result; the exit code depends on it
   engines,  ///< asked of a finite element result against the half-space result of its case: |a/b - 1|
   warning,  ///< a sound result that is not plausible: value above limit; no check depends on it
-  note      ///< said, not judged
+  note      ///< reported without a limit
 };
 
 /// A check holds where value <= limit. A limit that is NaN is not asked of that engine, or comes from the case.
@@ -26,7 +26,7 @@ struct CheckRow {
 
   std::string_view key;   ///< its name in summary.json
   std::string_view name;  ///< for people
-  std::string_view what;  ///< what the value is, or what the warning says
+  std::string_view what;  ///< what the value is, or the warning's text
   CheckKind kind = CheckKind::run;
   Unit unit = unit::kShare;
   double fem_limit = kNone, bem_limit = kNone;  ///< SI; of kind `engines` the same
@@ -51,14 +51,14 @@ inline constexpr double kCellOfPatch = 0.1, kElementOfPatch = 0.2, kUnresolvedPa
 inline constexpr double kLargestAngleSpanned = 20 * std::numbers::pi / 180;
 inline constexpr double kLargestOfRadius = 0.05;
 inline constexpr double kLargestOfEdgeDistance = 0.5;
-/// Of the contact's curvature: what other patches may bend it.
+/// Largest change of the contact's curvature by other patches, relative to it.
 inline constexpr double kLargestBending = 0.02;
 /// Elastic shear of a third-body layer, of half the patch's shorter axis: where what faces each other has moved apart
 /// by as much as linear theory errs elsewhere, and where the model's pairs mean nothing.
 inline constexpr double kLargestFilmShear = 0.05, kFilmShearsAway = 0.5;
 /// m, below its crest a flange has its working face. [EN15313]
 inline constexpr double kFlangeTip = 2e-3;
-/// Of the largest pressure: a tension smaller than this that goes on rising at the rim of the search is not told.
+/// Share of p_max: a tension maximum at the edge of the searched region is reported only above it.
 inline constexpr double kTellingTension = 0.01;
 
 inline constexpr std::array kCheckRows{

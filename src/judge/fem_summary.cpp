@@ -82,7 +82,7 @@ PatchSurroundings surroundings(const Model& model, const MeanContact& m) {
     patch.low = std::min(patch.low, t);
     patch.high = std::max(patch.high, t);
   }
-  // pressures reach beyond the outermost nodes that bear: as far as the width of the patch says
+  // pressures reach beyond the outermost nodes that bear: up to the width of the patch
   const double beyond = std::max(0.0, 0.5 * (m.patch.width - (patch.high - patch.low)));
   patch.low -= beyond;
   patch.high += beyond;

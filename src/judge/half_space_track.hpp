@@ -1,5 +1,5 @@
 #pragma once
-// What takes longer than the rest of shakedown, for half-spaces: traffic on one line, and the map of limits.
+// The slow part of shakedown for half-spaces: traffic on one line, and the map of limits.
 #include "judge/shakedown_summary.hpp"
 
 namespace railstrata {

@@ -26,7 +26,7 @@ class Warnings {
  public:
   explicit Warnings(Engine engine) : fem_(engine == Engine::fem) {}
 
-  /// With the table's words, which end with what `more` says.
+  /// With the table's words, followed by `more`.
   void above(std::string_view name, double value, double limit, const std::string& more = "") {
     const CheckRow& row = check_row(name);
     if (!(value > limit)) return;
@@ -79,7 +79,7 @@ void warn_of_flange(const PatchSurroundings& around, Warnings& out) {
   out.above("flange_outside_gauge", around.flange->beyond_gauge);
 }
 
-/// Where the case says how strong the rail is, its load factors tell more than a common strength.
+/// Where the case gives the rail's strength, its load factors replace the common strength.
 void warn_of_stress(const Summary& s, const CaseSpec& spec, Warnings& out) {
   if (!strength_given(spec, BodyId::rail)) out.above("von_mises_above_common_rail_yield", largest_von_mises(s.rail));
   double rising = 0;

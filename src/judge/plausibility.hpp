@@ -1,5 +1,5 @@
 #pragma once
-// Results that were computed soundly and yet say that the case leaves what its model can mean.
+// Warnings of results that are computed correctly but lie outside the range of the model.
 #include <vector>
 
 #include "case/case_fwd.hpp"
@@ -11,7 +11,7 @@ namespace railstrata {
 /// Largest elastic displacement in the third-body layer, q h/G, of half the patch's shorter axis; 0 without one.
 double film_shear(const CaseSpec& spec, const PatchMeasures& patch);
 
-/// What a summary and the surroundings of its patch say; element: edge of a cell or element, m. Of both engines:
+/// Warnings from a summary and the surroundings of its patch; element: edge of a cell or element, m. From both engines:
 /// few_cells_over_patch, contact_on_flange_crest, flange_outside_gauge, patch_wider_than_layer,
 /// von_mises_above_common_rail_yield; of finite elements patch_near_border_of_fine_zone (nearer than an element on each
 /// side) and second_contact; of half-spaces patches_near_each_other, patch_spans_angle, patch_large_against_radius,

@@ -1,5 +1,5 @@
 #pragma once
-// What the passages of a load collective do to the rail, summed by position across it.
+// Damage of the rail by the passages of a load collective, summed by position across it.
 //
 // A position is the arc length s along the rail's profile: cells of one length. A streamline's strip lies between the
 // points of the profile nearest to its two edges, and its area (depth times width) is spread over it: the sum over the
@@ -48,7 +48,7 @@ void for_cells(const Damage& damage, const Strip& strip, const Use& use) {
   }
 }
 
-/// What one patch does in one passage, and where.
+/// Damage by one patch in one passage, and its position.
 struct PatchDamage {
   RigidContact contact;
   std::vector<StreamlineRow> rows;

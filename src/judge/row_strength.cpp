@@ -40,10 +40,10 @@ class ZoneStrength {
         top_(zone.top),
         strength_(zone.strength, zone.name, zone.key) {}
 
-  /// Pa, uniaxial; NaN where the case does not say it.
+  /// Pa, uniaxial; NaN where the case does not give it.
   double yield(double depth) const { return strength_.yield(depth - top_); }
 
-  /// m, the depth where the table that says the strength ends; infinite without one.
+  /// m, the depth where the table of the strength ends; infinite without one.
   double end() const { return top_ + strength_.end(); }
 
   StressPoint residual(double depth) const {

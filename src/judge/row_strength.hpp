@@ -1,5 +1,5 @@
 #pragma once
-// What the rows of a section bear, from the strengths of a case.
+// Strength of the rows of a section, from the case.
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,10 +18,10 @@ struct RowStrength {
   bool any() const;                            ///< of a strength
 };
 
-/// Whether a case says how strong a body, or a layer on it, is.
+/// Whether a case gives a strength of a body, or of a layer on it.
 bool strength_given(const CaseSpec& spec, BodyId body);
 
-/// Of a zone a yield strength, a table of them, a grade, else an estimate from hardness, in this order. Depths of rail
+/// Per zone: the yield strength, a table of it, a grade, else an estimate from hardness, in this order. Depths of rail
 /// and wheel count from the running surface. Throws CaseError where a table ends above the deepest row of its zone.
 RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory& rows);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What can be said of a finite element run before it is made, and of its results for the same reasons.
+// Warnings of a finite element run before it starts, and of its results for the same reasons.
 #include <optional>
 #include <vector>
 
@@ -10,9 +10,9 @@
 
 namespace railstrata {
 
-/// Largest share of a block's mass that mass scaling may add without a word.
+/// Largest share of a block's mass that mass scaling may add without a warning.
 inline constexpr double kMuchAddedMass = check_row("mass_scaling_adds_much").fem_limit;
-/// Of the memory distance that steady sliding needs over the given one.
+/// Memory distance that steady sliding needs over the given one: limit of the warning.
 inline constexpr double kShortFrictionMemory = check_row("short_friction_memory").fem_limit;
 
 /// Warnings of a case that is measured at a wheel position [m]:
@@ -25,8 +25,8 @@ std::vector<Warning> run_advice(const CaseSpec& spec, double position, const Ste
 /// a patch whose longer axis is `longer_axis` [m] (model/sliding_waves.hpp); value: the latter over the former.
 std::optional<Warning> memory_advice(const CaseSpec& spec, double p_max, double longer_axis);
 
-/// Adds the warnings to a summary. Where traction_coefficient_reached fails within the torque's ramp, the warning says
-/// that it fails for this reason.
+/// Adds the warnings to a summary. Where traction_coefficient_reached fails within the torque's ramp, the warning gives
+/// this reason.
 void add_run_advice(Summary& summary, const CaseSpec& spec, const StepLimits& limits);
 
 }  // namespace railstrata

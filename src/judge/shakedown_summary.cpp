@@ -117,7 +117,7 @@ BodyShakedown body_shakedown(const CaseSpec& spec, const SectionShakedown& secti
     if (std::isfinite(z.wandering.value)) {
       out.zones.push_back({zone_name(spec, section.body, z.zone),
                            factors_of(z.first_yield, z.wandering, z.upper, z.kinematic), z.wandering.depth});
-      // What holds every zone holds this one: a limit on the safe side.
+      // The section's factor holds for all its zones, so for this one: on the safe side.
       if (std::isfinite(section.single_track))
         out.zones.back().factors.single_track = std::clamp(section.single_track, z.wandering.value, z.upper.value);
     }

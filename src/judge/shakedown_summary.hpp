@@ -29,10 +29,10 @@ struct SectionShakedown {
   double x_first = 0, x_last = 0;  ///< m, of the cycle
 };
 
-/// Of the bodies whose strength or fatigue limits the case says; of several patches the one that decides. Throws
-/// CaseError where a table of strengths ends too early.
+/// Bodies whose strength or fatigue limits the case gives; of several patches the one that decides. Throws CaseError
+/// where a table of strengths ends too early.
 std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result);
-/// A finite element body: what its contact band has below the surface and at it.
+/// The same of a finite element body, from its contact band, below the surface and at it.
 struct BandBody {
   const BandStress& below;
   BandSurface surface;
@@ -41,7 +41,7 @@ struct BandBody {
 std::vector<SectionShakedown> fem_shakedown(const Model& model, const PatchMeasures& patch, const BandBody& rail,
                                             const BandBody& wheel);
 
-/// Of the sections that have a strength.
+/// Summary of the sections that have a strength.
 ShakedownSummary shakedown_summary(const CaseSpec& spec, const std::vector<SectionShakedown>& sections);
 
 }  // namespace railstrata

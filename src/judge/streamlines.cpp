@@ -41,7 +41,7 @@ Cells cells_of(const ContactField& f, int column) {
   return out;
 }
 
-/// What the running surface of a body is made of: its first layer, or itself.
+/// Material of a body's running surface: its first layer, or the body itself.
 const MaterialSpec& surface_material(const CaseSpec& spec, BodyId body) {
   for (const LayerSpec& layer : spec.layers)
     if (layer.on == body) return layer.material;
@@ -67,7 +67,7 @@ ThermalBody thermal_body(const CaseSpec& spec, BodyId body) {
   return out;
 }
 
-/// Pa, as a pressure; NaN where the case does not say it.
+/// Pa, as a pressure; NaN where the case does not give it.
 double hardness_of(const StrengthSpec& s) {
   if (s.hardness) return kPascalOfVickers * *s.hardness;
   if (!s.hardness_table.empty()) return kPascalOfVickers * s.hardness_table.front().value;
@@ -85,7 +85,7 @@ double surface_shear_strength(const CaseSpec& spec) {
   return row_strength(spec, BodyId::rail, top).shear.front();
 }
 
-/// What a surface's wear depends on.
+/// Data of a surface for wear.
 struct WearData {
   double density = 0, hardness = kNotApplicable;
   std::optional<double> coefficient;
@@ -119,7 +119,7 @@ struct WearDepths {
   double usfd = kNotApplicable, archard = kNotApplicable, kth = kNotApplicable;  ///< m
 };
 
-/// Of a point of the surface that passes the patch once; without a hardness Archard's law has no answer.
+/// Wear of a surface point in one passage of the patch; Archard's law needs a hardness.
 WearDepths wear_depths(const Streamline& line, const WearData& data) {
   WearDepths out;
   out.usfd = usfd_depth(line, data.density);
@@ -169,7 +169,7 @@ double largest(const std::vector<StreamlineRow>& rows, double StreamlineRow::*me
   return out;
 }
 
-/// What follows from the forces and creepages of the patches.
+/// Adds the numbers that follow from forces and creepages of the patches.
 void add_patches(const CaseSpec& spec, const Summary& summary, DamageSummary& out) {
   const double strength = surface_shear_strength(spec);
   std::vector<ContactSummary> patches;

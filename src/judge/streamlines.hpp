@@ -1,6 +1,6 @@
 #pragma once
-// What one passage does to the surface: wear, friction's energy, heat and local fatigue, streamline by streamline
-// across the rail, from the contact field of either engine.
+// Wear, friction energy, heat and local fatigue of the surface in one passage, per streamline across the rail, from the
+// contact field of either engine.
 #include <vector>
 
 #include "case/case_fwd.hpp"
@@ -32,13 +32,13 @@ struct StreamlineRow {
   }
 };
 
-/// Of every column with contact, y ascending. Empty for a shift, which rolls nowhere.
+/// One row per column with contact, y ascending. Empty for a shift, which does not roll.
 std::vector<StreamlineRow> streamlines(const CaseSpec& spec, const ContactField& field);
 
-/// Of one patch, from its forces and creepages.
+/// T-gamma of one patch, from its forces and creepages.
 TGamma t_gamma(const ContactSummary& contact);
 
-/// Of the whole contact: `rows` are those of all its patches. Empty without friction.
+/// Damage of the whole contact; `rows`: those of all its patches. Empty without friction.
 DamageSummary damage_summary(const CaseSpec& spec, const Summary& summary, const std::vector<StreamlineRow>& rows);
 
 }  // namespace railstrata

@@ -1,5 +1,5 @@
 #pragma once
-// What becomes of rail, wheel or layer under repeated rolling, in words: one rule for files, tables, pages and studies.
+// Verdict on rail, wheel or layer under repeated rolling, in words: one rule for files, tables, pages and studies.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace railstrata {
 
-/// What becomes of the material by its load factors, from the best to the worst; then what else may end a layer.
+/// Response of the material by its load factors, from the best to the worst; then failures of layers.
 enum class Verdict {
   elastic,
   shakes_down,
@@ -42,7 +42,7 @@ inline constexpr std::array<VerdictWords, 8> kVerdicts{
 inline const VerdictWords& words_of(Verdict v) { return kVerdicts[static_cast<std::size_t>(v)]; }
 
 /// The first of first_yield, wandering, single_track, upper and kinematic that is at least 1 decides, in this order. A
-/// single_track that was not computed (NaN) is passed over; another that is NaN says that nothing decides it: no
+/// single_track that was not computed (NaN) is passed over; another that is NaN means that nothing decides it: no
 /// stress, or no strength.
 inline Verdict verdict_of(const ShakedownFactors& f) {
   const auto enough = [](double factor) { return !(factor < 1); };
@@ -53,7 +53,7 @@ inline Verdict verdict_of(const ShakedownFactors& f) {
   return enough(f.kinematic) ? Verdict::yields : Verdict::ratchets;
 }
 
-/// Of the body that fares worst. There must be one.
+/// Verdict of the worst body. There must be one.
 inline Verdict verdict_of(const ShakedownSummary& s) {
   Verdict worst = Verdict::elastic;
   for (const BodyShakedown& b : s.bodies) worst = std::max(worst, verdict_of(b.factors));

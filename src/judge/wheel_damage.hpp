@@ -1,5 +1,5 @@
 #pragma once
-// What the same passages do to a wheel, by position across its tread.
+// Damage of a wheel by the same passages, by position across its tread.
 //
 // Rolling is steady: a point of the tread passes the patch as a point of the rail does, once a turn, and so wears by
 // the same integral of the patch along x with the constants of its own material (StreamlineRow::wheel_depth). A turn is

@@ -1,6 +1,6 @@
 #pragma once
 // Axes of many cases: keys of a case with the values that they take. `sweep --vary`, `creep-table --axis`, the tables
-// of a study file and Python's sweep say them in the same words.
+// of a study file and Python's sweep use the same words.
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -27,9 +27,9 @@ std::vector<std::string> axis_words();
 /// The key of a word; a key is its own.
 std::string axis_key(const std::string& word);
 
-/// The axis of a word or key. One value that says several is taken apart: "from:to:count" at equal distances,
-/// "log from:to:count" at equal ratios, "+-largest:count", odd, through 0 and by equal ratios over two and a half
-/// decades to both sides. Throws CaseError: a range of what is no number, values out of the key's range.
+/// The axis of a word or key. One value that stands for several is expanded: "from:to:count" at equal distances, "log
+/// from:to:count" at equal ratios, "+-largest:count", odd, through 0 and by equal ratios over two and a half decades to
+/// both sides. Throws CaseError: a range of what is no number, values out of the key's range.
 Axis make_axis(const std::string& word, std::vector<std::string> values);
 
 /// Reads options "WORD=v1,v2,…" or "WORD=RANGE"; blanks and quotes around values do not count. `option` names them in
@@ -43,13 +43,13 @@ std::vector<NumberAxis> parse_number_axes(const std::string& option, const std::
 /// A value as an override of the axis' key takes it.
 std::string axis_text(const NumberAxis& axis, double value);
 
-/// What a value is on a chart: its number, and what follows it ("0.2 mm": 0.2, "mm"); NaN for a word.
+/// A value's number for a chart, and the text after it ("0.2 mm": 0.2, "mm"); NaN for a word.
 std::pair<double, std::string> axis_value(const std::string& text);
 
 /// The share of the largest value that the k-th of n has, equal ratios over two and a half decades; k in [0, n].
 double decade_share(int k, int n);
 
-/// As many combinations as a sweep or a group of a study may have.
+/// Largest number of combinations of a sweep or of a group of a study.
 inline constexpr std::size_t kMostCases = 10'000;
 
 /// Every combination, the last key changing fastest: per case the value of each key. One empty combination of no keys.

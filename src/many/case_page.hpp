@@ -1,5 +1,5 @@
 #pragma once
-// What a page shows of many cases: a number over a key, and the cases as a table.
+// A page on many cases: a number over a key, and the cases as a table.
 #include <string>
 #include <vector>
 

@@ -42,7 +42,7 @@ struct CaseTable {
 /// The keys that any case varies and the numbers that any case has, in the order of the rows.
 std::vector<CaseColumn> value_columns(const std::vector<CaseRow>& rows);
 std::vector<CaseColumn> number_columns(const std::vector<CaseRow>& rows);
-/// What stands at the end of every row: fault, patches, checks, warnings.
+/// The last columns of every row: fault, patches, checks, warnings.
 std::vector<CaseColumn> remark_columns();
 
 template <class... Lists>

@@ -37,7 +37,7 @@ std::vector<CollectiveRow> plan_collective(const CaseSpec& spec);
 
 struct CollectiveOptions {
   BemOptions bem;
-  bool shakedown = true;             ///< factors of each row where the case says strengths (no single track)
+  bool shakedown = true;             ///< factors of each row where the case gives strengths (no single track)
   const Control* control = nullptr;  ///< asked to stop, rows that have not begun are left out; progress: "loads"
 };
 
@@ -50,7 +50,7 @@ void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::p
 /// `cell` [m] the length of the rail's cells.
 RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell);
 
-/// Of one wheel that runs the sound rows in the shares of their passages.
+/// Damage of one wheel that runs the sound rows in the shares of their passages.
 WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell);
 
 /// m² per `passages` of all sound rows: the sum over their streamlines of depth times width. What rail_damage must

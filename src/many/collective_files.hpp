@@ -26,7 +26,7 @@ void write_rail_damage(const std::filesystem::path& file, const std::vector<std:
 void write_wheel_damage(const std::filesystem::path& file, const std::vector<std::string>& origin,
                         const WheelDamage& damage);
 
-/// What all passages do to both bodies.
+/// Damage of both bodies by all passages.
 struct CollectiveDamage {
   RailDamage rail;
   WheelDamage wheel;

@@ -11,7 +11,7 @@
 
 namespace railstrata {
 
-/// What a curve varies.
+/// The input that a curve varies.
 struct CurveAxis {
   std::string_view word;  ///< "creepage", "lateral_creepage", "spin"
   VariedCreepage varied;

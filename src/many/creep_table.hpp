@@ -1,5 +1,5 @@
 #pragma once
-// A creep-force table: half-space solutions over a grid of creepages, loads, places and whatever else a case says.
+// A creep-force table: half-space solutions over a grid of creepages, loads, places and any other key of a case.
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace railstrata {
 
-/// As many solutions as a table may have.
+/// Largest number of solutions of a table.
 inline constexpr std::size_t kMostTablePoints = 2'000'000;
 
 /// The numbers of a point in the order of the table's.

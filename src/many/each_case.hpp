@@ -53,7 +53,7 @@ class NowAndThen {
   std::chrono::steady_clock::time_point next_{};
 };
 
-/// For a table's column: one line.
+/// The message of a fault in one line, for a table's column.
 inline std::string fault_line(const std::exception& e) {
   const auto* refused = dynamic_cast<const CaseError*>(&e);
   const std::string text = refused && !refused->diagnostics.empty() ? refused->diagnostics.front().message : e.what();

@@ -13,7 +13,7 @@ namespace railstrata {
 /// Contact, then the stresses if they are wanted, then the wall time.
 std::vector<ResultColumn> result_columns(bool stresses);
 
-/// What else a study's table holds of a result: made from its files (study_results.cpp), and its threads.
+/// Further columns of a study's table: made from the result's files (study_results.cpp), and its threads.
 const std::vector<ResultColumn>& study_columns();
 
 /// The row of a column of a study's table by its name; null if there is none.
@@ -30,7 +30,7 @@ std::string csv_cell(const std::string& text);
 /// Empty for a number that does not apply.
 std::string csv_cell(double value);
 
-/// What stands beside the numbers of a result in a table: its patches (0: no result), "ok" or the checks that fail, the
+/// Columns beside the numbers of a result in a table: its patches (0: no result), "ok" or the checks that fail, the
 /// warnings; names separated by "; ".
 struct ResultRemarks {
   int patches = 0;

@@ -17,7 +17,7 @@ struct TableError {
   std::vector<Number> numbers;
 };
 
-/// At `places` places of a fixed sequence of numbers. [Halton1960]
+/// Error at `places` points of a fixed sequence. [Halton1960]
 TableError interpolation_error(const CreepTable& table, int places, const CreepTableOptions& options);
 
 }  // namespace railstrata

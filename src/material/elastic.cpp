@@ -8,7 +8,7 @@ namespace {
 
 Vec3 unit(Vec3 a) { return (1 / norm(a)) * a; }
 
-// Of a tensor minus its eigenvalue: the normal of its rows, by the two that are farthest from parallel.
+// Null direction of a tensor minus its eigenvalue: normal to its rows, from the two that are farthest from parallel.
 Vec3 null_direction(const Sym3& a) {
   const Vec3 rows[3] = {{a.xx, a.xy, a.xz}, {a.xy, a.yy, a.yz}, {a.xz, a.yz, a.zz}};
   Vec3 longest{};

@@ -28,7 +28,7 @@ struct HardeningSet {
 /// R220, R260, R350HT, R400HT, B320, ER7, ER8, ER9, then sets that can be traced to a source.
 const std::vector<HardeningSet>& hardening_sets();
 
-/// By name, capitals aside. Throws CaseError with the nearest name and the list.
+/// The set of a name, not case-sensitive. Throws CaseError with the nearest name and the list.
 const HardeningSet& hardening_set(std::string_view name);
 
 /// Hardening of steel of a tensile strength [Pa], 300 to 2500 MPa. [Waechter2016]

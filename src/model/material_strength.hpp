@@ -16,7 +16,7 @@ double at_depth(const std::vector<StressPoint>& rows, double depth, double Stres
                 const std::string& key);
 
 /// Residual stress of the process at a depth [Pa]: what is given, or a table's, below its last row as
-/// there; nothing if the case does not say it.
+/// there; nothing if the case does not give it.
 StressPoint process_stress(const StrengthSpec& strength, double depth, const std::string& key);
 
 /// Depths count from the top of the material: of rail and wheel the running surface, of a layer its own top.
@@ -26,13 +26,13 @@ class MaterialStrength {
   MaterialStrength(const StrengthSpec& strength, std::string name, std::string key);
 
   /// Pa, uniaxial: a yield strength, a table of them, a grade's, else an estimate from hardness, in this order; NaN
-  /// where the case does not say it. Throws CaseError below the end of a table.
+  /// where the case does not give it. Throws CaseError below the end of a table.
   double yield(double depth) const;
-  /// Vickers; NaN where the case does not say it.
+  /// Vickers; NaN where the case does not give it.
   double hardness(double depth) const;
   /// m, the depth where the strength's table ends; infinite without one.
   double end() const;
-  /// How a strength that was not given is known; empty if it was, or is not known.
+  /// Source of an estimated strength; empty if it was given or is unknown.
   std::string note() const;
 
  private:
@@ -57,7 +57,7 @@ struct PlasticLaw {
   PlasticMaterial at(double depth) const;  ///< below the last row as there
 };
 
-/// None where the material is elastic on purpose (elastic = true) or has no strength. Throws CaseError.
+/// No law where the material is elastic on purpose (elastic = true) or has no strength. Throws CaseError.
 std::optional<PlasticLaw> plastic_law(const MaterialSpec& material, const std::string& name, const std::string& key);
 
 }  // namespace railstrata

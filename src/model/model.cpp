@@ -181,7 +181,7 @@ HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
 
 namespace {
 
-// An element that is turned inside out or flat would be computed without a word.
+// An element that is turned inside out or flat would be computed without a warning.
 void require_sound_mesh(const SweptBody& body, BodyId id, const CaseSpec& spec) {
   for (const BlockQuality& q : measure_quality(body)) {
     if (q.scaled_jacobian_min > 0) continue;

@@ -4,8 +4,8 @@
 
 namespace railstrata {
 
-/// As build_model, with the rail's mesh of another model of the same rail. Whether the patch lies in its fine zone is
-/// the caller's business: a rolling says so (patch_reaches_edge_of_fine_zone).
+/// Like build_model, but with the rail mesh of another model of the same rail. Whether the patch lies in its fine zone
+/// is for the caller: a rolling reports it (patch_reaches_edge_of_fine_zone).
 Model build_model_on_rail(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody& rail);
 
 }  // namespace railstrata

@@ -15,7 +15,7 @@ std::vector<std::size_t> layers_on(const CaseSpec& spec, BodyId body);
 const MaterialSpec& zone_material(const CaseSpec& spec, BodyId body, int zone);
 /// "rail", "wheel", or the layer's name.
 std::string zone_name(const CaseSpec& spec, BodyId body, int zone);
-/// Its table in the case: "material.rail", "layer.0" by the layer's place there.
+/// A zone's table in the case: "material.rail", "layer.0" by the layer's place there.
 std::string zone_key(const CaseSpec& spec, BodyId body, int zone);
 
 }  // namespace railstrata

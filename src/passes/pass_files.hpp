@@ -17,7 +17,7 @@ namespace railstrata {
 
 /// passes.csv: the columns that both methods have.
 Columns<PassRow> pass_columns();
-/// Those of the stationary method; cycle: of one that the pass completes.
+/// Columns of the stationary method; cycle: those of a cycle that the pass completes.
 std::vector<std::string> stationary_columns();
 std::vector<double> stationary_values(const PassRow& row, const std::optional<PassStrain>& cycle);
 /// Writes such a table, a row a pass.
@@ -39,7 +39,7 @@ void write_pass_table(const std::filesystem::path& file, const std::vector<std::
 /// The state, as one table that is whole or not there.
 void write_pass_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                       const SteadyGrid& grid, const PassSeries& series);
-/// Both back: the table as far as the state. Throws CaseError if they are of another grid.
+/// Reads both; the table up to the pass of the state. Throws CaseError if they are of another grid.
 PassSeries read_pass_series(const std::filesystem::path& state, const std::filesystem::path& table,
                             const SteadyGrid& grid);
 
@@ -49,7 +49,7 @@ std::vector<PassPoint> section_points(const RailPasses& rail, const PassSeries& 
 void write_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                     const RailPasses& rail, const PassSeries& series, const PassResult& last);
 
-/// What passes.json says besides the series itself.
+/// Contents of passes.json besides the series itself.
 struct PassAnswer {
   std::string verdict, law;         ///< sentences (passes/pass_words.hpp)
   ShakedownSummary shakedown;       ///< of the elastic stress of the first of the tractions; empty: none

@@ -1,5 +1,5 @@
 #pragma once
-// What passes.json has by either method.
+// Contents of passes.json common to both methods.
 #include <string>
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace railstrata {
 /// The row of the last pass, but for its number; null for what is not finite.
 nlohmann::ordered_json last_pass_json(const std::vector<std::string>& columns, const std::vector<double>& row);
 
-/// How many points there are of each class. points: the last passes of each; whole: the class of the series.
+/// Number of points of each class. points: the last passes of each; whole: the class of the series.
 nlohmann::ordered_json points_json(const std::vector<std::vector<PassStrain>>& points, PassClass whole);
 
 /// Passes until the ductility [equivalent strain] is used up, and between which two numbers that lies; null: never by
@@ -28,7 +28,7 @@ struct ZoneTop {
 };
 nlohmann::ordered_json zones_json(const CaseSpec& spec, const std::vector<ZoneTop>& zones);
 
-/// Where the points are whose loops are in loops.csv.
+/// Positions of the points whose loops are in loops.csv.
 nlohmann::ordered_json loops_json(const std::vector<PassLoop>& loops);
 
 }  // namespace railstrata

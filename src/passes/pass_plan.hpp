@@ -1,5 +1,5 @@
 #pragma once
-// Where the wheels of a series of passes run across the rail and with what traction: [passes] of a case.
+// Lateral position and traction of the wheels of a series of passes: [passes] of a case.
 //
 // Pass n takes value n of each list, which begins again after its last one, and an offset of a normal distribution cut
 // at three deviations. The offset is a function of the seed and n alone: the same however the passes are cut by
@@ -10,7 +10,7 @@
 
 namespace railstrata {
 
-/// Of one pass.
+/// Position and traction of one pass.
 struct PassPlan {
   double lateral = 0;        ///< m, to the field side
   std::size_t traction = 0;  ///< place among traction_coefficients; 0 without them

@@ -9,7 +9,7 @@
 
 namespace railstrata {
 
-/// Where a series of passes stands.
+/// State of a series of passes.
 struct PassSeries {
   std::vector<std::vector<double>> table;  ///< passes.csv, in its units
   std::vector<PassStrain> strains;         ///< the largest of all points, of every pass
@@ -19,17 +19,17 @@ struct PassSeries {
   std::vector<std::vector<PassStrain>> points;  ///< per point of the section its last cycles, kPointPasses at most
   std::vector<std::array<double, 7>> begun;  ///< per point plastic strain where the cycle began, Δp since; empty: none
 };
-/// What classify() asks for at a point.
+/// Number of passes that classify() needs at a point.
 inline constexpr std::size_t kPointPasses = 4;
 
-/// Adds a pass, `row` of it and what it has done to the points. Of a cycle of several passes Δp is the sum over them
-/// and the net strain that from its beginning to its end.
+/// Adds a pass: its `row` and its effect on the points. Of a cycle of several passes Δp is the sum over them and the
+/// net strain that from its beginning to its end.
 void add_pass(const PassRow& row, const PassResult& result, PassSeries& series);
-/// Of the whole cycles; its rate is per pass.
+/// Verdict from the whole cycles; its rate is per pass.
 PassVerdict verdict_of(const PassSeries& series);
 /// Adds a pass to the last ones of a point.
 void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes);
-/// For passes/pass_words.hpp; strains: of every pass, the last one that of the row.
+/// Progress for passes/pass_words.hpp; strains: of every pass, the last one that of the row.
 PassStanding standing_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last);
 
 }  // namespace railstrata

@@ -8,7 +8,7 @@
 
 namespace railstrata {
 
-/// A point of the section whose way is told.
+/// A point of the section whose history over the passes is recorded.
 struct WayPoint {
   std::string name;       ///< "governing", "surface", "above the border", "below the border"
   std::size_t point = 0;  ///< SteadyGrid::point

@@ -11,7 +11,7 @@
 
 namespace railstrata {
 
-/// Of a way by the stationary method.
+/// Loops of a history by the stationary method.
 std::vector<PassLoop> loops_of(const RailPasses& rail, const PassWay& way);
 /// loops.csv; remarks: "#" lines before its own.
 void write_loops(const std::filesystem::path& file, std::vector<std::string> remarks,

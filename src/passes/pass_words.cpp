@@ -40,7 +40,7 @@ std::string class_words(const PassStanding& s) {
     case PassClass::transient:
       break;
   }
-  return fmt::format("No claim yet: {} net strain in pass {} at {}{}; more passes will tell.",
+  return fmt::format("No claim yet: {} net strain in pass {} at {}{}; more passes will show.",
                      strain_text(s.verdict.rate), s.last.pass, where,
                      s.verdict.trend > kConstant ? ", falling" + trend_text(s.verdict) : "");
 }

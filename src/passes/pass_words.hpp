@@ -1,5 +1,5 @@
 #pragma once
-// What passes have come to, in words: the verdict of a series and the statement of the law behind it.
+// The verdict of a series of passes in words, and the statement of the law behind it.
 #include <string>
 
 #include "material/plastic.hpp"
@@ -7,7 +7,7 @@
 
 namespace railstrata {
 
-/// Where a series stands.
+/// Progress of a series.
 struct PassStanding {
   PassVerdict verdict;
   PassRow last;
@@ -19,7 +19,7 @@ struct PassStanding {
 /// where the strain is no longer small.
 std::string pass_words(const PassStanding& standing);
 
-/// What a law allows in the long run, whatever the passes so far look like: "perfect plasticity: …".
+/// Long-term behaviour that a law allows, for any course of the passes so far: "perfect plasticity: …".
 std::string law_words(const PlasticParameters<double>& law);
 
 }  // namespace railstrata

@@ -105,7 +105,7 @@ RowModuli moduli_of(const HalfSpaceMaterial& m) {
   return {e.lambda, e.mu};
 }
 
-/// Rows with what the case says of their material.
+/// Rows with their material from the case.
 class Rows {
  public:
   Rows(const CaseSpec& spec, const LayeredHalfSpace& body) : body_(body) {
@@ -117,7 +117,7 @@ class Rows {
       if (!laws_.back()) {
         if (!material.strength.elastic)
           notes_.push_back(
-              fmt::format("{}: the case says no strength of it, and it stays elastic: give "
+              fmt::format("{}: the case gives no strength of it, and it stays elastic: give "
                           "{}.yield_strength, or {}.elastic = true",
                           name, key, key));
         continue;
@@ -204,8 +204,8 @@ void require_known(const CaseSpec& spec, const std::vector<BemResult>& solutions
                       "move the wheel (geometry.lateral_shift) until it touches at one place");
   if (!rows.any())
     throw CaseError(
-        "the case does not say how strong the rail is, or its layers, or has elastic = true for all that it "
-        "says a strength of: nothing can yield",
+        "the case gives no strength of the rail or its layers, or has elastic = true for all that it "
+        "gives a strength of: nothing can yield",
         "give yield_strength = \"500 MPa\", or grade = \"R260\", in [material.rail] or a [[layer]]");
   if (const double most = kFarthest * f.y.half(); !f.line && farthest_pass(spec.passes) > most)
     throw CaseError(

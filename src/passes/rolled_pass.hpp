@@ -1,7 +1,6 @@
 #pragma once
-// What a pass by the finite elements has left in the rail: plastic strain of the section and residual stress, point by
-// point and as a row of a table. A point is a quadrilateral of the elements that may yield, with the means over its
-// Gauss points.
+// Result of a pass by the finite elements: plastic strain of the section and residual stress, point by point and as a
+// row of a table. A point is a quadrilateral of the elements that may yield, with the means over its Gauss points.
 #include <array>
 #include <vector>
 
@@ -28,12 +27,12 @@ struct RolledPass {
 /// |E^p|, the norm, of the point where it is largest: √(3/2) times the equivalent strain.
 double largest_plastic_norm(const std::vector<PassPoint>& points);
 
-/// Of the rail at rest (fem/rail_at_rest.hpp) with `after` at all stations. base: whose contact point gives the axes;
-/// before: of the same quadrilaterals; middle: m, of the steady stations.
+/// From the rail at rest (fem/rail_at_rest.hpp) with `after` at all stations. base: the model whose contact point gives
+/// the axes; before: the same quadrilaterals before the pass; middle: m, of the steady stations.
 RolledPass rolled_pass(const RollingSystem& system, const Model& base, const PlasticSection& before,
                        const PlasticSection& after, const RailBefore& at_rest, double middle);
 
-/// Up to here the stations count as steady.
+/// Limit of RolledPass::uneven up to which the stations count as steady.
 inline constexpr double kLargestUnevenness = 0.1;
 /// RolledPass::uneven, from the sections of both halves, all of the same quadrilaterals.
 double unevenness(const PlasticSection& before, const PlasticSection& first, const PlasticSection& second);

@@ -129,7 +129,7 @@ void write_rolled_state(const std::filesystem::path& file, const std::vector<std
       }
       for (int k = 0; k < section.point_entries; ++k) put(section.point(n, pair)[k]);
     }
-  if (section.quads.empty()) {  // nothing is hot: one row says how many passes and which creepage
+  if (section.quads.empty()) {  // nothing is hot: one row has the number of passes and the creepage
     for (CsvColumn& column : columns) column.values.push_back(0);
     columns[0].values[0] = series.passes;
     columns[2].values[0] = kNoQuad;

@@ -11,7 +11,7 @@
 
 namespace railstrata {
 
-/// How a pass is rolled.
+/// Lengths and steady range of a pass.
 struct PassRoll {
   double half_length = 0;   ///< m, of Hertz's ellipse along the rail
   double length = 0;        ///< m, from where the wheel is put on to where it is lifted off
@@ -28,7 +28,7 @@ void write_rolled_table(const std::filesystem::path& file, const std::vector<std
 /// The state as one table that is whole or not there: a row a pair of Gauss points.
 void write_rolled_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                         const RolledSeries& series);
-/// Both back: the table as far as the state. Throws CaseError if they do not belong together.
+/// Reads both; the table up to the pass of the state. Throws CaseError if they do not belong together.
 RolledSeries read_rolled_series(const std::filesystem::path& state, const std::filesystem::path& table);
 
 /// residual.csv, profile.csv, section.vtp, loops.csv (the last two not where nothing has yielded) and passes.json.

@@ -16,7 +16,7 @@ struct RolledSeries {
   double creepage_shift = 0;  ///< by what the creepage for a wanted traction differs from the estimate
 };
 
-/// Of the contact in the middle of a pass's end.
+/// Contact in the middle of the evaluated end of a pass.
 struct PassContact {
   double traction = 0, creepage = 0;  ///< F_x over F_z on the wheel; longitudinal
   double p_max = 0;                   ///< Pa

@@ -22,7 +22,7 @@ Sym3 green_strain(const Body& rail, const Field& u, Quad q, int station) {
           0.5 * (h[0].z + h[2].x + dot(h[0], h[2]))};
 }
 
-/// Of the points; none where nothing has yielded.
+/// The governing point; null where nothing has yielded.
 const PassPoint* governing(const std::vector<PassPoint>& points) {
   const auto most = [&](auto&& of) {
     return std::max_element(points.begin(), points.end(),

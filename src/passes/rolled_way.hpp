@@ -9,17 +9,17 @@
 
 namespace railstrata {
 
-/// Of the rail at the end of a rolling.
+/// State of the rail at the end of a rolling.
 struct RolledRail {
   Field u, history;
   double wheel = 0;              ///< m, where the axle is
   double behind = 0, ahead = 0;  ///< m, stations of the loops: between wheel - behind and wheel + ahead
 };
 
-/// From well ahead of the wheel to well behind it, at the elements' centres; p: mean of the points.
-/// The governing point: where the net strain of the pass is largest; where nothing flowed, where plastic strain is
-/// largest. Then in its column of the fine zone the first row, and the rows above and below the border of each layer.
-/// None where nothing has ever yielded. pass: of `section`'s quadrilaterals.
+/// Loops from well ahead of the wheel to well behind it, at the elements' centres; p: mean of the points. The governing
+/// point: where the net strain of the pass is largest; where nothing flowed, where plastic strain is largest. Then in
+/// its column of the fine zone the first row, and the rows above and below the border of each layer. None where nothing
+/// has ever yielded. pass: of `section`'s quadrilaterals.
 std::vector<PassLoop> rolled_loops(const RollingSystem& system, const Model& base, const PlasticSection& section,
                                    const RolledPass& pass, const RolledRail& rail);
 

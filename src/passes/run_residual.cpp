@@ -81,7 +81,7 @@ RunResidual run_residual(const RollingSystem& system, const RollingState& end) {
 }
 
 std::string words_of(const RunResidual& residual) {
-  if (!residual.none.empty()) return fmt::format("no residual stress is told: {}", residual.none);
+  if (!residual.none.empty()) return fmt::format("residual stress not available: {}", residual.none);
   const PassRow& row = residual.pass.row;
   return fmt::format(
       "residual stress behind the wheel: {:.0f} MPa along, {:.0f} MPa across at the most compressive "

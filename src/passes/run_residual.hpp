@@ -1,6 +1,6 @@
 #pragma once
-// What a run with run.plasticity leaves in the rail: plastic strain of the section and the residual stress of the rail
-// at rest, when the wheel has gone.
+// Residual state after a run with run.plasticity: plastic strain of the section and residual stress of the rail at
+// rest, without the wheel.
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,12 +33,12 @@ struct ResidualNumber {
 
   std::string key() const { return std::string(name) + std::string(unit.key_ending); }
 };
-/// In the order of the file. What writes it and what documents it take them from here.
+/// All numbers, in the order of the file; its writer and its documentation use them.
 std::span<const ResidualNumber> residual_numbers();
 
-/// One line for the screen: the most compressive stresses, or why there are none.
+/// One line for the screen: the most compressive stresses, or the reason why there are none.
 std::string words_of(const RunResidual& residual);
-/// Where its stations are not steady; else empty.
+/// A warning where the stations are not steady; else empty.
 std::string doubt_of(const RunResidual& residual);
 
 }  // namespace railstrata

@@ -1,6 +1,6 @@
 #pragma once
-// A quantity of a record, said once: what it is called, its unit and where a record has it. Tables, JSON and VTK arrays
-// are written from lists of columns (record/csv.hpp, record/json.hpp, record/vtk.hpp); a table that shows some of them
+// A quantity of a record, defined once: its name, its unit and where a record has it. Tables, JSON and VTK arrays are
+// written from lists of columns (record/csv.hpp, record/json.hpp, record/vtk.hpp); a table that shows some of them
 // selects them by symbol.
 #include <algorithm>
 #include <array>
@@ -70,7 +70,7 @@ Columns<Record> of_part(const Columns<Part>& columns, Get part) {
   return out;
 }
 
-/// Those of these symbols, in their order.
+/// The columns of these symbols, in their order.
 template <class Record>
 Columns<Record> select(const Columns<Record>& columns, std::initializer_list<std::string_view> symbols) {
   Columns<Record> out;

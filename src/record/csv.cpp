@@ -26,7 +26,7 @@ std::string heading(const std::vector<std::string>& provenance, const std::vecto
   return out + fmt::format("{}\n", fmt::join(names, ","));
 }
 
-/// What does not apply (NaN) is left empty.
+/// NaN (not applicable) is written as an empty cell.
 std::string row_text(std::span<const double> row) {
   std::string text;
   for (std::size_t k = 0; k < row.size(); ++k) {
@@ -42,7 +42,7 @@ std::string row_text(std::span<const double> row) {
                   line > 0 ? fmt::format("{}:{}", file.string(), line) : file.string());
 }
 
-/// What earlier programs called a column.
+/// Names of columns in files of earlier versions, with the present names.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kPresentNames{
     {{"tau_xy_MPa", "sigma_xy_MPa"},
      {"tau_yz_MPa", "sigma_yz_MPa"},

@@ -1,7 +1,7 @@
 #pragma once
-// Tables as text: "#" lines that say where the numbers come from, one header row of names with units, then rows of
-// numbers with a decimal point that read back to the same doubles; what is not a number is left empty. Errors:
-// EnvironmentError for the disk, std::invalid_argument for columns of unequal length or names with commas.
+// Tables as text: "#" lines with the origin of the numbers, one header row of names with units, then rows of numbers
+// with a decimal point that read back to the same doubles; what is not a number is left empty. Errors: EnvironmentError
+// for the disk, std::invalid_argument for columns of unequal length or names with commas.
 #include <cassert>
 #include <filesystem>
 #include <initializer_list>

@@ -1,5 +1,5 @@
 #pragma once
-// What output_file asks of the system. Where it fails, errno says why.
+// System calls of output_file. After a failure errno has the reason.
 #include <cstddef>
 #include <filesystem>
 #include <string_view>

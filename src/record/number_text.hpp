@@ -9,7 +9,7 @@ namespace railstrata {
 /// A number of so many significant digits without an exponent where it can be avoided: "1067", "0.04381", "1.2e-09".
 std::string significant(double value, int digits);
 
-/// So many decimals, never "-0.00".
+/// A number with so many decimals, never "-0.00".
 std::string fixed(double value, int decimals);
 
 /// "1067 MPa", "24.6 %", "inside".

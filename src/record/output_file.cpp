@@ -49,7 +49,7 @@ int renamed(const fs::path& from, const fs::path& to) {
   return error.default_error_condition().value();
 }
 
-/// Whoever reads an old file of this name keeps it, and where a link leads nothing is changed.
+/// A reader of the old file keeps it; the target of a link is not changed.
 int open_anew(const fs::path& path) {
   std::error_code ignored;
   const fs::file_status there = fs::symlink_status(path, ignored);

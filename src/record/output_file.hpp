@@ -29,9 +29,9 @@ class OutputFile {
 
 /// ".part-<host>-<process id>": ends the name of a file or folder that this process is still working on.
 std::string part_ending();
-/// The name ends so, whoever is or was at work.
+/// Whether the name has such an ending, of any process.
 bool is_part(const std::string& name);
-/// The name ends so, and its process, of this machine, is no more.
+/// Whether it has one of a process of this machine that has ended.
 bool is_abandoned_part(const std::string& name);
 
 /// The folders above one that is to be made: made too, or there already (a result's own folder that was moved away is

@@ -1,5 +1,5 @@
 #pragma once
-// What tells this process from every other one, on any machine.
+// Identifies this process among all others, on any machine.
 #include <filesystem>
 #include <string>
 
@@ -8,10 +8,10 @@ namespace railstrata {
 /// The name of this machine in its network.
 std::string host_name();
 
-/// The processor's name as the system tells it; empty if it does not.
+/// The processor's name as the system reports it; empty if it does not.
 std::string cpu_name();
 
-/// The file of the program that this process runs; empty if the system does not tell.
+/// The file of the program that this process runs; empty if the system does not report it.
 std::filesystem::path program_file();
 
 /// The number of this process on this machine.

@@ -28,7 +28,7 @@ struct Unit {
 };
 
 namespace unit {
-/// Of tables and people alike.
+/// The same unit in tables and on screen.
 constexpr Unit both(std::string_view key_ending, std::string_view column_ending, double factor,
                     std::string_view shown) {
   return {key_ending, column_ending, factor, shown, factor};

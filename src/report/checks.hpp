@@ -7,7 +7,7 @@
 
 namespace railstrata {
 
-/// What the runs say of themselves, and every finite element run against a half-space run of the same case (limits:
+/// The checks of each run, and every finite element run against a half-space run of the same case (limits:
 /// judge/check_limits.hpp; largest von Mises stress below the rail's surface where it lies deeper than an element). The
 /// peak of q at the border of stick and slip is as narrow as a cell shows it: q_max is compared on cells as large as
 /// the elements where that solution is there (shear_on_elements). For two runs of different cases the options that

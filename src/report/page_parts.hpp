@@ -1,5 +1,5 @@
 #pragma once
-// What pages have in common: texts that stand inside a script element, and scripts by their hashes.
+// Common parts of pages: texts inside a script element, and scripts by their hashes.
 #include <string>
 #include <string_view>
 

@@ -1,5 +1,5 @@
 #pragma once
-// From a result folder to a run of a report.
+// Reads a result folder as a run of a report.
 #include <filesystem>
 
 #include "report/report.hpp"

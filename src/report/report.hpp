@@ -1,6 +1,5 @@
 #pragma once
-// What a report shows: a list of runs, the checks that say whether to trust them, and for a study tables and charts
-// over all of them.
+// Data of a report: a list of runs, the checks of their quality, and for a study tables and charts over all of them.
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -80,7 +79,7 @@ struct ReportMaps {
   std::vector<std::string> names;  ///< of the maps
 };
 
-/// What becomes of a case, and its factor to shakedown under any traffic; or a value alone.
+/// Verdict of a case and its factor to shakedown under any traffic; or a value alone.
 struct ReportGridCell {
   std::string verdict;                                       ///< empty: no result, or a value alone
   double factor = std::numeric_limits<double>::quiet_NaN();  ///< or the value

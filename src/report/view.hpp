@@ -5,7 +5,7 @@
 namespace railstrata {
 
 /// Writes view.py into a result folder with its absolute path: the script finds its files beside itself, and by
-/// that path where it is not told where it lies. `place`, if given: the path that the folder will have in the end.
+/// that path where it does not know its own place. `place`, if given: the path that the folder will have in the end.
 void write_view_script(const std::filesystem::path& folder, const std::filesystem::path& place = {});
 
 }  // namespace railstrata

@@ -19,7 +19,7 @@ import pathlib
 import subprocess
 import sys
 
-WRITTEN_TO = ""  # filled in by RailStrata; ParaView's window does not tell a script where it lies
+WRITTEN_TO = ""  # filled in by RailStrata; ParaView's window does not pass a script its own path
 FOLDER = pathlib.Path(__file__).resolve().parent if "__file__" in globals() else pathlib.Path(WRITTEN_TO)
 STEEL = (0.72, 0.75, 0.78)
 DARK = (0.2, 0.2, 0.2)

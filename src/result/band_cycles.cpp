@@ -47,7 +47,7 @@ Sym3 in_column_frame(const Sym3& stress, double angle, double radius, double x) 
   return s;
 }
 
-/// What touches at a point of a contact field, linear between its points.
+/// Pressure, traction and state at a point of a contact field, linear between its points.
 struct TouchAt {
   double p = 0, q = 0;  ///< Pa
   ContactState state = ContactState::separated;

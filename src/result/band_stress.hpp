@@ -32,7 +32,7 @@ struct BandSurface {
   double radius = 0;   ///< m, of the wheel; 0: the rail
 };
 
-/// Of an element of the band: 0 the matrix, then the layers from the surface down.
+/// Layer of an element of the band: 0 the matrix, then the layers from the surface down.
 int layer_of(const BandStress& band, int column, int row);
 
 /// Stress at the upper face of row `row`, which is an interface: extrapolated linearly from the two nearest centres

@@ -4,8 +4,8 @@
 
 namespace railstrata {
 
-/// Of layers on rail and wheel, residual stress of the process included; NaN where there is no layer, or where the case
-/// gives nothing to hold the stress against.
+/// Worst values of layers on rail and wheel, residual stress of the process included; NaN where there is no layer, or
+/// where the case gives no strength to compare with.
 struct LayerWorst {
   double sigma_1 = kNotApplicable;            ///< Pa, the largest principal stress in a layer
   double share_of_tensile = kNotApplicable;   ///< of its tensile strength; 1: it cracks

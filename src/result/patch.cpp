@@ -93,8 +93,8 @@ double slipping_length(const ContactField& f, int column, const Chord& chord) {
   return length;
 }
 
-/// What slips of the area of the chords. Beyond the outermost columns chords end like the root of the distance to the
-/// side; those in slip keep their length until the chord is no longer, as Carter's strips do.
+/// Slipping share of the chords' area. Beyond the outermost columns the chord length falls as the square root of the
+/// distance to the side; the slipping part keeps its length until it is the whole chord, as in Carter's strips.
 double slipping_share_of_chords(const ContactField& f) {
   struct Strip {
     double y, length, slipping;

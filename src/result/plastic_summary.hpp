@@ -1,11 +1,11 @@
 #pragma once
-// What yielded in a run, how much and where.
+// Plastic strain of a run: how much and where.
 #include "fem/rolling_run.hpp"
 #include "result/summary.hpp"
 
 namespace railstrata {
 
-/// Of a case with run.plasticity. Place: the element with the largest accumulated plastic strain; depth below the
+/// For a case with run.plasticity. Place: the element with the largest accumulated plastic strain; depth below the
 /// surface along its normal in the fine zone, deeper below the rigid contact point.
 PlasticSummary plastic_summary(const RollingSystem& system, const RunResult& run);
 

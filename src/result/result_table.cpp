@@ -44,7 +44,7 @@ constexpr RoundOff kOfForce{kNoise, kNormalForce}, kOfMoment{kNoise, kNormalForc
     kOfWork{kNoise, kNormalForce, "/contact/approach_m"};
 constexpr RoundOff kOfCreepage{1e-10}, kOfSpin{1e-8}, kOfAngle{1e-9};
 
-/// What is said of a number besides; nothing: it stands in summary.json, from both engines.
+/// Marks of a number: where it appears and which engine has it. None: in summary.json, from both engines.
 enum Mark : unsigned { kColumn = 1, kShown = 2, kCompared = 4, kFem = 8, kBem = 16, kOfAll = 32 };
 constexpr unsigned kFile = 0, kMain = kColumn | kShown | kCompared;
 
@@ -300,7 +300,7 @@ std::vector<ResultNumber> damage_numbers() {
               "Largest |q|/p - k/p of a point", kCompared)};
 }
 
-/// What stands beside the flash temperature.
+/// Numbers on heat: the flash temperature.
 std::vector<ResultNumber> heat_numbers() {
   using D = DamageSummary;
   return {row("temperature_rise_lower", kKelvins, damage<&D::temperature_rise_lower>, "flash temperature, at least",

@@ -16,12 +16,12 @@
 
 namespace railstrata {
 
-/// Of the factors in summary.json, /shakedown/factors.
+/// Place of the factors in summary.json, /shakedown/factors.
 inline constexpr std::string_view kShakedownGroup = "shakedown/factors";
 
 enum class HadBy { both_engines, finite_elements, half_spaces };
 
-/// Of layers and interfaces in summary.json.
+/// Place of layers and interfaces in summary.json.
 inline constexpr std::string_view kLayersGroup = "layers";
 
 /// Below which size a number is what round-off and the solvers' tolerances leave, and screen and page show 0: `share`
@@ -49,7 +49,7 @@ struct ResultNumber : Column<Summary> {
   std::string column_name() const;  ///< "p_max_MPa"
 };
 
-/// In the order of summary.json.
+/// All numbers, in the order of summary.json.
 const std::vector<ResultNumber>& result_numbers();
 
 /// The row of a number by its path; null if there is none.
@@ -100,7 +100,7 @@ struct ResultColumn {
   Unit shown_unit{};         ///< for people, where it is not the column's own: a share as per cent
   std::string_view doc{};    ///< one line
   bool of_stress = false;    ///< costs more than the contact
-  bool of_strength = false;  ///< empty where no case says a strength
+  bool of_strength = false;  ///< empty where no case gives a strength
   bool of_all_patches = false;
   bool comparable = true;
   int digits = 4;

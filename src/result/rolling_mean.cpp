@@ -20,7 +20,7 @@ void set_states(ContactField& f, Slips&& slips) {
     f.state[i] = f.p[i] <= 0 ? ContactState::separated : slips(i) ? ContactState::slip : ContactState::stick;
 }
 
-/// What happened between the samples, in the points of the moving field.
+/// Slip and friction power between the samples, at the points of the moving field.
 struct Passage {
   std::vector<double> slip_share;                    ///< of the time in contact
   std::vector<double> friction_power, pressed_slip;  ///< W/m², ContactField

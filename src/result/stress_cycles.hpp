@@ -21,12 +21,12 @@ struct CycleRow {
 /// 4 s; of a layer at least four. Both sides of every interface are rows.
 std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter);
 
-/// Of a patch of a half-space result: samples at cells from 3 semi-axes behind the patch's middle to 3 ahead of it, and
-/// 1.5 to either side, at most about 90 and 50. y is that of the patch's grid.
+/// For a patch of a half-space result: samples at cells from 3 semi-axes behind the patch's middle to 3 ahead of it,
+/// and 1.5 to either side, at most about 90 and 50. y is that of the patch's grid.
 StressHistory rail_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows);
 StressHistory wheel_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows);
 
-/// Of the contact band of a finite element body: the surface (recovered at the nodes, with the peaks between them,
+/// For the contact band of a finite element body: the surface (recovered at the nodes, with the peaks between them,
 /// result/surface_peaks.hpp), the elements' centres, and both sides of every interface. Samples are at the nodes and
 /// half-way between them, in x and y: the surface is the mean of its nodes between them, what lies below is cubic
 /// between the centres. Each column in the axes of its own place of the surface; y from the rigid contact point, in the

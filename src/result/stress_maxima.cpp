@@ -162,7 +162,7 @@ StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sam
   return best;
 }
 
-/// Of the middle of the contact band.
+/// Poisson's ratio at the surface in the middle of the contact band.
 double surface_poisson(const SweptBody& body, const std::vector<Elastic>& at_surface) {
   return poisson(at_surface[body.blocks[body.contact.block].section.quad_material[body.contact.columns / 2]]);
 }

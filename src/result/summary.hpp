@@ -62,7 +62,7 @@ struct EnergySummary {
   double closure = kNotApplicable, hourglass_share = kNotApplicable;
 };
 
-/// Of bodies that yield, at the end of the rolling.
+/// Plastic strain of bodies that yield, at the end of the rolling.
 struct PlasticSummary {
   double strain = kNotApplicable;       ///< largest sqrt(2/3 Ep:Ep) of any point of an element
   double accumulated = kNotApplicable;  ///< largest accumulated plastic strain p
@@ -75,7 +75,7 @@ struct PlasticSummary {
   std::string body, zone;         ///< where it is; empty: nothing has yielded
 };
 
-/// By what the elastic stress of the case may be multiplied (damage/shakedown.hpp).
+/// Factors by which the elastic stress of the case may be multiplied (damage/shakedown.hpp).
 struct ShakedownFactors {
   double first_yield = kNotApplicable, wandering = kNotApplicable, single_track = kNotApplicable,
          upper = kNotApplicable, kinematic = kNotApplicable;
@@ -94,10 +94,10 @@ struct BodyShakedown {
   std::vector<ZoneShakedown> zones;
   std::vector<std::string> notes;  ///< strengths that are estimates, or not known; what the cells leave uncertain
 };
-/// Of the bodies whose strength is known.
+/// Shakedown factors of the bodies whose strength is known.
 struct ShakedownSummary {
   std::vector<BodyShakedown> bodies;
-  /// Of a factor over the bodies; NaN without bodies, or where one of them lacks it.
+  /// The least value of a factor over the bodies; NaN without bodies, or where one of them lacks it.
   double least(double ShakedownFactors::*factor) const;
   /// The body that decides the factor for wandering traffic; null without bodies.
   const BodyShakedown* governing() const;
@@ -150,7 +150,8 @@ struct BodyFatigue {
   std::vector<InterfaceSummary> interfaces;
 };
 
-/// What one passage does to the rail's surface (judge/streamlines.hpp); NaN where friction or data are missing.
+/// Wear and damage of the rail's surface in one passage (judge/streamlines.hpp); NaN where friction or data are
+/// missing.
 struct DamageSummary {
   double t_gamma = kNotApplicable, t_gamma_with_spin = kNotApplicable;  ///< N
   double friction_energy = kNotApplicable;                              ///< J per m of rail, from the cells

@@ -1,5 +1,5 @@
 #pragma once
-// What a transient's history says of one of its states: a row of history.csv.
+// One state of a transient: a row of history.csv.
 #include "bem/transient.hpp"
 
 namespace railstrata {

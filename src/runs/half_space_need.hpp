@@ -1,5 +1,5 @@
 #pragma once
-// What a half-space solution of a case will cost, found before it is begun.
+// Time and memory of a half-space solution, estimated before it starts.
 #include "case/case_fwd.hpp"
 #include "model/model.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What librailstrata.so offers to other programs: a case file in, plain values out. Nothing is printed or written, no
+// Interface of librailstrata.so to other programs: a case file in, plain values out. Nothing is printed or written, no
 // signal is caught. Only headers that need nothing but the C++ standard library are installed, and no type in them
 // depends on the width of a SIMD pack: the loader may put a library for another instruction set below a program.
 #include <string>

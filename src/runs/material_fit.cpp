@@ -25,14 +25,15 @@ std::string file_text(const std::filesystem::path& file) {
   return read_text_file(file, "name a CSV file of a test; cases/material has examples");
 }
 
-/// What a fit refuses, at its place.
+/// Adds the place to the error of a fit.
 template <class Work>
 auto at_place(const std::string& place, Work&& work) {
   try {
     return work();
   } catch (const std::invalid_argument& e) {
     throw CaseError(e.what(),
-                    "docs/material.md says what a fit needs: enough rows over the plastic strains of interest", place);
+                    "docs/material.md describes what a fit needs: enough rows over the plastic strains of interest",
+                    place);
   }
 }
 
@@ -70,7 +71,7 @@ namespace {
 
 constexpr double kDoubtful = 0.05, kNoClaim = 0.1;  // of plastic strain
 
-/// Percents without their unit look like this: the range of strains ends at 0.5. Nothing is said up to `from`.
+/// Strains above 0.5 are probably per cent without a unit. No message up to `from`.
 void note_large_strains(const std::vector<CurvePoint>& points, const std::string& place, double from,
                         std::vector<std::string>& notes) {
   double largest = 0;
@@ -83,7 +84,7 @@ void note_large_strains(const std::vector<CurvePoint>& points, const std::string
                            : "the law is one of small strain, stresses are some per cent off"));
 }
 
-/// Of compression, as the law has it: with both signs changed.
+/// A compression curve as the law has it: with both signs changed.
 std::vector<CurvePoint> as_tension(std::vector<CurvePoint> curve, const std::string& place,
                                    std::vector<std::string>& notes) {
   const auto pulled = [](const CurvePoint& p) { return p.stress > 0; };
@@ -100,7 +101,7 @@ void note_rate_at_edge(const PlasticParameters<double>& law, const std::vector<C
   if (law.saturation == 0 || (law.rate > kNear * bounds.low && kNear * law.rate < bounds.high)) return;
   notes.push_back(
       fmt::format("{}: the rate b = {:.4g} lies at the edge of its search, {:.4g} to {:.4g}: the curve does "
-                  "not tell it; give points of {} plastic strains",
+                  "not determine it; give points of {} plastic strains",
                   place, law.rate, bounds.low, bounds.high, law.rate <= kNear * bounds.low ? "larger" : "smaller"));
 }
 
@@ -121,7 +122,7 @@ MaterialFit fit_curves(MaterialCurves curves) {
   });
   out.whole = out.stabilised;
   if (curves.monotonic.empty()) return out;
-  constexpr double kElastic = 2e-4;  // of plastic strain: a tensile test tells nothing of less
+  constexpr double kElastic = 2e-4;  // plastic strain; a tensile test does not resolve less
   note_large_strains(curves.monotonic, curves.monotonic_place, kNoClaim, out.notes);  // tension goes to some per cent
   out.monotonic = as_tension(std::move(curves.monotonic), curves.monotonic_place, out.notes);
   std::erase_if(out.monotonic, [](const CurvePoint& p) { return !(p.plastic_strain > kElastic); });
@@ -158,7 +159,7 @@ std::vector<std::string> fit_remarks(const MaterialFit& fit, const std::string& 
     out.push_back(fmt::format("and to {}: error {:.2f} %, {:.2f} % at most", monotonic, kToPercent * fit.whole.error,
                               kToPercent * fit.whole.largest_error));
   else
-    out.emplace_back("yield_strength is that of the stabilised cycle: a monotonic curve (--monotonic) tells Q and b");
+    out.emplace_back("yield_strength is that of the stabilised cycle: a monotonic curve (--monotonic) gives Q and b");
   return out;
 }
 

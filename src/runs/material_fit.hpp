@@ -9,8 +9,8 @@
 
 namespace railstrata {
 
-/// What is fitted: amplitudes of stabilised cycles or one stabilised loop, and a monotonic curve beside it. File names
-/// empty: not given.
+/// Test data of a fit: amplitudes of stabilised cycles or one stabilised loop, and a monotonic curve beside it. File
+/// names empty: not given.
 struct MaterialTests {
   std::filesystem::path loop, amplitudes, monotonic;
   int backstresses = 0;  ///< 0: as many as lower the error

@@ -123,7 +123,7 @@ ChosenLaw law_of(const LoadedCase& card, const ChosenMaterial& chosen, double de
   if (!law)
     throw CaseError(
         chosen.spec.strength.elastic ? fmt::format("{} is elastic on purpose: there is no law to drive", chosen.key)
-                                     : fmt::format("{} does not say where the material begins to yield", chosen.key),
+                                     : fmt::format("{} does not give where the material begins to yield", chosen.key),
         "give yield_strength = \"500 MPa\", or a ready set such as hardening = \"R260\"", card.file.string());
   return {law->at(depth), law->notes};
 }

@@ -12,7 +12,7 @@
 
 namespace railstrata {
 
-/// What one time through the rows of a path leaves.
+/// Result of one cycle through the rows of a path.
 struct MaterialCycle {
   int number = 0;               ///< from 1 on
   std::array<double, 6> net{};  ///< change of plastic strain
@@ -34,12 +34,12 @@ struct ChosenMaterial {
 /// word: "rail", "wheel", "layer.0" or a layer's name. Throws CaseError: the card has no such.
 ChosenMaterial choose_material(const LoadedCase& card, const std::string& word);
 
-/// How it yields at a depth [m].
+/// The law of yielding at a depth [m].
 struct ChosenLaw {
   PlasticMaterial material;
   std::vector<std::string> notes;  ///< what is an estimate
 };
-/// Throws CaseError: it is elastic on purpose, or does not say where it yields; faults of its laws.
+/// Throws CaseError: it is elastic on purpose, or has no yield strength; faults of its laws.
 ChosenLaw law_of(const LoadedCase& card, const ChosenMaterial& chosen, double depth);
 
 /// Goes through the rows `cycles` times. Throws CaseError with the row's place where the material cannot follow,
@@ -55,7 +55,7 @@ std::vector<CsvColumn> cycle_columns(const MaterialRun& run);
 /// Loops of the components that move most, and the plastic strain along the path or, of several cycles, by cycle.
 std::string path_picture(const std::string& title, const MaterialRun& run, const std::vector<std::string>& remarks);
 
-/// Of several cycles in fewer than 400 increments a row: that these overestimate ratchetting. Empty: nothing to say.
+/// A note that several cycles in fewer than 400 increments a row overestimate ratchetting. Empty: no note.
 std::string increments_note(const MaterialRun& run, int increments);
 
 /// Equivalent plastic strain √(2/3 E^p:E^p), the largest of the trace.

@@ -65,7 +65,7 @@ class SteadyPasses : public PassJob {
     return rail_passes(loaded_.spec, solutions);
   }
 
-  /// What the contact that all passes take over makes of itself, each once: checks that fail, warnings.
+  /// Collects failed checks and warnings of the contact that all passes use, each once.
   void doubt(const Summary& contact) {
     const auto add = [&](std::string text) {
       if (std::find(doubts_.begin(), doubts_.end(), text) == doubts_.end()) doubts_.push_back(std::move(text));

@@ -18,10 +18,10 @@ struct PassesEnd {
   JobEnd end = JobEnd::finished;
 };
 
-/// Passes by the stationary method (passes/rail_passes.hpp). A pass that is stopped is given up: its folder goes on
-/// with it from its beginning. A pass that has not settled, or a check of the contact that does not hold, is a failed
-/// check. Progress: "passes". Throws CaseError (transients, no strength, a folder in use or of another case),
-/// NumericalError, EnvironmentError, Interrupted where it is stopped before there is a folder.
+/// Passes by the stationary method (passes/rail_passes.hpp). An interrupted pass is discarded; resuming starts that
+/// pass again. A pass that has not settled, or a check of the contact that does not hold, is a failed check. Progress:
+/// "passes". Throws CaseError (transients, no strength, a folder in use or of another case), NumericalError,
+/// EnvironmentError, Interrupted where it is stopped before there is a folder.
 PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, Control& control);
 
 /// Passes by the finite elements (runs/rolled_passes.hpp); a pass that is stopped leaves a checkpoint. `loaded`: with

@@ -1,5 +1,5 @@
 #pragma once
-// What both kinds of passes (runs/pass_folder.hpp) share.
+// Base of the jobs of both kinds of passes (runs/pass_folder.hpp).
 #include <string>
 #include <vector>
 
@@ -22,7 +22,7 @@ class PassJob : public CaseJob {
   std::vector<std::string> older_results() const override;
   bool write_page() override;
 
-  /// How far all wanted passes are, with the one under way.
+  /// Reports the progress of all wanted passes, the current one included.
   void report(int pass, double fraction) const;
   /// A pass that has ended; more: what the method adds.
   void report(const PassRow& row, const std::string& more) const;

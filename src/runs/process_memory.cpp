@@ -10,7 +10,7 @@
 namespace railstrata {
 namespace {
 
-/// A file of one number of bytes; without limit if it says so or is not there.
+/// A file of one number of bytes; no limit if it contains none or does not exist.
 double number_in(const char* file) {
   double value = 0;
   std::ifstream in(file);

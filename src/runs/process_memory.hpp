@@ -3,8 +3,8 @@
 
 namespace railstrata {
 
-/// What it may still take: the least of what the system has available, its control group's limit and the limit of its
-/// address space.
+/// Memory that the process may still take: the least of the system's available memory, its control group's limit and
+/// the limit of its address space.
 double memory_at_hand();
 
 /// The largest amount it has had in use.

@@ -21,7 +21,7 @@ RankedRun join_resumed_run(const std::filesystem::path& folder, const Ranks& ran
   return {std::move(loaded), std::move(found.checkpoint.run)};
 }
 
-// What rank 0 is asked for, this rank is asked for too: the state must be made whole for it by all.
+// The same outputs are requested as on rank 0: all ranks take part in collecting the state.
 void follow_run(RankedRun& run, const FemOptions& options) {
   const RollingSystem system = fem_system(run.loaded.spec, run.loaded.folder());
   RunObserver observer;

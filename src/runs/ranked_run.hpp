@@ -1,5 +1,5 @@
 #pragma once
-// What the ranks other than 0 do of a run in a folder (runs/run_job.hpp): they compute with it and touch no file.
+// Ranks other than 0 of a run in a folder (runs/run_job.hpp): they compute and touch no file.
 #include "runs/run_job.hpp"
 
 namespace railstrata {

@@ -61,14 +61,14 @@ CaseSpec case_of_rolls(CaseSpec spec, const std::filesystem::path& folder, const
   return spec;
 }
 
-/// What the next wheel is put on: a piece of rail with free ends, as it is rolled over.
+/// The rail for the next wheel: a piece with free ends, after the passes so far.
 RailBefore piece_with(const RollingSystem& system, const PlasticSection& section) {
   RailBefore out;
   out.history = history_of_section(system.rail(), section);
   out.u = rail_at_rest(system, out.history);
   return out;
 }
-/// What is told: an endless rail.
+/// The rail of the results: endless.
 RailBefore endless_rail_with(const RollingSystem& system, const PlasticSection& section) {
   RailBefore out;
   out.history = history_of_section(system.rail(), section);
@@ -87,7 +87,8 @@ double mean_traction(const std::vector<HistoryRow>& history, double from) {
   return along / down;
 }
 
-/// What the creepage for the wanted traction lacks, from an elastic wheel that rolls half of a pass. None if stopped.
+/// Correction of the creepage for the wanted traction, from an elastic wheel that rolls half of a pass. None if
+/// stopped.
 std::optional<double> measured_shift(Model model, double traction, const PassRoll& roll, const FemOptions& options) {
   model.spec.run.plasticity = false;
   model.spec.run.positions = {roll.from};

@@ -8,7 +8,8 @@
 //
 // Measured from where the wheel is put on, in half-lengths a of Hertz's ellipse: 12 are rolled, stations from 6 to 8
 // are steady. The wheel's own indentation at the start reaches to some 2 a, traction at a given creepage is built up
-// within 3, and behind the load residual stress does not change from 4 on; RolledPass::uneven says how steady they are.
+// within 3, and behind the load residual stress does not change from 4 on; RolledPass::uneven measures how steady they
+// are.
 //
 // Wheels that wander stand elsewhere across one rail: its mesh is that of the case's own place, with a fine zone as
 // much wider as the contact point moves on it.

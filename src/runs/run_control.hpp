@@ -19,8 +19,8 @@ class RunControl {
  public:
   RunControl(const RunTimes& times, Control& asked) : times_(times), asked_(asked) {}
 
-  /// What is asked of the run now. A limit is kept by stopping early: what is left must do for twice the longest
-  /// checkpoint, the longest pause between two calls and one part in a hundred of the limit.
+  /// The present request to the run. A limit is kept by stopping early: the remaining time must suffice for twice the
+  /// longest checkpoint, the longest pause between two calls and one part in a hundred of the limit.
   Demand demand();
   /// A checkpoint took so long [s].
   void saved(double seconds);

@@ -1,5 +1,5 @@
 #pragma once
-// What a run of a case will cost, found without running it.
+// Time and memory of a run, estimated without running it.
 #include <string>
 
 #include <vector>
@@ -18,7 +18,8 @@ struct RunEstimate {
   double seconds =
       0;  ///< of explicit rolling: measured force evaluations on this machine, these threads; the preload comes on top
   double memory_bytes = 0;  ///< at the peak: of this process with both bodies ready, and what a run takes beyond them
-  /// Of several processes with as many threads each, on machines like this one in a network like that of RankNetwork.
+  /// Estimate for several processes with as many threads each, on machines like this one in a network like that of
+  /// RankNetwork.
   struct OnRanks {
     RankNeed need;
     double seconds = 0, memory_bytes = 0;  ///< memory: of each rank, which has both bodies whole

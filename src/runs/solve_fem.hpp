@@ -27,7 +27,7 @@ struct FemPosition {
   MeanContact contact;     ///< patch: pressure, traction, slip; mean of the samples around the position
   BandStress rail, wheel;  ///< stresses of the bodies below the patch; they refer to the system's meshes
   std::vector<StreamlineRow> streamlines;   ///< of what rolls
-  std::vector<SectionShakedown> shakedown;  ///< of the bodies whose strength the case says
+  std::vector<SectionShakedown> shakedown;  ///< of the bodies whose strength the case gives
   Summary summary;
 };
 

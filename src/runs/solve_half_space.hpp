@@ -22,24 +22,24 @@ struct HalfSpaceSolution {
   std::optional<LoadedMoment> moment = {};       ///< of a transient: what holds in its last state
   double coarsest = 0;                           ///< cell_of_patch of a transient's worst state
   std::vector<StreamlineRow> streamlines = {};   ///< of all patches, of what rolls
-  std::vector<SectionShakedown> shakedown = {};  ///< of the bodies whose strength the case says
+  std::vector<SectionShakedown> shakedown = {};  ///< of the bodies whose strength the case gives
   std::vector<SlidingMap> sliding = {};          ///< complete_shakedown adds them if asked
   bool stopped = false;                          ///< the observer ended the transient before its end
 };
 
-/// What half-space theory takes of a case. A static case (run.rolling = false) has frictionless contact, as the finite
-/// elements' preload has.
+/// The case as half-space theory can treat it. A static case (run.rolling = false) has frictionless contact, as the
+/// finite elements' preload has.
 CaseSpec half_space_case(CaseSpec spec);
 
-/// Solves half_space_case(spec): steady rolling, or the case's transient, whose states the observer hears of.
+/// Solves half_space_case(spec): steady rolling, or the case's transient, whose states the observer receives.
 /// summary.run.threads is the number of threads of the calling thread (core/parallel.hpp), commit that of the program.
 /// A transient that was stopped has no stresses. Several threads may solve at a time. Throws as solve_bem and
 /// solve_transient.
 HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {},
                                    const TransientObserver& observer = {});
 
-/// Adds to a solution what takes some seconds more where the case says strengths: the limit of shakedown for traffic on
-/// one line, and if asked the maps of limits over traction.
+/// Adds to a solution, in some seconds, where the case gives strengths: the limit of shakedown for traffic on one line,
+/// and if asked the maps of limits over traction.
 void complete_shakedown(const CaseSpec& spec, HalfSpaceSolution& solution, bool with_maps = false);
 
 /// The same without the stresses, which cost more than the contact of steady rolling.

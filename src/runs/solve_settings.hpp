@@ -1,5 +1,5 @@
 #pragma once
-// What callers of other programs and languages choose besides the case: threads, cells.
+// Settings of callers from other programs and languages besides the case: threads, cells.
 #include <fmt/format.h>
 
 #include "bem/bem_options.hpp"

@@ -60,7 +60,7 @@ class PatchSeries {
   }
 
  private:
-  // The film takes the place of the one that was left once it has its frames: who is killed here loses none.
+  // The film replaces the earlier one when its frames are there: a kill loses none.
   void keep_film(const fs::path& out) {
     film_.keep(*left_, frames_);
     left_.reset();
@@ -75,7 +75,7 @@ class PatchSeries {
   int frames_ = 0;
 };
 
-/// Of a position before the last.
+/// Folder of a position before the last.
 fs::path position_folder(double position) { return fmt::format("{}{:.10g}mm", kPositionFolder, 1e3 * position); }
 
 void write_position(const Model& model, const FemPosition& position, const fs::path& folder,

@@ -1,5 +1,5 @@
 #pragma once
-// From result folders to a report.
+// Writes a report of result folders.
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace railstrata {
 
-/// What the user should know of a page that was written.
+/// Verdict and notes of a written page.
 struct WrittenPage {
   ReportVerdict verdict;           ///< the one that stands on the page
   std::vector<std::string> notes;  ///< why there is no reference; why a result may not be that of its case
@@ -20,20 +20,20 @@ struct WrittenPage {
 /// there without a page. Returns whether the page's verdict holds, true without a page.
 bool write_page_or_warn(const std::filesystem::path& page, const Control& control,
                         const std::function<WrittenPage()>& write);
-/// Reports what a written page has to say: its notes and its verdict, a failed one as a warning.
+/// Reports the notes and the verdict of a written page, a failed one as a warning.
 void report_page(const WrittenPage& page, const Control& control);
 
 /// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that holds
 /// this case already. Of several positions each has the one of the run's folder. Returns the folder; empty, with a note
-/// that says why, where the case or its profiles cannot be read any more or theory has no answer.
+/// of the reason, where the case or its profiles cannot be read any more or theory has no answer.
 std::filesystem::path half_space_reference(const std::filesystem::path& folder, std::vector<std::string>& notes);
 
 /// Writes the page for these folders; throws CaseError where one is no result, EnvironmentError for the disk. A single
-/// finite element result is set against its half-space reference if `reference` says so.
+/// finite element result is compared with its half-space reference if `reference` is true.
 WrittenPage write_report(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders,
                          bool reference);
 
-/// What `run` and `bem` end with: report.html of a folder, or a warning. Returns whether its verdict holds, true
+/// The last step of `run` and `bem`: report.html of a folder, or a warning. Returns whether its verdict holds, true
 /// without a page.
 bool add_report(const std::filesystem::path& folder, const Control& control);
 

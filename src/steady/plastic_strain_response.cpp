@@ -47,7 +47,7 @@ RowStiffness row_stiffness(RowModuli m, double h, double k) {
 
 }  // namespace
 
-/// Of a node: D^-1 and what couples it to the node below, U = A(i, i+1) D(i+1)^-1.
+/// Factors of a node: D^-1, and the coupling to the node below, U = A(i, i+1) D(i+1)^-1.
 struct PlasticStrainResponse::Wave {
   Mat2 inverse, below;
   double m_inverse = 0, m_below = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Where a stationary solution stands: stations along the travel, columns across it, rows of depth.
+// Grid of a stationary solution: stations along the travel, columns across it, rows of depth.
 //
 // The load stands still at x = 0 and travels to +x, so that the material comes from ahead: station 0 is the foremost,
 // a streamline runs through the stations in their order. The grid is periodic along x and y. What that needs:

@@ -52,7 +52,7 @@ std::vector<RowModuli> moduli_of(const std::vector<SteadyRow>& rows) {
 
 }  // namespace
 
-/// Of one pass.
+/// Arrays of one pass.
 struct SteadyBody::Work {
   Field before;               // strain of the earlier passes, per component and point of the section
   Field field;                // plastic strain of this pass everywhere, then the strain it causes

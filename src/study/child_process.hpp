@@ -20,7 +20,7 @@ inline constexpr const char* kIgnoreSecondSignal = "RAILSTRATA_ONE_SIGNAL";
 /// checkpoint. This program kills those that take too long.
 void ignore_second_signal_in_children();
 
-/// True once it has ended; `status` is then what waitpid tells.
+/// True once it has ended; `status` is then that of waitpid.
 bool has_ended(pid_t child, int& status);
 
 /// "killed by signal 9 (Killed)", "exit code 3".

@@ -22,7 +22,7 @@ class Claim {
   Claim(Claim&& other) noexcept;
   Claim& operator=(Claim&&) = delete;
 
-  /// Nobody has taken it over, having held this process for dead.
+  /// No other process has taken it over because it considered this one dead.
   bool is_ours() const;
   /// To be called at least ten times a lease; touches the file every tenth. False once it is no longer ours.
   bool renew();
@@ -30,7 +30,7 @@ class Claim {
  private:
   Claim(std::filesystem::path file, std::string text, double lease);
   std::filesystem::path file_;
-  std::string text_;  ///< what only our own claim says
+  std::string text_;  ///< text that only our own claim has
   double lease_;
   std::chrono::steady_clock::time_point renewed_ = std::chrono::steady_clock::now();
   bool ours_ = true;
@@ -42,7 +42,7 @@ std::optional<double> file_server_time(const std::filesystem::path& beside);
 /// When the file was written last, by the same clock; none if there is no such file.
 std::optional<double> written_at(const std::filesystem::path& file);
 
-/// Who has claimed the file, for messages: "node7, process 4711, job 12_3"; empty if nobody has.
+/// Who has claimed the file, for messages: "node7, process 4711, job 12_3"; empty if no one has.
 std::string claimed_by(const std::filesystem::path& file);
 
 }  // namespace railstrata

@@ -15,19 +15,19 @@ namespace railstrata {
 
 class RunningCase {
  public:
-  /// Ends it at once, whatever is lost.
+  /// Kills it at once; unsaved work is lost.
   virtual ~RunningCase() = default;
   /// Once it has ended: why it has no result, empty if it has one.
   virtual std::optional<std::string> ended() = 0;
-  /// In good order: with a checkpoint, where it can have one.
+  /// Asks for an orderly stop: with a checkpoint, where it can have one.
   virtual void ask_to_stop() = 0;
   /// A checkpoint on its way, where it can have one.
   virtual void ask_to_save() {}
-  /// How far it is, from 0 to 1.
+  /// Progress from 0 to 1.
   virtual double fraction() const = 0;
 };
 
-/// What cases of one call have in common.
+/// Settings common to the cases of one call.
 struct CaseSettings {
   std::string cell;  ///< of the half-space engine; empty: its default
   int threads = 1;   ///< of each

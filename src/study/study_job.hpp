@@ -27,7 +27,7 @@ JobEnd carry_out_study(const LoadedStudy& study, Published published, std::vecto
                        std::vector<bool> ours, StudyOrder order, Control& control,
                        const std::function<void(const std::vector<CaseRow>&)>& at_end);
 
-/// Those of the cases of `ours`.
+/// The rows of the cases of `ours`.
 std::vector<CaseRow> rows_of(const std::vector<CaseRow>& all, const std::vector<bool>& ours);
 
 }  // namespace railstrata

@@ -1,5 +1,5 @@
 #pragma once
-// From a study file to the cases that must be computed.
+// Makes the cases to be computed from a study file.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,8 +32,8 @@ struct StudyCase {
 /// "thickness" of "layer.0.thickness".
 std::string last_part(const std::string& key);
 
-/// What decides a result: engine, kResultVersion, the resolved case without its title (profile files by their content),
-/// and of the half-space engine the cell size.
+/// Hash of everything that a result depends on: engine, kResultVersion, the resolved case without its title (profile
+/// files by their content), and of the half-space engine the cell size.
 std::string result_key(const LoadedCase& loaded, Engine engine, const std::string& cell);
 
 /// Every case of the study, in the order of the file, per group and case the engines. `overrides` hold for all cases.

@@ -11,8 +11,7 @@
 namespace railstrata {
 
 /// The report; `folder` of the entries is where it can be opened. Full runs are those the maps show; the verdict is
-/// over all cases: what each says of itself, and every finite element case against its half-space case (limits of
-/// report_checks).
+/// over all cases: those of each, and every finite element case against its half-space case (limits of report_checks).
 Report study_report(const StudySpec& study, const Published& published, const std::vector<CaseRow>& entries);
 
 }  // namespace railstrata

@@ -25,7 +25,8 @@ std::string last_failure(const std::filesystem::path& out, const StudyCase& c);
 /// The working folder of a case while it is computed, this process' own.
 std::filesystem::path working_folder(const std::filesystem::path& out, const StudyCase& c);
 
-/// Who computes the case holds this claim. The functions below that change something of a case are for its owner alone.
+/// The process that computes the case holds this claim. The functions below that change something of a case are for its
+/// owner alone.
 std::filesystem::path claim_file(const std::filesystem::path& out, const StudyCase& c);
 
 /// Takes the working folder for the result: writes study.json into it and renames it into place as the last act, so

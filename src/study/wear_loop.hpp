@@ -37,7 +37,7 @@ struct WearStepOptions {
   double passages_left = 0;    ///< at most so many; 0: as many as max_wear allows
 };
 
-/// What a step has done.
+/// Result of a step.
 struct WearStep {
   std::vector<CollectiveRow> rows;  ///< on the rail as it was before the step
   RailDamage damage;                ///< of one collective
@@ -46,7 +46,7 @@ struct WearStep {
   double wanted_area = 0;           ///< m², of the streamlines
   double gauge = 0;                 ///< m, of the track on the rail as it was
   WornRail rail;                    ///< afterwards; its area is that between the profiles, its file empty
-  bool stopped = false;             ///< by the wish: nothing of this is whole
+  bool stopped = false;             ///< on request: nothing of this is complete
 };
 
 /// Throws CaseError where a load cannot be solved or fails a check, where nothing wears, and where the wear law lacks

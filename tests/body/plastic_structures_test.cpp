@@ -49,7 +49,7 @@ struct Sector {
   Body body;
 };
 
-/// Pressures at the inside of a driven sector, and the plastic radius that its outer displacement tells of.
+/// Pressures at the inside of a driven sector, and the plastic radius that follows from its outer displacement.
 struct Expansion {
   double pressure, outer;
 };

@@ -88,7 +88,7 @@ recall = 100
     EXPECT_TRUE(spec.layers.at(0).material.strength.elastic);
     EXPECT_FALSE(spec.layers.at(1).material.strength.elastic);
     EXPECT_EQ(spec.layers.at(1).material.strength.kinematic_hardening, (std::vector<KinematicHardening>{{20e9, 100}}));
-    ASSERT_EQ(loaded.elastic_notes.size(), 3u) << "contact is elastic, and says so";
+    ASSERT_EQ(loaded.elastic_notes.size(), 3u) << "contact is elastic, with a note";
     EXPECT_EQ(loaded.elastic_notes[0].find("material.rail.isotropic_hardening: `run` and `bem` compute elastically"),
               0u);
   }
@@ -162,7 +162,7 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
       {"[material.rail]\nyield_strength = \"300 MPa\"\nisotropic_hardening = \"80 MPa\"\n",
        "is a text, must be a table with a saturation and a rate, e.g. { saturation = \"80 MPa\", rate = 12 }"},
       {"[material.rail]\nisotropic_hardening = { saturation = \"80 MPa\", rate = 12 }\n",
-       "a.toml:2:1: material.rail.isotropic_hardening: says how the material hardens, and nothing where it begins"},
+       "a.toml:2:1: material.rail.isotropic_hardening: gives how the material hardens, but not where it begins"},
       {"[material.rail]\nyield_strength = \"300 MPa\"\nisotropic_hardening = { saturation = \"-300 MPa\", rate = 1 }\n",
        "saturation = -0.3 GPa takes the whole yield strength of 0.3 GPa away"},
       {"[material.rail]\nyield_strength = \"600 MPa\"\nisotropic_hardening = { saturation = \"-300 MPa\", rate = 900 "

@@ -157,7 +157,7 @@ TEST(Multipliers, LeaveAnElasticFilmItsShear) {
 }
 
 // Friction that falls with slip: the disc of a step is what earlier slip has left, the slip of the step takes more of
-// it, and a node that opens forgets.
+// it, and a node that opens loses its history.
 TEST(Multipliers, TakeWhatSlipHasLeftOfFriction) {
   constexpr double kLow = 0.15;
   EnforcementOptions options = exact(kLow);

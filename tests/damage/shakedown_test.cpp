@@ -180,7 +180,7 @@ TEST(Shakedown, StrongLayerMovesTheLimitBelowIt) {
   EXPECT_NEAR(s.zones[1].wandering.value, 1 / .377, 0.005 / .377);
   EXPECT_EQ(s.wandering.value, s.zones[1].wandering.value);
   EXPECT_EQ(s.wandering.zone, 0);
-  // A layer that stays elastic does not count, but says what it would need.
+  // A layer that stays elastic does not count, but reports what it would need.
   for (std::size_t row = 0; row < k.size(); ++row)
     if (h.zone[row] == 1) k[row] = row % 2 == 0 ? kNone : std::numeric_limits<double>::infinity();
   const Shakedown elastic = of(h, k);

@@ -1,6 +1,6 @@
 """Blocks of code of a Markdown page, and of the docstrings of a Python package.
 
-A comment before a block, which a reader does not see, says what is different in a test:
+A comment before a block, which a reader does not see, gives the difference in a test:
 
   <!-- not run: REASON -->              the whole block
   <!-- not run `WORDS`: REASON -->      lines that begin so

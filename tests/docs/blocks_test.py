@@ -4,7 +4,7 @@
 usage: blocks_test.py SOURCE_DIR BUILD_DIR BINARY FOLDER PAGE... | --all-but PAGE...
 
 A page is one folder with the shipped cases in it; its blocks are run in their order, those of Python in one namespace.
-What is long is made short here (SHORT, CELL, passes over ten), what cannot run says so before the block (blocks.py).
+What is long is made short here (SHORT, CELL, passes over ten), what cannot run is marked before the block (blocks.py).
 """
 import os
 import pathlib

@@ -43,7 +43,7 @@ class Written(unittest.TestCase):
         for words in ([], ["."], ["case.toml"], [str(self.folder)]):
             self.explore(*words, "--force")
             found = seed((self.folder / "explore.html").read_text())
-            if words:  # without a word it is a shipped case
+            if words:  # without words it is a shipped case
                 self.assertEqual((found["case"], found["name"]), (self.case, self.folder.name), words)
 
     def test_profiles_beside_the_case_go_with_it_under_their_names(self):

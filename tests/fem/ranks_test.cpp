@@ -266,7 +266,7 @@ TEST(Ranks, MoreThanThereArePiecesAreRefused) {
   }
 }
 
-// What `check` tells is what is exchanged.
+// The numbers of `check` are those that are exchanged.
 TEST(Ranks, ExchangeTheBytesThatTheirNeedSays) {
   const RollingSystem system = small_system(small_case());
   const PreloadResult preload = solve_preload(system, 1e-3);

@@ -113,8 +113,8 @@ TEST(Resume, UnderFrictionThatRemembersToo) {
   expect_same_bits(spec);
 }
 
-// A guard that speaks in the second window, long after the last good state: what is saved goes on to the bits of a run
-// to which nothing happened.
+// A guard that stops the run in the second window, long after the last good state: what is saved goes on to the bits of
+// a run to which nothing happened.
 TEST(Resume, FromTheLastGoodStateToo) {
   CaseSpec spec = small_case();
   spec.drive.speed = 12;

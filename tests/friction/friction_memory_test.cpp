@@ -51,7 +51,7 @@ TEST(FrictionMemory, LiesBetweenTheLawAndFrictionAtRest) {
       law.memory_distance = 1e9;
       EXPECT_NEAR(lost_after(law, 0, v, 1.0), 0, 1e-8);
     }
-  EXPECT_EQ(lost_after({}, 0.3, 1.0, 1.0), 0) << "Coulomb's has nothing to forget";
+  EXPECT_EQ(lost_after({}, 0.3, 1.0, 1.0), 0) << "Coulomb's law has no memory";
 }
 
 TEST(FrictionMemory, DerivativesAreTheSlopes) {

@@ -206,10 +206,10 @@ TEST_F(ReadProfile, units_that_cannot_be_resolved_are_refused) {
                 .find("which fits a profile neither in millimetres (20 to 500) nor in metres (0.02 to 0.5)"),
             std::string::npos);
   EXPECT_NE(error_of(crown("# units: mm\n", 1e-3))
-                .find("the heading says millimetres, but the curve would then be 6.813e-05 m long"),
+                .find("the heading gives millimetres, but the curve would then be 6.813e-05 m long"),
             std::string::npos)
       << error_of(crown("# units: mm\n", 1e-3));
-  EXPECT_NE(error_of(crown("y [m] z [m]\n")).find("the heading says metres, but the curve would then be 68.13 m long"),
+  EXPECT_NE(error_of(crown("y [m] z [m]\n")).find("the heading gives metres, but the curve would then be 68.13 m long"),
             std::string::npos)
       << error_of(crown("y [m] z [m]\n"));
   std::string mixed;
@@ -349,7 +349,7 @@ TEST_F(ReadProfile, a_Simpack_file_tells_its_unit) {
   EXPECT_TRUE(mentions(notes, "units.len.f = 1: lengths were taken as parts of a metre."));
   EXPECT_NE(error_of("spline.begin\nunits.len.f = 1000\npoint.begin\n" + crown("", 1e-3) + "point.end\nspline.end\n",
                      ProfileKind::rail, "rail.prr")
-                .find("the heading says millimetres"),
+                .find("the heading gives millimetres"),
             std::string::npos);
 }
 
@@ -386,7 +386,7 @@ TEST_F(ReadProfile, MiniProf_files_new_and_old_lose_their_switched_off_points) {
   expect_same_curve(fresh, builtin_profile(ProfileKind::wheel, "LMA"), 5e-3 * mm);
   expect_same_curve(old, fresh, 1e-12);
   for (const char* n :
-       {"MiniProf profile of", "1 points in quotes are switched off.", "XYPoints says 7.", "the profile was mirrored"})
+       {"MiniProf profile of", "1 points in quotes are switched off.", "XYPoints gives 7.", "the profile was mirrored"})
     EXPECT_TRUE(mentions(notes, n)) << n;
   EXPECT_EQ(error_of("ColumnDef=A,X,Y\n\n" + crown(), ProfileKind::rail, "rail.ban")
                 .find("rail.ban:1: 'ColumnDef=A,X,Y': the columns do not begin with X,Y"),
@@ -397,7 +397,7 @@ TEST_F(ReadProfile, MiniProf_files_new_and_old_lose_their_switched_off_points) {
         << spelling;
   EXPECT_EQ(error_of("ColumnDef= X,Y\n\n" + crown(), ProfileKind::rail, "rail.ban"), "accepted");
   EXPECT_EQ(error_of("XYPoints=83\n\n\"1 2\n" + crown(), ProfileKind::rail, "rail.ban")
-                .find("rail.ban: XYPoints says 83, but there are 81 points: the file is cut off"),
+                .find("rail.ban: XYPoints gives 83, but there are 81 points: the file is cut off"),
             0u);
   EXPECT_EQ(
       error_of("A=1\n\n1 2\nx 3\n", ProfileKind::rail, "rail.ban").find("rail.ban:4: 'x 3' is not two finite numbers"),

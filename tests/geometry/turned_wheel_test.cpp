@@ -32,7 +32,7 @@ TEST(Roll, MovesAndTiltsTheContactOfAConeOnARoundHead) {
       TrackGeometry track = rolled(roll);
       const Profile wheel = cone(slope);
       const double gamma = std::atan(slope), angle = gamma + std::atan(roll);
-      // a cone has no flange: the gauge places it; here its tape circle is told by the contact itself
+      // a cone has no flange: the gauge places it; here the contact itself defines its tape circle
       const RigidContact c = place_wheel(wheel, head, track);
       EXPECT_NEAR(c.angle, angle, 1e-8);
       EXPECT_NEAR(c.point.y, -300 * mm * std::sin(angle), 1e-8);

@@ -38,7 +38,7 @@ def test(tree):
 
 
 def parts(tree):
-    """Every part says what it is."""
+    """Every part reports what it is."""
     said = json.loads(tree.run(f"cd {HOME} && ./railstrata info --json"))["parts"]
     print(json.dumps(said, indent=1))
     assert set(said) >= {"ranks", "cards", "python", "benchmarks"}, said

@@ -152,7 +152,7 @@ class Headers(unittest.TestCase):
 
 
 class Consumer(unittest.TestCase):
-    """A program of somebody else, built against the prefix in a folder of its own."""
+    """A program of another project, built against the prefix in a folder of its own."""
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         shutil.copytree(SOURCE / "tests/install/consumer", self.folder / "source")

@@ -246,7 +246,7 @@ TEST(ShakedownSummary, OfBodiesWithoutAStrengthThereIsNone) {
   const std::vector<SectionShakedown> wheel = half_space_shakedown(spec, r);
   ASSERT_EQ(wheel.size(), 1u);
   EXPECT_EQ(wheel[0].body, BodyId::wheel);
-  EXPECT_FALSE(wheel[0].strength.notes.empty()) << "an estimate is told";
+  EXPECT_FALSE(wheel[0].strength.notes.empty()) << "an estimate is reported";
 }
 
 }  // namespace

@@ -183,7 +183,7 @@ TEST(Layers, RowsOfAGradedOneAreOneLayer) {
       rail({{"clad 1", 0.5e-3, 0.06, 1, true}, {"clad 2", 0.5e-3, 0.06, 1, false}, {"soft", 1e-3, 0.06, 2}});
   EXPECT_EQ(body.material_layer, (std::vector<int>{0, 1, 1, 2}));
   EXPECT_EQ(body.layer_of(3), 2);
-  EXPECT_EQ(SweptBody{}.layer_of(3), 3) << "where nothing is said every material is a layer";
+  EXPECT_EQ(SweptBody{}.layer_of(3), 3) << "by default every material is a layer";
 }
 
 std::vector<Vec2> outline_polygon(const Profile& head) {

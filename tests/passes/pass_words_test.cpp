@@ -31,7 +31,7 @@ TEST(PassWords, EachClassIsOneSentenceWithItsNumberAndPlace) {
             "Closed cycles (plastic shakedown): 2.8e-3 plastic strain in every pass, none of it stays.");
   EXPECT_EQ(pass_words(standing(PassClass::transient)),
             "No claim yet: 3.1e-4 net strain in pass 12 at 2.1 mm depth, falling as the pass to the power of -0.50; "
-            "more passes will tell.");
+            "more passes will show.");
   PassStanding strong = standing(PassClass::elastic_shakedown);
   strong.ever_yielded = false;
   EXPECT_EQ(pass_words(strong), "Stays elastic: no point has yielded.");

@@ -111,7 +111,7 @@ class InProfiles(Refusal):
 
     def test_metres_under_a_heading_of_millimetres(self):
         self.profile([(1e-3 * y, 1e-3 * z) for y, z in CROWN],
-                     "the heading says millimetres, but the curve would then be 6.813e-05 m long",
+                     "the heading gives millimetres, but the curve would then be 6.813e-05 m long",
                      "correct the heading or the numbers", heading="y [mm], z [mm]\n")
 
     def test_one_column_in_metres(self):

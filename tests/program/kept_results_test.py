@@ -156,7 +156,7 @@ class Edited(FromOutside):
         summary["checks"][0]["value"] = 0.5
         (self.out / "summary.json").write_text(json.dumps(summary))
         name = summary["checks"][0]["name"]
-        self.doubted(f"summary.json says that the check {name} holds, and its value is 0.5, its limit ")
+        self.doubted(f"summary.json reports that the check {name} holds, but its value is 0.5, its limit ")
         self.assertFalse(self.checks()[name]["ok"])
 
     def test_another_largest_pressure_than_that_of_the_patch_is_named(self):

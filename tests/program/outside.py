@@ -59,7 +59,7 @@ def results(folder):
         if name in ("provenance.json", "log.txt", "study.json"):
             continue
         out[name] = file.read_bytes()
-        for place in (folder.absolute(), folder.resolve()):  # view.py says where it lies
+        for place in (folder.absolute(), folder.resolve()):  # view.py has its place
             out[name] = out[name].replace(str(place).encode(), b"FOLDER")
         if file.name == "summary.json":
             summary = json.loads(out[name])

@@ -158,7 +158,7 @@ class Passes(FromOutside):
         rc, _, err = railstrata("passes", LAYERED, *words, *strength(450), "--passes", 1, "--no-report", "--out", out)
         self.assertEqual(rc, 1, err)
         self.assertIn("a check of the contact fails: cell_of_patch", err)
-        self.assertRegex(err, "the case says no strength of it, and it stays elastic: give layer.0.yield_strength")
+        self.assertRegex(err, "the case gives no strength of it, and it stays elastic: give layer.0.yield_strength")
         notes = " ".join(json.loads((out / "passes.json").read_text())["notes"])
         self.assertIn("cell_of_patch", notes)
         self.assertIn("stays elastic", notes)
@@ -173,7 +173,7 @@ class Passes(FromOutside):
     def test_what_it_cannot_answer_is_refused_with_a_remedy(self):
         self.refused(2, ["passes", BASE, "--cell", "1 mm", *strength(400), "--out", self.folder / "none"],
                      "its material bears 231 MPa in shear", "friction_coefficient")
-        self.refused(2, ["passes", BASE, *COARSE, "--out", self.folder / "none"], "does not say how strong",
+        self.refused(2, ["passes", BASE, *COARSE, "--out", self.folder / "none"], "gives no strength",
                      "yield_strength")
         weak = [*strength(400), "--out", self.folder / "none"]
         self.refused(2, ["passes", BASE, *COARSE, *strength(400), "--set", "material.rail.elastic=true", "--out",

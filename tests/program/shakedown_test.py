@@ -85,7 +85,7 @@ class Shakedown(FromOutside):
 
     def test_without_a_strength_the_command_asks_for_one(self):
         self.refused(2, ["shakedown", LAYERED, "--out", self.folder / "no"],
-                     "the case does not say how strong rail, wheel or layers are", "remedy: give yield_strength",
+                     "the case gives no strength of rail, wheel or layers", "remedy: give yield_strength",
                      str(LAYERED))
         self.assertFalse((self.folder / "no").exists())
         rc, _, err = railstrata("bem", LAYERED, *QUIET, "--cell", "1 mm", "--out", self.folder / "bem")

@@ -68,7 +68,7 @@ class SharedStudy(FromOutside):
             pass  # it was ended
 
     def wait_until_asked_to_end(self, run):
-        """A SIGTERM waits for the run that is held, or somebody has let it go or ended it."""
+        """A SIGTERM waits for the run that is held, or another call has released or ended it."""
         def asked():
             try:
                 status = pathlib.Path(f"/proc/{run}/status").read_text()
@@ -80,7 +80,7 @@ class SharedStudy(FromOutside):
         self.wait_until(asked)
 
     def wait_until(self, condition, why_in_vain=lambda: "", seconds=120):
-        """why_in_vain: says why the condition can come no more; nothing while it can."""
+        """why_in_vain: the reason why the condition can come no more; nothing while it can."""
         end = time.monotonic() + seconds
         while not condition():
             if (why := why_in_vain()) or time.monotonic() > end:

@@ -129,7 +129,7 @@ class Cases(StudyTest):
 
     def test_both_engines(self):
         self.case(TINY)
-        # a check of so coarse a rolling fails, and is told
+        # a check of so coarse a rolling fails, and is reported
         self.solve('[study]\nbase = "case.toml"\ncell = "1 mm"\n[[group]]\nname = "wheel"\n', code=1)
         fem, bem = self.rows()
         self.assertEqual([fem["engine"], bem["engine"]], ["fem", "bem"])

@@ -9,7 +9,7 @@ import railstrata as rs
 
 @pytest.fixture(scope="module")
 def result():
-    """A result whose case says strengths."""
+    """A result whose case gives strengths."""
     return rs.bem(rs.Case("cases/quick", {"material.rail.grade": "R260"}), cell=0.5e-3)
 
 

@@ -25,7 +25,7 @@ class Bundle(unittest.TestCase):
             self.assertEqual(hashlib.sha256((WEB / name).read_bytes()).hexdigest(), sha256, f"{name}: {REMEDY}")
 
     def test_nothing_of_others_is_inside(self):
-        """A package that a page took along would want its licence told in the page."""
+        """A package that a page took along would need its licence in the page."""
         manifest = json.loads((WEB / "package.json").read_text())
         self.assertNotIn("dependencies", manifest)
         self.assertEqual(set(manifest["devDependencies"]), {"esbuild", "typescript"})

@@ -1,4 +1,4 @@
-// The approach given instead of the load: the same state told the other way round, and Hertz's.
+// The approach given instead of the load: the same state from the other input, and Hertz's.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

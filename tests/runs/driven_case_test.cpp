@@ -1,4 +1,4 @@
-// Given creepages, forces and mixes of them, as a case file says them, against CONTACT and Kalker's table.
+// Given creepages, forces and mixes of them, as in a case file, against CONTACT and Kalker's table.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ TEST(DrivenCase, ALockedWheelHasTheCoefficientOfItsSpeed) {
 }
 
 // A film of no stiffness to speak of has all the creep: the brush, F = 8/3 a² b G/h xi; one that yields carries no more
-// than its yield shear over the patch. And steep laws are told of as such.
+// than its yield shear over the patch. And steep laws are reported as such.
 TEST(DrivenCase, AThirdBodyTakesTheCreepAndBoundsTheShear) {
   const std::string pair = quadratic_pair(1000.0 / 840, 1000.0 / 840) +
                            "wheel_load = \"84954.6 N\"\n[drive]\ncreepage = -0.001\nspin = \"0 1/m\"\n[third_body]\n"

@@ -14,7 +14,7 @@ sys.path.insert(0, str(SOURCE / "tools"))
 sys.dont_write_bytecode = True
 import make_site  # noqa: E402
 
-# What a browser fetches by itself, and what it follows when somebody asks for it.
+# What a browser fetches by itself, and what it follows on request.
 FETCHED = {"script": "src", "img": "src", "iframe": "src", "source": "src", "link": "href"}
 
 

@@ -71,7 +71,7 @@ export interface PlasticNumbers {
   zone: string|null;
 }
 
-/// Stress when the wheel has gone; none: why it is not told.
+/// Stress when the wheel has gone; none: why it is not available.
 export interface ResidualNumbers {
   none: string|null;
   sigma_x_min_Pa?: number;

@@ -45,7 +45,7 @@ class Parallel(SharedStudy):
                             "PARALLEL_SSH": str(self.folder / "ssh")}
 
     def begin_recipe(self, recipe):
-        """As the page says it, for this study."""
+        """As on the page, for this study."""
         for said, ours in (("cases/paper/study.toml", self.file), ("/shared/study.toml", self.file),
                            ("/shared/study", self.out)):
             recipe = recipe.replace(said, str(ours))
@@ -80,7 +80,7 @@ class Parallel(SharedStudy):
         self.wait_until((folder / "checkpoint.h5").exists, seconds=60)
         self.hold(victim)
         os.kill(victim, signal.SIGKILL)
-        failed = 3 if self.rc else 1  # a failed check is told too
+        failed = 3 if self.rc else 1  # a failed check is reported too
         self.end(process, failed)
         with (self.folder / "log").open() as log:
             tasks = list(csv.DictReader(log, delimiter="\t"))

@@ -78,7 +78,7 @@ class Ranks(FromOutside):
             rc, text, err = finished(ranked(count, "run", case, *WORDS, "-j", threads, "--out", out))
             self.assertEqual(rc, self.rc, err)
             self.expect_same(out)
-            self.assertEqual(err.count("static preload"), 1, err)  # one rank speaks
+            self.assertEqual(err.count("static preload"), 1, err)  # one rank reports
         fact("ranks give the bits of one", ranks="2, 3, 4", files=len(self.reference))
 
     @slow

@@ -11,7 +11,7 @@
 namespace {
 
 // Threads that spin long while they wait cost more than they win where cores are shared. The OpenMP runtime reads such
-// wishes before main() starts, hence this is said earlier still.
+// settings before main() starts, so they are set earlier still.
 __attribute__((constructor(101))) void wait_briefly() {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   ::_putenv("OMP_WAIT_POLICY=passive");

@@ -1,5 +1,4 @@
-// Of a DLL: it stays until the program ends. Its threads wait for the next parallel loop, and a program that unloads
-// the library would take their code away from under them.
+// Keeps a DLL loaded until the program ends: its threads wait for the next parallel loop and need its code.
 #include <windows.h>
 
 namespace {

@@ -1,5 +1,4 @@
-// What librailstrata.so has in place of the room: its functions, which load the plug-in when the first of them is
-// called.
+// Replaces the room in librailstrata.so: its functions, which load the plug-in at the first call.
 #include "hdf5/plug_in.hpp"
 
 #if __has_include(<dlfcn.h>)

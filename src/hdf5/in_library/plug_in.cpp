@@ -1,4 +1,4 @@
-// What librailstrata-hdf5.so has beside the room.
+// Entry point of librailstrata-hdf5.so, beside the room.
 #include "hdf5/plug_in.hpp"
 
 const railstrata::Hdf5PlugIn railstrata_hdf5_plug_in{&railstrata::checkpoint_image, &railstrata::checkpoint_of_image,

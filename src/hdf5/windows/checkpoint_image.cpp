@@ -1,4 +1,4 @@
-// The program for Windows has no HDF5: what would write or read a checkpoint says so.
+// The program for Windows has no HDF5: writing or reading a checkpoint throws.
 #include "hdf5/checkpoint_image.hpp"
 
 #include "core/faults.hpp"

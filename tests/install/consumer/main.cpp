@@ -1,4 +1,4 @@
-// Another program that uses the library: solves a shipped layered case by half-spaces and hears of a mistake.
+// Another program that uses the library: solves a shipped layered case by half-spaces and receives an error.
 #include <cmath>
 #include <cstdio>
 

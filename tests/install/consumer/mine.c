@@ -1,4 +1,4 @@
-/* A vehicle code of somebody else, in C89: forces of one wheel over its lateral position, and the stress below it. */
+/* A vehicle code of another project, in C89: forces of one wheel over its lateral position, and the stress below it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -81,7 +81,7 @@ function changed(): void {
   link();
 }
 
-/// The address tells the state; a page from a file may have none to write to.
+/// The address holds the state; a page from a file may have none to write to.
 function link(): void {
   try {
     history.replaceState(null, "", `#${state.fragment()}`);
@@ -170,7 +170,7 @@ function drawInFull(now: Answer, pinned: Answer|null): void {
   numberBox.replaceChildren(table(now, pinned));
   const found = lasting(now);
   const hint = element(
-      "p", {class: "note"}, "With yield strengths (below “Strength”, or in the case) the page tells ",
+      "p", {class: "note"}, "With yield strengths (below “Strength”, or in the case) the page shows ",
       "whether rail and layers shake down, and with what reserve.");
   lastBox.replaceChildren(found ?? hint);
   const words = [...now.head.doubts, ...now.head.notes];
@@ -223,7 +223,7 @@ function pin(): void {
   if (!shown || !settled) return;
   shown.pinned = settled;
   draw();
-  say("pinned: changes are told against this state");
+  say("pinned: changes are shown against this state");
 }
 
 function unpin(): void {

@@ -81,7 +81,7 @@ const strength = (layer: number, id: string, key: string, name: string): Knob =>
   high: 1500,
   step: 10,
   preset: 0,
-  zeroIsNone: "as the case says"
+  zeroIsNone: "as in the case"
 });
 
 export const kKnobs: Knob[] = [
@@ -202,12 +202,12 @@ export class State {
 
   private knob(id: string): Knob { return kKnobs.find((k) => k.id === id)!; }
 
-  /// A table by depth tells thickness and stiffness: there is nothing to slide.
+  /// A table by depth gives thickness and stiffness: there is nothing to slide.
   fixed(knob: Knob): boolean {
     return ["thickness", "young_ratio"].includes(knob.key) && this.graded[knob.layer] === true;
   }
 
-  /// Whether a slot of a layer has one. A thickness below zero is no way to say "none": the engine tells its range.
+  /// Whether a slot of a layer has one. A thickness below zero is no way to say "none": the engine reports its range.
   has(slot: number): boolean { return this.value(this.knob(`h${slot + 1}`)) !== 0; }
 
   private quantity(knob: Knob): string {

@@ -118,7 +118,7 @@ export interface Run {
 export interface Check {
   name: string;
   runs: number[];   // one: the run's own; two: the first against the second; none: over all cases of a study
-  judged: boolean;  // false: said, not judged
+  judged: boolean;  // false: reported without a limit
   ok: boolean;
   value: number|null;
   limit: number|null;
@@ -208,7 +208,7 @@ export interface CheckWords {
   unit: Unit;
 }
 
-/// Of a rail that yields, a point whose way through the load is told.
+/// Of a rail that yields, a point whose path through the load is recorded.
 export interface WayPoint {
   name: string;
   y_m: number;

@@ -113,7 +113,7 @@ function strengthFigure(runs: Run[], body: BodyName): Figure|null {
 const mpa = (v: number|null) => (v === null ? "–" : (1e-6 * v).toFixed(0));
 const mm = (v: number|null, digits = 2) => (v === null ? "–" : (1e3 * v).toFixed(digits));
 
-/// What a layer's flaws may be: nothing is told where K_Ic is not given.
+/// What a layer's flaws may be: nothing is shown where K_Ic is not given.
 function flawText(z: PrincipalZone): string {
   if (z.critical_flaw_m === null) return "–";
   const thickness = z.thickness_m ?? null;
@@ -298,7 +298,7 @@ function notes(runs: Run[]): HTMLElement[] {
   return [...new Set(all)].map((text) => note(text));
 }
 
-/// The part of the page, where a run's case says how strong something is.
+/// The part of the page, where a run's case gives a strength.
 export function lastsPart(runs: Run[]): HTMLElement|null {
   const given = runs.filter((run) => run.summary.shakedown);
   if (!given.length) return null;

@@ -34,7 +34,7 @@ export interface MapSpec {
   x?: number[];  // borders of columns; none: in the middle between their centres
   y?: number[];
   z: Values[];         // a row for each y
-  centresX: number[];  // what the data table says
+  centresX: number[];  // for the data table
   centresY: number[];
   names: [x: string, y: string, z: string];  // of columns, with units
   labels: [x: string, y: string];            // of axes

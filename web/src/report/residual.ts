@@ -22,7 +22,7 @@ function storyOf(run: Run, residual: Columns): SectionStory {
 function words(run: Run): string {
   const r = run.summary.residual;
   if (!r) return "";
-  if (r.none) return `No residual stress is told: ${r.none}.`;
+  if (r.none) return `Residual stress not available: ${r.none}.`;
   const mpa = (v: number|undefined) => `${fixedText(1e-6 * (v ?? 0), 0)} MPa`;
   return `When the wheel has gone, the rail keeps residual stress: ${mpa(r.sigma_x_min_Pa)} along and ` +
       `${mpa(r.sigma_y_min_Pa)} across at the most compressive places. Along the stations that this is taken from, ` +

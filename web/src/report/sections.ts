@@ -151,7 +151,7 @@ function tile(name: string, text: string, unit: string, small: string[]): HTMLEl
   );
 }
 
-/// What tells a run from the first.
+/// Differences of a run from the first.
 function besideName(run: Run, runs: Run[]): string {
   return run.name === runs[0].name && run.engine !== runs[0].engine ? engineName(run.engine) : runLabel(run);
 }

@@ -123,7 +123,7 @@ export function yieldedPart(runs: Run[]): HTMLElement|null {
   const figures: Figure[] = runs.length > 1 ? [...stress, ...strain, ...along] : [...strain, ...stress, ...along];
   const about =
       "Accumulated plastic strain p = ∫ √(2/3) |dE^p|: means over an element at this position of the wheel. " +
-      "The words tell of the largest point anywhere at the end of the rolling.";
+      "The words describe the largest point anywhere at the end of the rolling.";
   const left = residualOf(runs);
   const grid = (all: Figure[]) => element("div", {class: "grid"}, ...all.map(frame));
   return part(
