@@ -54,7 +54,7 @@ Cost cost_of(const RollingSystem& system, const PreloadResult& preload, int rank
     const auto begun = std::chrono::steady_clock::now();
     const double spent = seconds(CLOCK_PROCESS_CPUTIME_ID);
     for (int k = 0; k < steps; ++k) stepper.step();
-    if (!mine.speaks()) return;
+    if (!mine.is_root()) return;
     cost.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     cost.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - spent;
   });

@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
     std::vector<double> of_each(one.size());
     of_each[static_cast<std::size_t>(ranks.rank)] = median(of_part[p]);
     if (!ranks.alone()) ranks.gather(of_each.data(), one.data());
-    if (!ranks.speaks()) continue;
+    if (!ranks.is_root()) continue;
     fmt::print("{:<36}", p == 0 ? "whole step" : p == 1 ? "of the exchange: waits and copies" : kStepPartNames[p - 2]);
     for (double t : of_each) fmt::print(" {:8.1f}", 1e6 * t);
     fmt::print("\n");

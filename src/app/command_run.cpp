@@ -76,13 +76,13 @@ ExitCode command_run(const CommandOptions& options) {
   fem.ranks = mpi.ranks();
   try {
     if (mpi.any_asked(fem.control->stop)) throw Interrupted("stopped before the run began; nothing was written");
-    const ExitCode code = fem.ranks.speaks() ? run_and_report(options, fem) : run_along(options, fem);
+    const ExitCode code = fem.ranks.is_root() ? run_and_report(options, fem) : run_along(options, fem);
     mpi.leave();
     return code;
   } catch (const EnvironmentError&) {  // of this rank, or what it saw of another
     throw;
   } catch (...) {
-    mpi.let_rank_0_speak();
+    mpi.wait_for_rank_0();
     throw;
   }
 }

@@ -77,7 +77,7 @@ void MpiRanks::leave() {
 
 bool MpiRanks::any_asked(bool this_one) { return largest_of_all(ranks(), this_one ? 1 : 0) > 0; }
 
-void MpiRanks::let_rank_0_speak() const {
+void MpiRanks::wait_for_rank_0() const {
   if (joined_.rank > 0) wait_for_the_end();
 }
 
@@ -87,7 +87,7 @@ void refuse_ranks(const std::string& command) {
                     "start it without mpirun; `run` shares one case among ranks, `study` its cases among processes");
 }
 
-void leave_words_to_rank_0() {
+void log_on_rank_0_only() {
   if (!started_among_ranks()) return;
   const bool by_mpirun = std::getenv("OMPI_COMM_WORLD_RANK") != nullptr;
   if (number_in_environment(by_mpirun ? "OMPI_COMM_WORLD_RANK" : "PMIX_RANK") > 0) wait_for_the_end();

@@ -24,7 +24,7 @@ class MpiRanks {
   bool any_asked(bool this_one);
   /// After a fault that all ranks have. Ranks other than 0 wait until rank 0 has reported it and ends them. A rank that
   /// ends without leave() ends all.
-  void let_rank_0_speak() const;
+  void wait_for_rank_0() const;
 
  private:
   RailstrataRanks joined_{1, 0, 1, nullptr, nullptr};
@@ -35,7 +35,7 @@ class MpiRanks {
 void refuse_ranks(const std::string& command);
 
 /// Before a message that all ranks have. Ranks other than 0 wait until rank 0 ends them, after it has reported it.
-void leave_words_to_rank_0();
+void log_on_rank_0_only();
 
 /// The programs that this one starts from now on are no ranks, whatever it is.
 void start_children_alone();

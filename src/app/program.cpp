@@ -178,7 +178,7 @@ int run_program(int argc, const char* const* argv) {
     if (std::ferror(stdout)) throw std::system_error(EIO, std::generic_category(), "cannot write to standard output");
     return code;
   } catch (const CaseError& e) {
-    leave_words_to_rank_0();  // a mistake is that of all
+    log_on_rank_0_only();  // a mistake is that of all
     return tell(e, options.json);
   } catch (const NumericalError& e) {
     return tell(ExitCode::numerics, e.what());

@@ -5,7 +5,7 @@
 #include <complex>
 #include <mutex>
 
-#include "core/stop_wish.hpp"
+#include "core/stop_request.hpp"
 #include "halfspace/line_contact.hpp"
 
 namespace railstrata {

@@ -8,7 +8,7 @@
 
 #include "bem/layer_correction.hpp"
 #include "bem/parity_convolution.hpp"
-#include "core/stop_wish.hpp"
+#include "core/stop_request.hpp"
 #include "halfspace/line_contact.hpp"
 
 namespace railstrata {

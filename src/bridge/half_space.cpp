@@ -7,7 +7,7 @@
 #include "bridge/patches.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
-#include "core/stop_wish.hpp"
+#include "core/stop_request.hpp"
 #include "io/output_folder.hpp"
 #include "io/summary_json.hpp"
 #include "model/model.hpp"
@@ -64,7 +64,7 @@ void answer_half_space(Call& call) {
     return !call.control.stop.load();
   };
   const ThreadsOfCaller threads(wanted.threads);
-  const StopWish wish(&call.control.stop);
+  const StopRequest wish(&call.control.stop);
   try {
     run->solution = solved(*run, wanted, observer);
   } catch (const CaseError& e) {
@@ -105,7 +105,7 @@ std::size_t patch_asked(const Call& call) { return static_cast<std::size_t>(call
 /// (n, 6) stresses at (n, 3) points.
 void stresses_at(Call& call) {
   const auto run = call.made<HalfSpaceRun>("run");
-  const StopWish wish(&call.control.stop);
+  const StopRequest wish(&call.control.stop);
   const std::vector<InteriorPoint> found = interior(*run, call.text("body"), patch_asked(call))
                                                .at(points_of(call.array("points")), call.flag("below_interface"));
   std::vector<double> out(6 * found.size());

@@ -19,7 +19,7 @@ struct Ranks {
 
   bool alone() const { return count == 1; }
   /// Rank 0 writes files and messages for all.
-  bool speaks() const { return rank == 0; }
+  bool is_root() const { return rank == 0; }
   void gather(double* all, const std::ptrdiff_t* sizes) const { gather_parts(context, all, sizes); }
 };
 

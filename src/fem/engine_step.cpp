@@ -13,32 +13,32 @@ void Stepper::use(const EngineOf& engine_of) {
   if (!engine_of) return;
   engine_ = engine_of(sys_, bodies_, dt());
   record_ = {state_.time, state_.step, state_.axle, contact_.forces(), 0, balance_, contact_.reached_edge()};
-  RestartState lent = lend_state();
-  engine_->load(lent);
-  take_back(std::move(lent));
+  RestartState restart = release_state();
+  engine_->load(restart);
+  restore_state(std::move(restart));
 }
 
 // The state by moves, without a copy of its fields.
-RestartState Stepper::lend_state() {
+RestartState Stepper::release_state() {
   RestartState out = restart_beside_state();
   out.state = std::move(state_);
   return out;
 }
 
-void Stepper::take_back(RestartState lent) {
-  state_ = std::move(lent.state);
-  balance_ = lent.balance;
-  bodies_[kWheel].mean = lent.mean;
-  contact_.restore({std::move(lent.facets), lent.reached_edge});
+void Stepper::restore_state(RestartState restart) {
+  state_ = std::move(restart.state);
+  balance_ = restart.balance;
+  bodies_[kWheel].mean = restart.mean;
+  contact_.restore({std::move(restart.facets), restart.reached_edge});
   fields_here_ = true;
 }
 
 void Stepper::fetch() {
   if (fields_here_) return;
   require_none_ahead();
-  RestartState lent = lend_state();
-  engine_->store(lent);
-  take_back(std::move(lent));
+  RestartState restart = release_state();
+  engine_->store(restart);
+  restore_state(std::move(restart));
 }
 
 // As many as surely end before the wheel is there, or at the next restart point; at least one.

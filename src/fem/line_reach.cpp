@@ -167,15 +167,15 @@ bool moments_of_tiles(const SweptBody& mesh, const Ties& ties) {
   return ties.levels().size() <= 1 && !axle_carries(mesh);
 }
 
-std::ptrdiff_t given_numbers(const LineGift& gift) {
+std::ptrdiff_t sent_numbers(const SentRanges& gift) {
   std::ptrdiff_t out = 0;
   for (const StationRanges& line : gift)
     for (const StationRange& r : line) out += 3 * (r.end - r.begin);
   return out;
 }
 
-std::vector<LineGift> line_gifts(const SharedLines& body, const std::vector<LineReach>& reaches) {
-  std::vector<LineGift> out;
+std::vector<SentRanges> sent_ranges(const SharedLines& body, const std::vector<LineReach>& reaches) {
+  std::vector<SentRanges> out;
   for (const OwnedChain& s : stretches(body.tiling, body.cut)) {
     const int block = body.tiling.block(s), plane = body.tiling.border_plane(s),
               end = body.tiling.tiles[s.end_tile - 1].end;
@@ -185,7 +185,7 @@ std::vector<LineGift> line_gifts(const SharedLines& body, const std::vector<Line
         for (int n : body.lines[block])
           for (const StationRange& r : reaches[rank].forces[block][n])
             for (int j = r.begin; j < r.end; ++j) wanted.add({block, n}, j);
-    LineGift gift(body.layout.blocks[block].nodes);
+    SentRanges gift(body.layout.blocks[block].nodes);
     for (int n : body.lines[block])
       for (const StationRange& r : wanted.ranges({block, n})) {
         const StationRange inside{std::max(r.begin, plane + 1), std::min(r.end, end)};

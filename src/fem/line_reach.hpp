@@ -55,10 +55,10 @@ bool moments_of_tiles(const SweptBody& mesh, const Ties& ties);
 inline int moment_numbers(const Chain& stretch) { return 2 * (stretch.end_tile - stretch.first_tile) - 1; }
 
 /// Forces on lines that a stretch's owner gives in a usual step, by section node: those that another rank collects.
-using LineGift = std::vector<StationRanges>;
+using SentRanges = std::vector<StationRanges>;
 /// Number of values in it.
-std::ptrdiff_t given_numbers(const LineGift& gift);
+std::ptrdiff_t sent_numbers(const SentRanges& gift);
 /// By stretch, in their order (body/tile_cut.hpp).
-std::vector<LineGift> line_gifts(const SharedLines& body, const std::vector<LineReach>& reaches);
+std::vector<SentRanges> sent_ranges(const SharedLines& body, const std::vector<LineReach>& reaches);
 
 }  // namespace railstrata

@@ -94,7 +94,7 @@ RankExchange::RankExchange(const Ranks& ranks, const Model& model, RollingBodies
 
 void RankExchange::place_windows(RollingBodies& bodies, const AxlePose& pose) {
   placed_ = pose;
-  gifts_.clear();
+  sent_.clear();
   const double contact[] = {window_.rail_start + pose.x, pose.psi}, half_width = window_.half_length + window_.stride,
                width[] = {half_width, half_width / window_.radius};
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -103,7 +103,7 @@ void RankExchange::place_windows(RollingBodies& bodies, const AxlePose& pose) {
         b.mesh,     b.layout, b.tiling, b.ties, bodies[k].cut, lines_[k], bodies[k].steps.scaling.chains(),
         contact[k], width[k]};
     std::vector<LineReach> reaches = line_reaches(shared, ranks_.count);
-    for (LineGift& gift : line_gifts(shared, reaches)) gifts_.push_back(std::move(gift));
+    for (SentRanges& gift : sent_ranges(shared, reaches)) sent_.push_back(std::move(gift));
     parts_[k].values = std::move(reaches[ranks_.rank].values);
     parts_[k].forces = std::move(reaches[ranks_.rank].forces);
   }
@@ -144,7 +144,7 @@ void RankExchange::each_force(int rank, Kind kind, RollingBodies& bodies, BodySt
       continue;
     }
     for (int n : lines_[s.body][block])
-      for (const StationRange& r : gifts_[k][n]) visit_node(n, r);
+      for (const StationRange& r : sent_[k][n]) visit_node(n, r);
     for (int line : slaves_[s.body][block])
       visit(moment_pieces(s, b.body.ties, line) + 2 * (s.first_tile - b.body.tiling.first_tile[block]) + 1,
             moment_numbers(s));

@@ -67,7 +67,7 @@ class RankExchange {
   std::array<NodesOfBlocks, 2> inner_nodes_;   // likewise: those that the owner alone updates
   AxlePose placed_;                            // of the axle when windows were placed
   std::array<TiedPart, 2> parts_;              // of this rank
-  std::vector<LineGift> gifts_;                // by stretch
+  std::vector<SentRanges> sent_;               // by stretch
   std::vector<Chain> own_chains_;
   std::array<double, 2> mark_{};
   std::vector<double> marks_;  // of all ranks

@@ -62,7 +62,7 @@ void add_lines(const Skeleton& b, const TileCut& cut, double contact, double hal
   const Lines lines = lines_of(b.mesh);
   const SharedLines shared{b.mesh, b.layout, b.tiling, b.ties, cut, lines.lines, {}, contact, half_width};
   const std::vector<LineReach> reaches = line_reaches(shared, static_cast<int>(given.size()));
-  const std::vector<LineGift> gifts = line_gifts(shared, reaches);
+  const std::vector<SentRanges> gifts = sent_ranges(shared, reaches);
   const std::vector<OwnedChain> all = stretches(b.tiling, cut);
   const bool gives_moments = b.mesh.kind == SweepKind::revolve && moments_of_tiles(b.mesh, b.ties);
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -70,7 +70,7 @@ void add_lines(const Skeleton& b, const TileCut& cut, double contact, double hal
     const long nodes = b.layout.blocks[block].nodes, bore = static_cast<long>(lines.bore[block].size()),
                inner = b.tiling.tiles[all[k].end_tile - 1].end - b.tiling.border_plane(all[k]) - 1;
     const long moments = gives_moments ? lines.slaves[block] * moment_numbers(all[k]) : 0;
-    given[all[k].owner] += static_cast<double>(6 * nodes + 3 * bore * inner + given_numbers(gifts[k]) + moments);
+    given[all[k].owner] += static_cast<double>(6 * nodes + 3 * bore * inner + sent_numbers(gifts[k]) + moments);
   }
   for (std::size_t r = 0; r < kept.size(); ++r)
     for (std::size_t block = 0; block < lines.lines.size(); ++block)

@@ -167,7 +167,7 @@ bool Roller::attend_to_demand() {
 void Roller::step() {
   const bool record = stepper_.position() >= run_.next_history;
   if (record) stepper_.want_energy();
-  stepper_.look_next_at(next_look());
+  stepper_.check_next_at(next_look());
   stepper_.step();
   require_sound(stepper_);
   require_forward(stepper_);

@@ -51,7 +51,7 @@ class Stepper {
   void step();
   /// Until the wheel is at `position` [m], or a restart point, the caller reads scalars alone after a step: time,
   /// position, creepage and forces. An engine may be so many steps ahead; complete() is for later.
-  void look_next_at(double position) { next_look_ = position; }
+  void check_next_at(double position) { next_look_ = position; }
   /// Makes the state whole, with what only other ranks or the engine know. To be called before the state of a whole
   /// body is read: restart_state(), displacement(), samples. All ranks call it.
   void complete();
@@ -104,8 +104,8 @@ class Stepper {
   int steps_until_look() const;
   void require_none_ahead() const;
   RestartState restart_beside_state() const;  // all but the state itself
-  RestartState lend_state();
-  void take_back(RestartState lent);
+  RestartState release_state();
+  void restore_state(RestartState restart);
   void book_contact(const ContactLosses& losses);
   void book_update(const StepScope& scope);
   void book_kinetic_energy(double axle);

@@ -59,7 +59,7 @@ inline constexpr double kLargestFilmShear = 0.05, kFilmShearsAway = 0.5;
 /// m, below its crest a flange has its working face. [EN15313]
 inline constexpr double kFlangeTip = 2e-3;
 /// Share of p_max: a tension maximum at the edge of the searched region is reported only above it.
-inline constexpr double kTellingTension = 0.01;
+inline constexpr double kReportedTension = 0.01;
 
 inline constexpr std::array kCheckRows{
     CheckRow{.key = "preload_residual",
@@ -230,7 +230,7 @@ inline constexpr std::array kCheckRows{
              .name = "Stress maximum at the rim",
              .what = "stress that still rises at the rim of the search, of the largest pressure",
              .kind = CheckKind::warning,
-             .bem_limit = kTellingTension,
+             .bem_limit = kReportedTension,
              .advice = "a larger one may lie beyond",
              .own_text = true},
     CheckRow{.key = "measured_within_torque_ramp",

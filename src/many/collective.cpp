@@ -83,7 +83,7 @@ std::vector<CollectiveRow> plan_collective(const CaseSpec& spec) {
 void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::path& folder,
                       const CollectiveOptions& options) {
   std::size_t done = 0;
-  for_each_ended(rows.size(), options.control, [&](std::size_t i) {
+  for_each_completed(rows.size(), options.control, [&](std::size_t i) {
     solve_or_tell(rows[i], folder, options);
     return [&, i] {
       rows[i].done = true;

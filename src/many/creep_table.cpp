@@ -234,7 +234,7 @@ void CreepTable::solve(const CreepTableOptions& options) {
   InfluenceCache cache;
   const std::size_t length = axes_[row_axis_].at.size();
   std::size_t done = 0;
-  for_each_ended(points() / length, options.control, [&](std::size_t r) {
+  for_each_completed(points() / length, options.control, [&](std::size_t r) {
     const Row next = row(r);
     const double* force = table_.numbers.front().values.data() + next.first;
     bool whole = true;

@@ -17,7 +17,7 @@ namespace railstrata {
 /// throw, the last one of it, is thrown at the end. Those that have not begun when `control` asks to stop are left out.
 /// `solve` throws nothing.
 template <class Solve>
-void for_each_ended(std::size_t count, const Control* control, Solve&& solve) {
+void for_each_completed(std::size_t count, const Control* control, Solve&& solve) {
   std::mutex ending;
   std::exception_ptr failure;
   for_each(

@@ -56,7 +56,7 @@ std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std:
 }
 
 void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options) {
-  for_each_ended(cases.size(), options.control, [&](std::size_t i) {
+  for_each_completed(cases.size(), options.control, [&](std::size_t i) {
     solve(cases[i], options.bem, options.stresses);
     return [&cases, &options, i] {
       cases[i].done = true;

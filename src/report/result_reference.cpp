@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view engine_words(HadBy engine) {
-  return engine == HadBy::both_engines ? "" : engine == HadBy::finite_elements ? "fem" : "bem";
+std::string_view engine_words(AvailableIn engine) {
+  return engine == AvailableIn::both_engines ? "" : engine == AvailableIn::finite_elements ? "fem" : "bem";
 }
 
 std::string_view kind_word(CheckKind kind) {
@@ -57,7 +57,7 @@ Json number_json(const ResultNumber& n) {
           {"shown", n.shown},
           {"comparable", n.comparable},
           {"column", n.column ? Json(n.column_name()) : Json(nullptr)},
-          {"engine", n.engine == HadBy::both_engines ? Json(nullptr) : Json(engine_words(n.engine))},
+          {"engine", n.engine == AvailableIn::both_engines ? Json(nullptr) : Json(engine_words(n.engine))},
           {"doc", n.doc},
           {"round_off", round_off_json(n.round_off)},
           {"of_all_patches", n.of_all_patches}};

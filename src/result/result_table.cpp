@@ -55,7 +55,9 @@ ResultNumber row(std::string_view symbol, const Unit& unit, double (*value)(cons
   out.label = label;
   out.name = name;
   out.doc = doc;
-  out.engine = marks & kFem ? HadBy::finite_elements : marks & kBem ? HadBy::half_spaces : HadBy::both_engines;
+  out.engine = marks & kFem   ? AvailableIn::finite_elements
+               : marks & kBem ? AvailableIn::half_spaces
+                              : AvailableIn::both_engines;
   out.column = marks & kColumn;
   out.shown = marks & kShown;
   out.comparable = marks & kCompared;

@@ -19,7 +19,7 @@ namespace railstrata {
 /// Place of the factors in summary.json, /shakedown/factors.
 inline constexpr std::string_view kShakedownGroup = "shakedown/factors";
 
-enum class HadBy { both_engines, finite_elements, half_spaces };
+enum class AvailableIn { both_engines, finite_elements, half_spaces };
 
 /// Place of layers and interfaces in summary.json.
 inline constexpr std::string_view kLayersGroup = "layers";
@@ -36,7 +36,7 @@ struct ResultNumber : Column<Summary> {
   std::string_view label{};  ///< short, as in the head of a table: "p_max"
   std::string_view name{};   ///< of the page and the screen
   std::string_view doc;      ///< one line of the reference page
-  HadBy engine = HadBy::both_engines;
+  AvailableIn engine = AvailableIn::both_engines;
   bool column = false;      ///< stands in the tables of `sweep` and `study`
   bool shown = false;       ///< stands on the page and the screen
   bool comparable = false;  ///< a difference between two results means something: not of a small remainder, nor of

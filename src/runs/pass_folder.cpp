@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/faults.hpp"
-#include "core/stop_wish.hpp"
+#include "core/stop_request.hpp"
 #include "judge/check_limits.hpp"
 #include "passes/pass_plan.hpp"
 #include "passes/pass_way.hpp"
@@ -52,7 +52,7 @@ class SteadyPasses : public PassJob {
   RailPasses rail_of() {
     BemOptions bem;
     bem.cell = wanted_.cell;
-    const StopWish wish(&control_.stop);
+    const StopRequest wish(&control_.stop);
     std::vector<BemResult> solutions;
     for (const CaseSpec& spec : cases_of_tractions(loaded_.spec)) {
       HalfSpaceSolution solution = solve_half_space_contact(spec, place(spec, loaded_.folder()), bem);

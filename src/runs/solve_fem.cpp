@@ -73,8 +73,8 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
 }
 
 /// On the rank that has the positions.
-bool leaves_residual(const RollingSystem& system, const FemOptions& options) {
-  return options.residual && system.model.spec.run.plasticity && options.ranks.speaks();
+bool has_residual(const RollingSystem& system, const FemOptions& options) {
+  return options.residual && system.model.spec.run.plasticity && options.ranks.is_root();
 }
 
 RunResult roll(const RollingSystem& system, const RunObserver& observer, const RunControl& control,
@@ -120,18 +120,18 @@ FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, 
   std::optional<RunResidual> residual;
   run_observer.finished = [&](const RollingState& state) {
     if (observer.finished) observer.finished(state);
-    if (leaves_residual(system, options)) residual = run_residual(system, state);
+    if (has_residual(system, options)) residual = run_residual(system, state);
   };
   states.observe(run_observer);
 
   RunResult run = roll(system, run_observer, control, options, std::move(begun));
-  if (!system.model.spec.run.rolling && leaves_residual(system, options))
+  if (!system.model.spec.run.rolling && has_residual(system, options))
     residual.emplace().none = "the wheel stands where it was put on";
   FemSolution out;
   out.stopped = run.stopped;
   out.limit_reached = control.limit_reached();
   out.state = std::move(states.stopped_at);
-  if (!options.ranks.speaks()) return out;
+  if (!options.ranks.is_root()) return out;
   for (const PositionSamples& samples : run.positions) {
     if (samples.samples.empty()) break;
     out.positions.push_back(position_of(system, run, samples));

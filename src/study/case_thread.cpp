@@ -9,7 +9,7 @@
 #include "case/units.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
-#include "core/stop_wish.hpp"
+#include "core/stop_request.hpp"
 #include "io/output_folder.hpp"
 #include "many/each_case.hpp"
 #include "record/output_file.hpp"
@@ -57,7 +57,7 @@ class CaseThread : public RunningCase {
 
   void solve() {
     set_threads(settings_.threads);
-    const StopWish wish(&stop_);
+    const StopRequest wish(&stop_);
     const LoadedCase& loaded = case_.loaded;
     for (const auto* notes : {&loaded.notes, &loaded.elastic_notes, &loaded.static_notes})
       for (const std::string& note : *notes) log_ += fmt::format("warning: {}\n", note);

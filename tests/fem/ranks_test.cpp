@@ -186,7 +186,7 @@ TEST(SlowRanks, GoOnWithTheStateOfAnotherNumberOfRanks) {
       Stepper st(system, state, mine);
       roll(st, 16);
       RestartState own = whole_state(st);
-      if (mine.speaks()) next = std::move(own);
+      if (mine.is_root()) next = std::move(own);
     });
     state = std::move(next);
   }

@@ -58,17 +58,19 @@ class Page(unittest.TestCase):
         self.browser.downloads.joinpath(f"{figure}.csv").unlink()
         return list(csv.DictReader(lines))
 
-    def under(self, plot, x, y):
-        """What a painted picture says at this share of its width and height, and its colour there."""
+    def under(self, plot, *shares):
+        """What a painted picture shows at these shares (x, y) of its width and height, and its colours there."""
         return self.js(
             """const host = document.getElementById(arguments[0]), canvas = host.querySelector('canvas');
-               const box = host.getBoundingClientRect(), c = canvas.getBoundingClientRect();
-               const at = {clientX: c.left + arguments[1] * c.width, clientY: c.top + arguments[2] * c.height};
-               host.dispatchEvent(new PointerEvent('pointermove', at));
-               const words = host.querySelector('.under');
-               const [x, y] = [arguments[1] * canvas.width, arguments[2] * canvas.height];
-               const pixel = canvas.getContext('2d').getImageData(x, y, 1, 1).data;
-               return [words.hidden ? null : words.textContent, [...pixel].slice(0, 3)]""", plot, x, y)
+               const box = canvas.getBoundingClientRect();
+               const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+               return arguments[1].map(([x, y]) => {
+                 const at = {clientX: box.left + x * box.width, clientY: box.top + y * box.height};
+                 host.dispatchEvent(new PointerEvent('pointermove', at));
+                 const words = host.querySelector('.under');
+                 const first = 4 * (Math.floor(y * canvas.height) * canvas.width + Math.floor(x * canvas.width));
+                 return [words.hidden ? null : words.textContent, [...data.slice(first, first + 3)]];
+               })""", plot, shares)
 
     def map_peak(self, plot):
         t = self.trace(plot)
@@ -264,13 +266,13 @@ class Run(Page):
 
     def test_a_picture_says_what_is_under_the_pointer_in_its_colour(self):
         peak = max(read_table(FEM / "patch.csv")["p_MPa"])
-        found = [self.under("plot-hero-p", 0.3 + 0.02 * i, 0.1 + 0.03 * j) for i in range(25) for j in range(26)]
+        found = self.under("plot-hero-p", *((0.3 + 0.02 * i, 0.1 + 0.03 * j) for i in range(25) for j in range(26)))
         told = [(float(re.search(r"p ([\d.]+) MPa", words)[1]), pixel) for words, pixel in found if words]
         self.assertGreater(len(told), 20)
         value, pixel = max(told)
         self.assertAlmostEqual(value, peak, delta=0.06)
         self.assertIn([253, 231, 37], [p for v, p in told if v == value])
-        self.assertIsNone(self.under("plot-hero-p", 0.01, 0.5)[0])
+        self.assertIsNone(self.under("plot-hero-p", (0.01, 0.5))[0][0])
 
     def test_tractions_have_their_signs_and_arrows_their_direction(self):
         for n, folder in enumerate([FEM, HALF_SPACE]):

@@ -65,7 +65,7 @@ TEST(SlowEngine, StepsTakenTogetherHaveTheBitsOfSingleOnesAndOneCopy) {
   roll(single, 1);
   roll(ahead, 1);
   const long before = other.copies();
-  ahead.look_next_at(1.0);
+  ahead.check_next_at(1.0);
   for (int k = 1; k < 48; ++k) {
     single.step();
     ahead.step();
@@ -84,7 +84,7 @@ TEST(Engine, WhatIsToBeSeenBeforeTheStepsAreOverEndsTheRun) {
   EmulatedDevice device(Protection::open);
   Stepper stepper(system, solve_preload(system, 1e-2));
   stepper.use(on(device));
-  stepper.look_next_at(1.0);
+  stepper.check_next_at(1.0);
   stepper.step();
   EXPECT_THROW(stepper.complete(), NumericalError);
 }

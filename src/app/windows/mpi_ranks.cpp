@@ -11,11 +11,11 @@ void MpiRanks::leave() {}
 
 bool MpiRanks::any_asked(bool this_one) { return this_one; }
 
-void MpiRanks::let_rank_0_speak() const {}
+void MpiRanks::wait_for_rank_0() const {}
 
 void refuse_ranks(const std::string&) {}
 
-void leave_words_to_rank_0() {}
+void log_on_rank_0_only() {}
 
 void start_children_alone() {}
 

@@ -10,7 +10,7 @@ import {linesFigure, type Series} from "./lines";
 import {mapFigure, type Line, type Marker} from "./maps";
 
 /// What maps of a section take: of passes, or of a single run.
-export interface SectionStory {
+export interface SectionHistory {
   name: string;
   summary: Pick<PassesSummary, "zones"|"loops"|"points">;
   residual: Columns;
@@ -20,12 +20,12 @@ export interface SectionStory {
 const kClassFills = ["#0072b2", "#56b4e9", "#d55e00", "#b9bec5"];
 const kClassScale = kindScale(0, kClassFills.length, () => kClassFills);
 /// Words of the classes, by the number that residual.csv has: passes.json counts the points of each in their order.
-function classesOf(s: SectionStory): string[] {
+function classesOf(s: SectionHistory): string[] {
   const words = Object.keys(s.summary.points ?? {});
   return kClassFills.map((_, k) => words[k] ?? `class ${k}`);
 }
-const several = (all: SectionStory[]) => all.length > 1;
-const called = (s: SectionStory, all: SectionStory[], words: string) => (several(all) ? `${words}: ${s.name}` : words);
+const several = (all: SectionHistory[]) => all.length > 1;
+const called = (s: SectionHistory, all: SectionHistory[], words: string) => (several(all) ? `${words}: ${s.name}` : words);
 const strain = (v: number|null|undefined) => (v === 0 ? "0" : powerText(v));
 const depthText = (metres: number) => `${(1e3 * metres).toFixed(2)} mm`;
 
@@ -110,7 +110,7 @@ interface Section {
   rows: (values: Values) => Values[];  // a row for each depth; null where there is no point
 }
 
-function sectionOf(s: SectionStory): Section {
+function sectionOf(s: SectionHistory): Section {
   if (s.residual.row) return elementSection(s.residual);
   const depth = s.residual.depth_mm;
   let width = 0;
@@ -141,12 +141,12 @@ function elementSection(residual: Columns): Section {
 }
 
 /// Lower borders of layers [mm].
-function borders(s: SectionStory): number[] { return (s.summary.zones ?? []).slice(1).map((z) => 1e3 * z.top_m); }
+function borders(s: SectionHistory): number[] { return (s.summary.zones ?? []).slice(1).map((z) => 1e3 * z.top_m); }
 
 const largest = (values: Values) => values.reduce<number>((m, v) => Math.max(m, Math.abs(v ?? 0)), 0);
 
 /// Across, where the rail has yielded or keeps a quarter of the largest stress, with room to either side.
-function windowOf(s: SectionStory, section: Section): Span {
+function windowOf(s: SectionHistory, section: Section): Span {
   const {residual} = s;
   const p = 0.02 * largest(residual.plastic_strain_accumulated);
   const stress = 0.25 * largest(residual.sigma_xx_MPa);
@@ -210,7 +210,7 @@ const kMaps: Quantity[] = [
   },
 ];
 
-function marker(s: SectionStory): Marker|undefined {
+function marker(s: SectionHistory): Marker|undefined {
   const at = s.summary.loops?.[0];
   if (!at) return undefined;
   return {x: 1e3 * at.y_m, y: 1e3 * at.depth_m, text: `governing point, ${depthText(at.depth_m)} deep`};
@@ -222,7 +222,7 @@ interface Frame {
   foot: number;
 }
 
-function commonFrame(all: SectionStory[]): Frame {
+function commonFrame(all: SectionHistory[]): Frame {
   const windows = all.map((s) => windowOf(s, sectionOf(s)));
   const feet = all.map((s) => {
     const {depth} = sectionOf(s);
@@ -233,7 +233,7 @@ function commonFrame(all: SectionStory[]): Frame {
   return {across, foot: Math.min(...feet)};
 }
 
-function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: number, shown: Frame): Figure {
+function sectionMap(s: SectionHistory, all: SectionHistory[], q: Quantity, scale: number, shown: Frame): Figure {
   const section = sectionOf(s);
   const yielded = (v: number, i: number) => (q.classes && s.residual.plastic_strain_accumulated[i] === 0 ? null : v);
   const values = section.rows(s.residual[q.column].map(yielded));
@@ -262,7 +262,7 @@ function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: nu
   });
 }
 
-function classLegend(s: SectionStory): HTMLElement {
+function classLegend(s: SectionHistory): HTMLElement {
   const yielded = s.residual.class.filter((_, i) => s.residual.plastic_strain_accumulated[i] !== 0);
   const there = classesOf(s).flatMap((name, k) => {
     if (!yielded.includes(k)) return [];
@@ -272,7 +272,7 @@ function classLegend(s: SectionStory): HTMLElement {
   return element("span", {class: "legend"}, ...there, element("br"));
 }
 
-function sectionMaps(all: SectionStory[], quantities: Quantity[]): Figure[] {
+function sectionMaps(all: SectionHistory[], quantities: Quantity[]): Figure[] {
   const wide = all.filter((s) => sectionOf(s).width > 1);
   const shown = commonFrame(wide);
   return quantities.flatMap((q) => {
@@ -283,7 +283,7 @@ function sectionMaps(all: SectionStory[], quantities: Quantity[]): Figure[] {
 }
 
 /// Residual stress of single runs, which have made one pass.
-export function residualMaps(all: SectionStory[]): Figure[] {
+export function residualMaps(all: SectionHistory[]): Figure[] {
   const [along, across] = kMaps;
   const words = ["Blue presses, red pulls. What the wheel leaves behind."];
   return sectionMaps(all, [{...along, id: "residual", words}, {...across, id: "residual"}]);

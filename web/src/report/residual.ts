@@ -5,13 +5,13 @@ import {fixedText, numberText} from "../text";
 import type {Theme} from "../theme";
 import type {Columns, Run} from "./data";
 import {linesFigure, type Series} from "./lines";
-import {residualMaps, type SectionStory} from "./passes";
+import {residualMaps, type SectionHistory} from "./passes";
 import {runLabel} from "./words";
 
 const named = (run: Run, runs: Run[], words: string) => (runs.length > 1 ? `${runLabel(run)}: ${words}` : words);
 
 /// Of the rail's layers, from the surface down.
-function storyOf(run: Run, residual: Columns): SectionStory {
+function historyOf(run: Run, residual: Columns): SectionHistory {
   const layers = (run.geometry?.layers ?? []).filter((layer) => layer.on === "rail");
   const tops = [0];
   for (const layer of layers) tops.push(tops[tops.length - 1] + layer.thickness_m);
@@ -40,7 +40,7 @@ function columnOf({row, column, plastic_strain_accumulated}: Columns): number[] 
 const kLines: [column: string, name: string][] =
     [["sigma_xx_MPa", "σ_x"], ["sigma_yy_MPa", "σ_y"], ["sigma_xz_MPa", "τ_xz"]];
 
-function profile(stories: SectionStory[]): Figure {
+function profile(stories: SectionHistory[]): Figure {
   const several = stories.length > 1;
   const series = stories.flatMap((s, n) => {
     const at = columnOf(s.residual);
@@ -73,7 +73,7 @@ export function residualOf(runs: Run[]): {told: HTMLElement[]; figures: Figure[]
     const said = words(run);
     return said ? [element("p", {class: "residual"}, named(run, runs, said))] : [];
   });
-  const stories = yielding.flatMap((run) => (run.residual ? [storyOf(run, run.residual)] : []));
+  const stories = yielding.flatMap((run) => (run.residual ? [historyOf(run, run.residual)] : []));
   if (!stories.length) return {told, figures: []};
   const axes = note(
       "Residual stress: of an endless rail with the plastic strain of the steady stations behind the wheel, at rest. " +

@@ -1,4 +1,4 @@
-#include "core/stop_wish.hpp"
+#include "core/stop_request.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,25 +9,25 @@
 namespace railstrata {
 namespace {
 
-TEST(StopWish, StopsItsOwnThreadOnceItIsSet) {
+TEST(StopRequest, StopsItsOwnThreadOnceItIsSet) {
   stop_if_wished();
   std::atomic<bool> flag{false};
   {
-    const StopWish wish(&flag);
+    const StopRequest wish(&flag);
     stop_if_wished();
     flag = true;
     EXPECT_THROW(stop_if_wished(), Interrupted);
     std::thread([] { EXPECT_NO_THROW(stop_if_wished()); }).join();
     const std::atomic<bool> never{false};
-    const StopWish inner(&never);
+    const StopRequest inner(&never);
     EXPECT_NO_THROW(stop_if_wished());
   }
   EXPECT_NO_THROW(stop_if_wished());
 }
 
-TEST(StopWish, WaitsForTheEndOfAParallelLoop) {
+TEST(StopRequest, WaitsForTheEndOfAParallelLoop) {
   const std::atomic<bool> flag{true};
-  const StopWish wish(&flag);
+  const StopRequest wish(&flag);
 #pragma omp parallel for
   for (int i = 0; i < 8; ++i) EXPECT_NO_THROW(stop_if_wished());
   EXPECT_THROW(stop_if_wished(), Interrupted);

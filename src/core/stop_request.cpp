@@ -1,4 +1,4 @@
-#include "core/stop_wish.hpp"
+#include "core/stop_request.hpp"
 
 #include <omp.h>
 
@@ -11,8 +11,8 @@ thread_local const std::atomic<bool>* wish = nullptr;
 
 }  // namespace
 
-StopWish::StopWish(const std::atomic<bool>* flag) : before_(wish) { wish = flag; }
-StopWish::~StopWish() { wish = before_; }
+StopRequest::StopRequest(const std::atomic<bool>* flag) : before_(wish) { wish = flag; }
+StopRequest::~StopRequest() { wish = before_; }
 
 void stop_if_wished() {
   if (wish != nullptr && *wish && omp_in_parallel() == 0) throw Interrupted("stopped");
