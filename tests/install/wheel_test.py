@@ -81,7 +81,7 @@ class Promises:
 
     def test_the_licence_of_every_library_is_inside(self):
         texts = {f.name for f in next(self.tree.rglob("licenses")).iterdir()}
-        self.assertLessEqual({"LICENSE", "report-page.txt", "libfmt-dev.txt", "libeigen3-dev.txt", "libgomp1.txt",
+        self.assertLessEqual({"LICENSE", "explore-page.txt", "libfmt-dev.txt", "libeigen3-dev.txt", "libgomp1.txt",
                               "libaec0.txt", "libtomlplusplus-dev.txt"}, texts)
         self.assertTrue([name for name in texts if name.startswith("libhdf5")], texts)
         self.assertFalse(list(self.tree.rglob("libfftw*")))
