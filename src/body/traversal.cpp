@@ -248,7 +248,7 @@ StrainEnergy Traversal::energy(Field& u, double psi, const PlasticHistory& histo
   return sum;
 }
 
-template void Traversal::chain_forces(const Chain&, const Field&, Field&, const Field&, const StoreForces&);
-template void Traversal::chain_forces(const Chain&, const Field&, Field&, const Field&, const FuseUpdate&);
+template void Traversal::chain_forces(const Chain&, const Field&, Field&, const PlasticHistory&, const StoreForces&);
+template void Traversal::chain_forces(const Chain&, const Field&, Field&, const PlasticHistory&, const FuseUpdate&);
 
 }  // namespace railstrata

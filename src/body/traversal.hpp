@@ -56,7 +56,7 @@ class Traversal {
   void internal_force(Field& u, double psi, Field& f, const PlasticHistory& history);
   void internal_force(Field& u, double psi, Field& f) {
     assert(body_->plastic.empty());
-    internal_force(u, psi, f, Field());
+    internal_force(u, psi, f, PlasticHistory());
   }
   /// f = K u, K the stiffness of the undeformed body.
   void linear_force(Field& u, Field& f);

@@ -11,7 +11,8 @@ namespace railstrata {
 
 /// State of the rail at the end of a rolling.
 struct RolledRail {
-  Field u, history;
+  Field u;
+  PlasticHistory history;
   double wheel = 0;              ///< m, where the axle is
   double behind = 0, ahead = 0;  ///< m, stations of the loops: between wheel - behind and wheel + ahead
 };
