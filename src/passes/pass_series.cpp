@@ -1,12 +1,18 @@
 #include "passes/pass_series.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include "passes/pass_files.hpp"
 
 namespace railstrata {
+
+namespace {
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+}
 
 void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series) {
   const std::size_t points = result.accumulated.size();
@@ -30,7 +36,7 @@ void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series)
   }
   series.strains.push_back(pass.largest);
   if (whole) series.cycles.push_back(largest);
-  series.table.push_back(stationary_values(pass, whole ? std::optional(largest) : std::nullopt));
+  add_row(stationary_columns(), {pass, whole ? largest : PassStrain{kUnknown, kUnknown}}, series.table);
 }
 
 PassVerdict verdict_of(const PassSeries& series) {
@@ -42,6 +48,27 @@ PassVerdict verdict_of(const PassSeries& series) {
 void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes) {
   if (passes.size() == kPointPasses) passes.erase(passes.begin());
   passes.push_back(strain);
+}
+
+Columns<std::vector<PassStrain>> remembered_columns() {
+  using P = std::vector<PassStrain>;
+  Columns<P> out;
+  for (std::size_t n = 0; n < kPointPasses; ++n) {
+    out.push_back({fmt::format("accumulated_{}", n), unit::kNone,
+                   [n](const P& p) { return n < p.size() ? p[n].accumulated : kUnknown; }});
+    out.push_back(
+        {fmt::format("net_{}", n), unit::kNone, [n](const P& p) { return n < p.size() ? p[n].net : kUnknown; }});
+  }
+  return out;
+}
+
+std::vector<PassStrain> remembered_passes(const CsvTable& state, std::size_t row, std::size_t first) {
+  std::vector<PassStrain> out;
+  for (std::size_t c = first; c < first + 2 * kPointPasses; c += 2) {
+    const double net = state.columns[c + 1].values[row];
+    if (!std::isnan(net)) out.push_back({state.columns[c].values[row], net});
+  }
+  return out;
 }
 
 PassStanding standing_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last) {
