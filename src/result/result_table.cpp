@@ -372,9 +372,8 @@ std::string ResultNumber::column_name() const {
   return fmt::format("{}{}{}", prefix, symbol, unit.column_ending);
 }
 
-std::string ResultColumn::key() const {
-  return name.substr(0, name.size() - shown_unit.column_ending.size()) + std::string(shown_unit.key_ending);
-}
+std::string ResultColumn::symbol() const { return name.substr(0, name.size() - shown_unit.column_ending.size()); }
+std::string ResultColumn::key() const { return symbol() + std::string(shown_unit.key_ending); }
 
 const std::vector<ResultNumber>& result_numbers() {
   static const std::vector<ResultNumber> numbers = [] {

@@ -105,7 +105,8 @@ struct ResultColumn {
   bool comparable = true;
   int digits = 4;
 
-  std::string key() const;  ///< "p_max_Pa", of numbers in SI
+  std::string symbol() const;  ///< "p_max"
+  std::string key() const;     ///< "p_max_Pa", of numbers in SI
 };
 
 /// The column of this name. It must be there.
