@@ -11,6 +11,7 @@
 #include "judge/bem_summary.hpp"
 #include "many/each_case.hpp"
 #include "model/model.hpp"
+#include "result/result_table.hpp"
 #include "runs/solve_half_space.hpp"
 
 namespace railstrata {
@@ -31,28 +32,46 @@ void set_creepage(CaseSpec& spec, std::string_view key, double value) {
   spec.drive.lateral_traction_coefficient.reset();
 }
 
-struct Number {
-  const char *name, *unit;
-  double (*of)(const CaseSpec&, const BemResult&, const ContactSummary&);
+/// A point.
+struct Solved {
+  const CaseSpec& spec;
+  const BemResult& result;
+  const Summary& summary;
 };
-double dissipated(const BemResult& r) {
-  double out = r.dissipation;
-  for (const BemPatch& p : r.further) out += p.dissipation;
+
+/// A number of summary.json by another name.
+Column<Solved> of_summary(const char* name, std::string_view symbol) {
+  const auto& all = result_numbers();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const ResultNumber& n) { return n.symbol == symbol; });
+  return {name, found->unit, [value = found->value](const Solved& s) { return value(s.summary); }};
+}
+
+double share_of_bound(const Solved& s) {
+  const ContactSummary& c = s.summary.contact;
+  return std::hypot(c.F_x, c.lateral_force) / (s.spec.drive.friction_coefficient * c.normal_force);
+}
+
+const std::array<Column<Solved>, kCreepNumbers>& creep_numbers() {
+  static const std::array<Column<Solved>, kCreepNumbers> columns{
+      {of_summary("force_x", "F_x"),
+       of_summary("lateral_force", "lateral_force"),
+       of_summary("normal_force", "normal_force"),
+       of_summary("spin_moment", "spin_moment"),
+       of_summary("approach", "approach"),
+       of_summary("p_max", "p_max"),
+       of_summary("patch_area", "patch_area"),
+       of_summary("slip", "slip_area_fraction"),
+       {"dissipation", unit::kWatts, [](const Solved& s) { return dissipation(s.result); }},
+       {"bound", unit::kNone, share_of_bound}}};
+  return columns;
+}
+
+/// "N m", "m2": as a table has it.
+std::string si_text(const Unit& unit) {
+  std::string out(unit.key_ending.substr(unit.key_ending.empty() ? 0 : 1));
+  std::replace(out.begin(), out.end(), '_', ' ');
   return out;
 }
-constexpr Number kNumbers[kCreepNumbers] = {
-    {"force_x", "N", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.F_x; }},
-    {"lateral_force", "N", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.lateral_force; }},
-    {"normal_force", "N", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.normal_force; }},
-    {"spin_moment", "N m", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.spin_moment; }},
-    {"approach", "m", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.approach; }},
-    {"p_max", "Pa", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.patch.p_max; }},
-    {"patch_area", "m2", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.patch.area; }},
-    {"slip", "", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.patch.slip_area_fraction; }},
-    {"dissipation", "W", [](const CaseSpec&, const BemResult& r, const ContactSummary&) { return dissipated(r); }},
-    {"bound", "", [](const CaseSpec& s, const BemResult&, const ContactSummary& c) {
-       return std::hypot(c.F_x, c.lateral_force) / (s.drive.friction_coefficient * c.normal_force);
-     }}};
 
 CreepNumbers solved(const CaseSpec& spec, const Placement& placement, const BemOptions& bem) {
   const BemResult result = solve_bem(spec, placement, bem);
@@ -61,7 +80,7 @@ CreepNumbers solved(const CaseSpec& spec, const Placement& placement, const BemO
     if (!check.ok)
       throw CaseError(fmt::format("check {} fails: {:.3g}, limit {:.3g}", check.name, check.value, check.limit));
   CreepNumbers out{};
-  for (std::size_t k = 0; k < kCreepNumbers; ++k) out[k] = kNumbers[k].of(spec, result, summary.contact);
+  for (std::size_t k = 0; k < kCreepNumbers; ++k) out[k] = creep_numbers()[k].value({spec, result, summary});
   return out;
 }
 
@@ -102,7 +121,8 @@ CreepTable::CreepTable(const LoadedCase& base, const std::vector<std::string>& o
   }
   if (points_asked > kMostTablePoints)
     throw CaseError(fmt::format("{:.7g} points", points_asked), fmt::format("give {} at most", kMostTablePoints));
-  for (const Number& n : kNumbers) table_.numbers.push_back({n.name, n.unit, std::vector<double>(points(), NAN)});
+  for (const auto& n : creep_numbers())
+    table_.numbers.push_back({n.symbol, si_text(n.unit), std::vector<double>(points(), NAN)});
   std::optional<CaseError> first_error;
   for (const std::vector<std::string>& values : combinations(outer_axes, kMostTablePoints)) {
     try {
