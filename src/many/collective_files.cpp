@@ -34,8 +34,6 @@ CsvColumn column(const std::string& symbol, const Unit& unit, std::vector<double
   return {symbol + std::string(unit.column_ending), std::move(values)};
 }
 
-Json finite(double v) { return json_number(v); }
-
 template <class Damage>
 std::vector<KnownWear> known_laws(const Damage& damage, const std::string& whose) {
   std::vector<KnownWear> out;
@@ -87,7 +85,7 @@ Json row_json(const CollectiveRow& row) {
   for (const Warning& w : row.summary.warnings) warnings.push_back(w.name);
   return {{"name", row.name},
           {"passages", row.passages},
-          {"shakedown_wandering", finite(factor)},
+          {"shakedown_wandering", json_number(factor)},
           {"warnings", warnings},
           {"fault", row.fault.empty() ? Json(nullptr) : Json(row.fault)}};
 }
@@ -114,8 +112,9 @@ ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
                 .rows = {}};
   using C = CollectiveRow;
   const auto number = [](const char* label, const Unit& unit, auto&& si) {
-    return TextColumn<C>{titled(label, unit.shown),
-                         [=](const C& row) { return row.solved() ? finite(unit.factor * si(row)) : Json(nullptr); }};
+    return TextColumn<C>{titled(label, unit.shown), [=](const C& row) {
+                           return row.solved() ? json_number(unit.factor * si(row)) : Json(nullptr);
+                         }};
   };
   const Unit mm = unit::kMillimetres;
   Unit wear = unit::kNanometres;
@@ -125,7 +124,7 @@ ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
             {"passages", [](const C& row) { return row.passages; }},
             number("load", unit::kKilonewtons, [](const C& row) { return row.summary.contact.F_z; }),
             {titled("contact y", mm.shown),
-             [mm](const C& row) { return row.solved() ? finite(as_shown(mm, contact_y(row))) : Json(nullptr); }},
+             [mm](const C& row) { return row.solved() ? json_number(as_shown(mm, contact_y(row))) : Json(nullptr); }},
             number("p_max", unit::kMPa, [](const C& row) { return row.summary.contact.patch.p_max; }),
             number("T-gamma", unit::kNewtons, [](const C& row) { return row.summary.damage.t_gamma; }),
             number("USFD wear", wear, [](const C& row) { return row.summary.damage.usfd_depth; }),

@@ -33,7 +33,10 @@ constexpr Chart kCharts[] = {
 
 using P = CreepCurvePoint;
 /// A column with its line on a chart.
-struct CurveColumn : Column<P> {
+struct CurveColumn {
+  const char* symbol;
+  Unit unit;
+  std::function<double(const P&)> value;
   const char* heading;
   std::string_view chart = {};
   const char *line = "full half-space theory, with the case's layers", *dash = "solid";
@@ -42,18 +45,15 @@ std::function<double(const P&)> on_wheel(double P::*on_rail) {
   return [on_rail](const P& p) { return 0.0 - p.*on_rail; };
 }
 const CurveColumn kColumns[] = {
-    {{"full", unit::kNone, on_wheel(&P::full)}, "full theory", "creep"},
-    {{"fastsim", unit::kNone, on_wheel(&P::fastsim)}, "FASTSIM", "creep", "FASTSIM, Hertz ellipse", "dash"},
-    {{"polach", unit::kNone, on_wheel(&P::polach)}, "Polach", "creep", "Polach", "dot"},
-    {{"vermeulen_johnson", unit::kNone, on_wheel(&P::vermeulen_johnson)},
-     "Vermeulen-Johnson",
-     "creep",
-     "Vermeulen-Johnson",
-     "dashdot"},
-    {{"linear", unit::kNone, on_wheel(&P::linear)}, "Kalker, linear"},
-    {{"slip_area_fraction", unit::kNone, &P::slip_fraction}, "slip area / patch area", "slip"},
-    {{"full_across", unit::kNone, on_wheel(&P::across)}, "other force", "across"},
-    {{"full_moment", unit::kMillimetres, on_wheel(&P::moment)}, "moment", "moment"}};
+    {"full", unit::kNone, on_wheel(&P::full), "full theory", "creep"},
+    {"fastsim", unit::kNone, on_wheel(&P::fastsim), "FASTSIM", "creep", "FASTSIM, Hertz ellipse", "dash"},
+    {"polach", unit::kNone, on_wheel(&P::polach), "Polach", "creep", "Polach", "dot"},
+    {"vermeulen_johnson", unit::kNone, on_wheel(&P::vermeulen_johnson), "Vermeulen-Johnson", "creep",
+     "Vermeulen-Johnson", "dashdot"},
+    {"linear", unit::kNone, on_wheel(&P::linear), "Kalker, linear"},
+    {"slip_area_fraction", unit::kNone, &P::slip_fraction, "slip area / patch area", "slip"},
+    {"full_across", unit::kNone, on_wheel(&P::across), "other force", "across"},
+    {"full_moment", unit::kMillimetres, on_wheel(&P::moment), "moment", "moment"}};
 
 ReportTable points_of(const CurveAxis& axis, const std::vector<CsvColumn>& table) {
   ReportTable out{.id = "points",
@@ -94,7 +94,7 @@ std::vector<double> curve_values(const CurveAxis& axis, double largest, int poin
 
 std::vector<CsvColumn> curve_table(const CurveAxis& axis, const std::vector<CreepCurvePoint>& curve) {
   Columns<P> columns{axis.column()};
-  columns.insert(columns.end(), std::begin(kColumns), std::end(kColumns));
+  for (const CurveColumn& c : kColumns) columns.push_back({c.symbol, c.unit, c.value});
   return csv_columns(curve, columns);
 }
 

@@ -36,34 +36,23 @@ void set_creepage(CaseSpec& spec, std::string_view key, double value) {
 struct Solved {
   const CaseSpec& spec;
   const BemResult& result;
-  const Summary& summary;
+  Summary summary;
 };
 
-/// A number of summary.json by another name.
-Column<Solved> of_summary(const char* name, std::string_view symbol) {
-  const auto& all = result_numbers();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const ResultNumber& n) { return n.symbol == symbol; });
-  return {name, found->unit, [value = found->value](const Solved& s) { return value(s.summary); }};
-}
-
-double share_of_bound(const Solved& s) {
-  const ContactSummary& c = s.summary.contact;
-  return std::hypot(c.F_x, c.lateral_force) / (s.spec.drive.friction_coefficient * c.normal_force);
-}
-
-const std::array<Column<Solved>, kCreepNumbers>& creep_numbers() {
-  static const std::array<Column<Solved>, kCreepNumbers> columns{
-      {of_summary("force_x", "F_x"),
-       of_summary("lateral_force", "lateral_force"),
-       of_summary("normal_force", "normal_force"),
-       of_summary("spin_moment", "spin_moment"),
-       of_summary("approach", "approach"),
-       of_summary("p_max", "p_max"),
-       of_summary("patch_area", "patch_area"),
-       of_summary("slip", "slip_area_fraction"),
-       {"dissipation", unit::kWatts, [](const Solved& s) { return dissipation(s.result); }},
-       {"bound", unit::kNone, share_of_bound}}};
-  return columns;
+/// Those of summary.json, two by other names, then those of the solution.
+Columns<Solved> creep_numbers() {
+  const Columns<Summary> all(result_numbers().begin(), result_numbers().end());
+  Columns<Solved> out = of_part<Solved>(select(all, {"F_x", "lateral_force", "normal_force", "spin_moment", "approach",
+                                                     "p_max", "patch_area", "slip_area_fraction"}),
+                                        &Solved::summary);
+  out.front().symbol = "force_x";
+  out.back().symbol = "slip";
+  append(out, {{"dissipation", unit::kWatts, [](const Solved& s) { return dissipation(s.result); }},
+               {"bound", unit::kNone, [](const Solved& s) {
+                  const ContactSummary& c = s.summary.contact;
+                  return std::hypot(c.F_x, c.lateral_force) / (s.spec.drive.friction_coefficient * c.normal_force);
+                }}});
+  return out;
 }
 
 /// "N m", "m2": as a table has it.
@@ -75,12 +64,13 @@ std::string si_text(const Unit& unit) {
 
 CreepNumbers solved(const CaseSpec& spec, const Placement& placement, const BemOptions& bem) {
   const BemResult result = solve_bem(spec, placement, bem);
-  const Summary summary = bem_contact_summary(spec, result);
-  for (const Check& check : summary.checks)
+  const Solved point{spec, result, bem_contact_summary(spec, result)};
+  for (const Check& check : point.summary.checks)
     if (!check.ok)
       throw CaseError(fmt::format("check {} fails: {:.3g}, limit {:.3g}", check.name, check.value, check.limit));
+  static const Columns<Solved> columns = creep_numbers();
   CreepNumbers out{};
-  for (std::size_t k = 0; k < kCreepNumbers; ++k) out[k] = creep_numbers()[k].value({spec, result, summary});
+  for (std::size_t k = 0; k < kCreepNumbers; ++k) out[k] = columns[k].value(point);
   return out;
 }
 
@@ -121,7 +111,7 @@ CreepTable::CreepTable(const LoadedCase& base, const std::vector<std::string>& o
   }
   if (points_asked > kMostTablePoints)
     throw CaseError(fmt::format("{:.7g} points", points_asked), fmt::format("give {} at most", kMostTablePoints));
-  for (const auto& n : creep_numbers())
+  for (const Column<Solved>& n : creep_numbers())
     table_.numbers.push_back({n.symbol, si_text(n.unit), std::vector<double>(points(), NAN)});
   std::optional<CaseError> first_error;
   for (const std::vector<std::string>& values : combinations(outer_axes, kMostTablePoints)) {

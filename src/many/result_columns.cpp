@@ -45,26 +45,25 @@ const std::vector<ResultColumn>& study_columns() {
 
 namespace {
 
-const std::vector<ResultColumn>& all_columns() {
+/// The first of all columns that is it; null: none.
+template <class IsIt>
+const ResultColumn* first_column(IsIt&& is_it) {
   static const std::vector<ResultColumn> all = [] {
     std::vector<ResultColumn> out = result_columns(true);
     out.insert(out.end(), study_columns().begin(), study_columns().end());
     return out;
   }();
-  return all;
+  const auto found = std::find_if(all.begin(), all.end(), is_it);
+  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
 const ResultColumn* find_column(std::string_view name) {
-  const auto& all = all_columns();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const ResultColumn& c) { return c.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  return first_column([&](const ResultColumn& c) { return c.name == name; });
 }
-
 const ResultColumn& column_of(std::string_view symbol) {
-  const auto& all = all_columns();
-  return *std::find_if(all.begin(), all.end(), [&](const ResultColumn& c) { return c.symbol() == symbol; });
+  return *first_column([&](const ResultColumn& c) { return c.symbol() == symbol; });
 }
 
 std::string column_title(const std::string& name) {

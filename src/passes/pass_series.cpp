@@ -4,15 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "passes/pass_files.hpp"
 
 namespace railstrata {
-
-namespace {
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-}
 
 void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series) {
   const std::size_t points = result.accumulated.size();
@@ -36,7 +31,7 @@ void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series)
   }
   series.strains.push_back(pass.largest);
   if (whole) series.cycles.push_back(largest);
-  add_row(stationary_columns(), {pass, whole ? largest : PassStrain{kUnknown, kUnknown}}, series.table);
+  add_row(stationary_columns(), {pass, whole ? largest : PassStrain{kNotApplicable, kNotApplicable}}, series.table);
 }
 
 PassVerdict verdict_of(const PassSeries& series) {
@@ -53,12 +48,11 @@ void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes) {
 Columns<std::vector<PassStrain>> remembered_columns() {
   using P = std::vector<PassStrain>;
   Columns<P> out;
-  for (std::size_t n = 0; n < kPointPasses; ++n) {
-    out.push_back({fmt::format("accumulated_{}", n), unit::kNone,
-                   [n](const P& p) { return n < p.size() ? p[n].accumulated : kUnknown; }});
-    out.push_back(
-        {fmt::format("net_{}", n), unit::kNone, [n](const P& p) { return n < p.size() ? p[n].net : kUnknown; }});
-  }
+  for (std::size_t n = 0; n < kPointPasses; ++n)
+    for (const auto& [symbol, member] :
+         {std::pair{"accumulated", &PassStrain::accumulated}, std::pair{"net", &PassStrain::net}})
+      out.push_back({fmt::format("{}_{}", symbol, n), unit::kNone,
+                     [n, m = member](const P& p) { return n < p.size() ? p[n].*m : kNotApplicable; }});
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <tuple>
 
 #include "core/engine.hpp"
 #include "core/faults.hpp"
@@ -121,13 +122,11 @@ Json patch(const ContactField& f) {
 Json centre(const ContactField& field) {
   const CentreLine line = centre_line(field);
   Json out;
-  const auto add = [&](const char* symbol, const Unit& unit, const std::vector<double>& values) {
-    out[fmt::format("{}{}", symbol, unit.column_ending)] = numbers(values, unit.column_factor);
-  };
-  add("x", unit::kMillimetres, line.x);
-  add("p", unit::kMPa, line.p);
-  add("q_x", unit::kMPa, line.q_x);
-  add("q_y", unit::kMPa, line.q_y);
+  for (const auto& [symbol, unit, values] : {std::tuple{"x", unit::kMillimetres, &line.x},
+                                             {"p", unit::kMPa, &line.p},
+                                             {"q_x", unit::kMPa, &line.q_x},
+                                             {"q_y", unit::kMPa, &line.q_y}})
+    out[fmt::format("{}{}", symbol, unit.column_ending)] = numbers(*values, unit.column_factor);
   out["y"] = Json::array({short_number(kToMilli * line.y)});
   return out;
 }

@@ -114,6 +114,14 @@ ReportChart area_chart(const WearLoopHistory& history) {
   return out;
 }
 
+/// Of the loads of a step, NaN where it has none.
+double largest(const WearLoopHistory& history, int step, double WearLoad::*value) {
+  double out = std::numeric_limits<double>::quiet_NaN();
+  for (const WearLoad& load : history.contacts)
+    if (load.step == step && (std::isnan(out) || load.*value > out)) out = load.*value;
+  return out;
+}
+
 ReportTable steps_table(const WearLoopHistory& history) {
   ReportTable t{.id = "steps",
                 .title = "Steps",
@@ -122,25 +130,18 @@ ReportTable steps_table(const WearLoopHistory& history) {
                 .rows = {}};
   struct Step {
     const WornProfile& profile;
-    double deepest, y;  // m
+    double deepest, y;         // m
+    double pressure, t_gamma;  // as wear_loads.csv has them
   };
   std::vector<Step> steps;
   for (const WornProfile& p : history.profiles) {
     const std::vector<double> depth = worn_depth(history.unworn, p.points);
     const auto most = std::max_element(depth.begin(), depth.end());
-    steps.push_back({p, *most, history.unworn[static_cast<std::size_t>(most - depth.begin())].y});
+    steps.push_back({p, *most, history.unworn[static_cast<std::size_t>(most - depth.begin())].y,
+                     largest(history, p.step, &WearLoad::pressure), largest(history, p.step, &WearLoad::t_gamma)});
   }
   const auto number = [](const char* label, const Unit& unit, auto&& si) {
     return TextColumn<Step>{titled(label, unit.shown), [=](const Step& s) { return json_number(unit.factor * si(s)); }};
-  };
-  const auto of_loads = [&](const char* label, const Unit& unit, double WearLoad::*value) {
-    return TextColumn<Step>{titled(label, unit.shown), [&history, value](const Step& s) {
-                              double most = std::numeric_limits<double>::quiet_NaN();
-                              for (const WearLoad& load : history.contacts)
-                                if (load.step == s.profile.step && (std::isnan(most) || load.*value > most))
-                                  most = load.*value;
-                              return json_number(most);
-                            }};
   };
   add_rows(t, steps,
            {{"step", [](const Step& s) { return std::to_string(s.profile.step); }},
@@ -148,8 +149,8 @@ ReportTable steps_table(const WearLoopHistory& history) {
             number("deepest so far", unit::kMicrometres, [](const Step& s) { return s.deepest; }),
             number("at y", unit::kMillimetres, [](const Step& s) { return s.y; }),
             number("worn off", unit::kSquareMillimetres, [](const Step& s) { return s.profile.area; }),
-            of_loads("p_max", unit::kMPa, &WearLoad::pressure),
-            of_loads("T-gamma", unit::kNewtons, &WearLoad::t_gamma)});
+            {titled("p_max", unit::kMPa.shown), [](const Step& s) { return json_number(s.pressure); }},
+            {titled("T-gamma", unit::kNewtons.shown), [](const Step& s) { return json_number(s.t_gamma); }}});
   return t;
 }
 
