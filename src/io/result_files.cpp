@@ -9,26 +9,12 @@
 namespace railstrata {
 namespace {
 
-/// A point of a patch, or of the line along it.
-struct PatchPoint {
-  const ContactField* field;
-  int patch;  ///< from 1 on
-  std::size_t i;
-};
 using P = PatchPoint;
 
 std::vector<P> patch_points(const std::vector<const ContactField*>& fields) {
   std::vector<P> out;
   for (std::size_t k = 0; k < fields.size(); ++k)
     for (std::size_t i = 0; i < fields[k]->x.size(); ++i) out.push_back({fields[k], static_cast<int>(k) + 1, i});
-  return out;
-}
-
-Columns<P> patch_columns(const ContactField& f) {
-  Columns<P> out{{"patch", unit::kCount, &P::patch}};
-  for (const PatchNumber& n : patch_numbers(f.slip_is_distance))
-    out.push_back({n.symbol, n.unit, [of = n.values](const P& p) { return (p.field->*of)[p.i]; }});
-  append(out, {{kPatchState, unit::kCount, [](const P& p) { return static_cast<double>(p.field->state[p.i]); }}});
   return out;
 }
 
@@ -136,9 +122,17 @@ std::vector<PatchNumber> patch_numbers(bool slip_is_distance) {
           {"slip_y", slip, &F::slip_y}};
 }
 
+Columns<P> patch_columns(bool slip_is_distance) {
+  Columns<P> out{{"patch", unit::kCount, &P::patch}};
+  for (const PatchNumber& n : patch_numbers(slip_is_distance))
+    out.push_back({n.symbol, n.unit, [of = n.values](const P& p) { return (p.field->*of)[p.i]; }});
+  append(out, {{kPatchState, unit::kCount, [](const P& p) { return static_cast<double>(p.field->state[p.i]); }}});
+  return out;
+}
+
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                         const std::vector<const ContactField*>& fields) {
-  Columns<P> columns = patch_columns(*fields.front());
+  Columns<P> columns = patch_columns(fields.front()->slip_is_distance);
   const Columns<P> line = select(columns, {"x", "p", "q_x", "q_y", "slip_x"});
   if (fields.size() == 1) columns.erase(columns.begin());
   write_csv(folder / "patch.csv", provenance, patch_points(fields), columns);
@@ -176,7 +170,8 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
       }
   }
   const std::vector<P> points = patch_points(fields);
-  const Columns<P> all = patch_columns(*fields.front()), none{{"", unit::kNone, [](const P&) { return 0.0; }}};
+  const Columns<P> all = patch_columns(fields.front()->slip_is_distance),
+                   none{{"", unit::kNone, [](const P&) { return 0.0; }}};
   const auto vector = [&](const char* name, const char* x, const char* y) {
     Columns<P> parts = select(all, {x, y});
     append(parts, none);

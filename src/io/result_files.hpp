@@ -21,6 +21,13 @@ struct PatchNumber {
   std::string column_name() const { return symbol + std::string(unit.column_ending); }
 };
 std::vector<PatchNumber> patch_numbers(bool slip_is_distance);
+/// A point of a patch, and its columns: the patch, those numbers, the state.
+struct PatchPoint {
+  const ContactField* field;
+  int patch;  ///< from 1 on
+  std::size_t i;
+};
+Columns<PatchPoint> patch_columns(bool slip_is_distance);
 inline constexpr const char* kPatchState = "state_0separated_1stick_2slip";
 
 /// patch.csv: every point of the fields, of several patches one after the other with their numbers from 1 on in the

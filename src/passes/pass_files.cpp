@@ -216,9 +216,7 @@ std::vector<PassPoint> section_points(const RailPasses& rail, const PassSeries& 
 void write_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                     const RailPasses& rail, const PassSeries& series, const PassResult& last) {
   std::vector<std::string> remarks = provenance;
-  remarks.push_back(
-      "After the last pass. y: contact frame. class: 0 elastic shakedown, 1 plastic shakedown, 2 ratchetting, "
-      "3 transient. plastic_xy ...: tensor shears; plastic_strain_accumulated: accumulated over all passes.");
+  remarks.push_back(fmt::format("After the last pass. y: contact frame. {}", kPointRemark));
   const SteadyGrid& g = rail.grid;
   const std::vector<PassPoint> section = section_points(rail, series, last);
   const auto most = std::max_element(section.begin(), section.end(), [](const PassPoint& a, const PassPoint& b) {

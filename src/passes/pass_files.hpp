@@ -32,6 +32,10 @@ struct PointLists {
   Columns<PassPoint> zone, of_pass, stress, plastic, accumulated;
 };
 PointLists point_lists(PointColumns which);
+/// What their numbers mean.
+inline constexpr const char* kPointRemark =
+    "class: 0 elastic shakedown, 1 plastic shakedown, 2 ratchetting, 3 transient. plastic_xy ...: tensor shears; "
+    "plastic_strain_accumulated: accumulated over all passes.";
 /// A table of points: residual.csv and profile.csv. Of elements with their row and column in the fine zone, -1 deeper.
 void write_pass_points(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                        const std::vector<PassPoint>& points, PointColumns which = PointColumns::of_passes);

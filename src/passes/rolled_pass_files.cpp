@@ -158,11 +158,7 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
                          const std::vector<PassLoop>& loops) {
   const std::vector<PassPoint>& points = pass.points;
   std::vector<std::string> remarks = provenance;
-  remarks.emplace_back(
-      "After the last pass. y, depth: axes of the rigid contact point. class: 0 elastic shakedown, 1 plastic "
-      "shakedown, "
-      "2 ratchetting, 3 transient. plastic_xy ...: tensor shears; plastic_strain_accumulated: accumulated over all "
-      "passes.");
+  remarks.push_back(fmt::format("After the last pass. y, depth: axes of the rigid contact point. {}", kPointRemark));
   write_pass_points(folder / "residual.csv", remarks, points);
   remarks.emplace_back("Below the place with the largest plastic strain.");
   write_pass_points(folder / "profile.csv", remarks, profile_of(points));

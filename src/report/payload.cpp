@@ -12,6 +12,7 @@
 #include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "io/provenance.hpp"
+#include "io/result_files.hpp"
 #include "material/elastic.hpp"
 #include "record/json.hpp"
 #include "record/unit.hpp"
@@ -181,7 +182,7 @@ Json film(const std::optional<CsvTable>& table, bool own_grids) {
   const std::vector<double> step = table->column("step"), distance = table->column("distance_mm"),
                             x = table->column("x_mm"), y = table->column("y_mm");
   const std::vector<double> q_x = table->column("q_x_MPa"), q_y = table->column("q_y_MPa"),
-                            state = table->column("state_0separated_1stick_2slip");
+                            state = table->column(kPatchState);
   const FilmRows rows{x, y, q_x, q_y, state};
   const std::vector<double> all_x = unique(x), all_y = unique(y);
   Json out{{"x", own_grids ? Json::array({short_number(all_x.front()), short_number(all_x.back())}) : numbers(all_x)},

@@ -447,11 +447,6 @@ std::vector<ResultColumn> table_columns() {
   return out;
 }
 
-const ResultColumn& table_column(std::string_view name) {
-  static const std::vector<ResultColumn> all = table_columns();
-  return *std::find_if(all.begin(), all.end(), [&](const ResultColumn& c) { return c.name == name; });
-}
-
 const ResultNumber* find_number(std::string_view path) {
   const std::vector<ResultNumber>& all = result_numbers();
   const auto found = std::find_if(all.begin(), all.end(), [&](const ResultNumber& n) { return n.path() == path; });

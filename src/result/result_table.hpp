@@ -109,9 +109,6 @@ struct ResultColumn {
   std::string key() const;     ///< "p_max_Pa", of numbers in SI
 };
 
-/// The column of this name. It must be there.
-const ResultColumn& table_column(std::string_view name);
-
 /// Every column of the tables in their order: contact, stresses of the rail, then the wall time.
 std::vector<ResultColumn> table_columns();
 
