@@ -144,23 +144,21 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
                     "crack, below zero wear removes the cracks.",
                 .columns = {"what", "unit", "total", "largest", "at y [mm]"},
                 .rows = {}};
-  const auto largest = [&](const std::vector<double>& values) {
-    return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  const auto add = [&](const std::string& what, const char* units, const Json& total, const std::vector<double>& values,
+                       auto&& shown) {
+    const auto at = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+    t.rows.push_back({what, units, total, shown(values[at]), as_shown(unit::kMillimetres, damage.y[at])});
   };
+  const auto plain = [](double v) { return v; };
   double passages = 0;
   for (const CollectiveRow& row : rows) passages += row.sound() ? row.passages : 0;
-  const std::size_t most = largest(damage.passages), hottest = largest(damage.friction_energy),
-                    cracked = largest(damage.rcf_damage);
-  t.rows.push_back({"passages; over one place", "", passages, damage.passages[most], damage.y[most] / kMilli});
-  t.rows.push_back({"friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
-                    unit::kSurfaceEnergy.factor * damage.friction_energy[hottest], damage.y[hottest] / kMilli});
-  for (const KnownWear& wear : known_wear(damage)) {
-    const std::vector<double>& depth = damage.depth(wear.law);
-    const std::size_t at = largest(depth);
-    t.rows.push_back({"wear, " + wear.words, "mm²; µm", as_shown(unit::kSquareMillimetres, worn_area(damage, depth)),
-                      depth[at] / kMicro, damage.y[at] / kMilli});
-  }
-  t.rows.push_back({"RCF damage", "", nullptr, damage.rcf_damage[cracked], damage.y[cracked] / kMilli});
+  add("passages; over one place", "", passages, damage.passages, plain);
+  add("friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
+      damage.friction_energy, [](double v) { return unit::kSurfaceEnergy.factor * v; });
+  for (const KnownWear& wear : known_wear(damage))
+    add("wear, " + wear.words, "mm²; µm", as_shown(unit::kSquareMillimetres, worn_area(damage, damage.depth(wear.law))),
+        damage.depth(wear.law), [](double v) { return as_shown(unit::kMicrometres, v); });
+  add("RCF damage", "", nullptr, damage.rcf_damage, plain);
   return t;
 }
 

@@ -168,9 +168,8 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
     const auto take = [&] { return values.columns[c++].values[n]; };
     for (std::size_t k = 0; k < kBegun; ++k) series.begun[n][k] = take();
     for (std::size_t k = 0; k < kStreamlineHistory; ++k) series.state.history[n * kStreamlineHistory + k] = take();
-    for (std::size_t k = 0; k < 6; ++k)
-      for (std::size_t i = 0; i < active; ++i)
-        series.state.residual_strain[(k * grid.points() + n) * active + i] = take();
+    for (std::size_t k = 0; k < 6 * active; ++k)
+      series.state.residual_strain[(k / active * grid.points() + n) * active + k % active] = take();
   }
   const auto finite = [](const auto& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); });
