@@ -87,7 +87,7 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   origin.back() = fmt::format(
       "{}/(f F_n) on the wheel against {}; full: half-space theory with the case's layers, its other force and its "
       "moment over f F_n beside it; the others: the Hertz ellipse, homogeneous bodies",
-      axis.force, axis.column);
+      axis.force, table.front().name);
   const std::vector<std::string> notes = notes_of(loaded.spec);
   origin.insert(origin.end(), notes.begin(), notes.end());
   write_csv(out / "creep_curve.csv", origin, table);

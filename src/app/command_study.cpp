@@ -51,7 +51,7 @@ void print_list(const std::vector<CaseRow>& rows, bool json) {
     for (const CaseRow& r : rows) {
       nlohmann::ordered_json values = nlohmann::ordered_json::object(), numbers = nlohmann::ordered_json::object();
       for (const auto& [key, text] : r.values) values[key] = text;
-      for (const auto& [name, v] : r.numbers) numbers[name] = number_cell(v);
+      for (const auto& [name, v] : r.numbers) numbers[name] = json_number(v);
       all.push_back({{"group", r.group},
                      {"case", r.name},
                      {"engine", r.engine},

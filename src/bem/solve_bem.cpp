@@ -310,6 +310,12 @@ Vec3 force_on_rail(const BemResult& result) {
   return sum;
 }
 
+double dissipation(const BemResult& result) {
+  double sum = result.dissipation;
+  for (const BemPatch& p : result.further) sum += p.dissipation;
+  return sum;
+}
+
 BemResult bem_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& patch) {
   return result_of(spec, placement, {patch});
 }

@@ -76,6 +76,8 @@ struct BemResult : BemPatch {
 
 /// N, model frame: of all patches together.
 Vec3 force_on_rail(const BemResult& result);
+/// W, of all patches together.
+double dissipation(const BemResult& result);
 
 /// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears
 /// the weight whatever the normal force (a wedged wheel).

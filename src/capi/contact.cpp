@@ -88,8 +88,7 @@ void fill(const BemResult& result, const Summary& summary, rs_forces& out) {
   out.q_max = c.patch.q_max;
   out.patch_area = c.patch.area;
   out.slip_area = c.patch.slip_area_fraction * c.patch.area;
-  out.dissipation = result.dissipation;
-  for (const BemPatch& p : result.further) out.dissipation += p.dissipation;
+  out.dissipation = dissipation(result);
   out.patches = static_cast<int>(1 + result.further.size());
   out.cells = cells_with_pressure(result.field);
   out.iterations = result.effort.iterations;

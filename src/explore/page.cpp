@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -124,20 +124,15 @@ Json pressed_json(const ContactField& f) {
 
 /// The largest of each depth of the section along the rail, with its sign.
 Json depth_json(const CsvTable& section) {
-  const char* const names[] = {"von_mises", "tau_xz", "sigma_1"};
-  const std::vector<double> values[] = {section.column("von_mises_MPa", 1e6), section.column("sigma_xz_MPa", 1e6),
-                                        section.column("sigma_1_MPa", 1e6)},
-                            depth = section.column("depth_mm", 1e-3);
-  std::map<double, std::array<double, 3>> largest;
-  for (std::size_t k = 0; k < depth.size(); ++k)
-    for (std::size_t m = 0; m < 3; ++m) {
-      double& most = largest[depth[k]][m];
-      if (std::abs(values[m][k]) > std::abs(most)) most = values[m][k];
-    }
-  Json out{{"depth", Json::array()}};
-  for (const auto& [at, most] : largest) {
-    out["depth"].push_back(at);
-    for (std::size_t m = 0; m < 3; ++m) out[names[m]].push_back(most[m]);
+  const std::vector<double> depth = section.column("depth_mm", kMilli);
+  Json out{{"depth", std::set(depth.begin(), depth.end())}};
+  for (const auto& [name, column] : {std::pair{"von_mises", "von_mises_MPa"}, std::pair{"tau_xz", "sigma_xz_MPa"},
+                                     std::pair{"sigma_1", "sigma_1_MPa"}}) {
+    const std::vector<double> values = section.column(column, kMega);
+    std::map<double, double> largest;
+    for (std::size_t k = 0; k < depth.size(); ++k)
+      if (double& most = largest[depth[k]]; std::abs(values[k]) > std::abs(most)) most = values[k];
+    for (const auto& [at, most] : largest) out[name].push_back(most);
   }
   return out;
 }

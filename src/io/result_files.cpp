@@ -9,53 +9,13 @@
 namespace railstrata {
 namespace {
 
-/// A point of a patch, or of the line along it.
-struct PatchPoint {
-  int patch = 1;  ///< from 1 on
-  double x = 0, y = 0, z = 0, area = 0;
-  double p = 0, q_x = 0, q_y = 0, slip_x = 0, slip_y = 0;
-  ContactState state = ContactState::separated;
-};
 using P = PatchPoint;
 
 std::vector<P> patch_points(const std::vector<const ContactField*>& fields) {
   std::vector<P> out;
-  for (const ContactField* field : fields) {
-    const ContactField& f = *field;
-    const int patch = out.empty() ? 1 : out.back().patch + 1;
-    for (int i = 0; i < f.size(); ++i)
-      out.push_back(
-          {patch, f.x[i], f.y[i], f.z[i], f.area[i], f.p[i], f.q_x[i], f.q_y[i], f.slip_x[i], f.slip_y[i], f.state[i]});
-  }
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    for (std::size_t i = 0; i < fields[k]->x.size(); ++i) out.push_back({fields[k], static_cast<int>(k) + 1, i});
   return out;
-}
-
-std::vector<P> line_points(const CentreLine& line) {
-  std::vector<P> out(line.x.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i].x = line.x[i];
-    out[i].p = line.p[i];
-    out[i].q_x = line.q_x[i];
-    out[i].q_y = line.q_y[i];
-    out[i].slip_x = line.slip_x[i];
-  }
-  return out;
-}
-
-/// Slip in mm/s, of a shift in mm.
-Columns<P> patch_columns(const ContactField& f) {
-  const Unit slip = f.slip_is_distance ? unit::kMillimetres : unit::kMillimetresPerSecond;
-  return {{"patch", unit::kCount, &P::patch},
-          {"x", unit::kMillimetres, &P::x},
-          {"y", unit::kMillimetres, &P::y},
-          {"z", unit::kMillimetres, &P::z},
-          {"area", unit::kSquareMillimetres, &P::area},
-          {"p", unit::kMPa, &P::p},
-          {"q_x", unit::kMPa, &P::q_x},
-          {"q_y", unit::kMPa, &P::q_y},
-          {"slip_x", slip, &P::slip_x},
-          {"slip_y", slip, &P::slip_y},
-          {"state_0separated_1stick_2slip", unit::kCount, [](const P& p) { return static_cast<double>(p.state); }}};
 }
 
 /// A point of a body; plastic: null where nothing may yield.
@@ -152,13 +112,38 @@ void write_sections(const std::filesystem::path& folder, const std::string& body
   if (shows_slices(body, sections)) write_slices(folder / (body + "_slices.csv"), provenance, sections.slices);
 }
 
+std::vector<PatchNumber> patch_numbers(bool slip_is_distance) {
+  using F = ContactField;
+  const Unit slip = slip_is_distance ? unit::kMillimetres : unit::kMillimetresPerSecond;
+  return {{"x", unit::kMillimetres, &F::x}, {"y", unit::kMillimetres, &F::y},
+          {"z", unit::kMillimetres, &F::z}, {"area", unit::kSquareMillimetres, &F::area},
+          {"p", unit::kMPa, &F::p},         {"q_x", unit::kMPa, &F::q_x},
+          {"q_y", unit::kMPa, &F::q_y},     {"slip_x", slip, &F::slip_x},
+          {"slip_y", slip, &F::slip_y}};
+}
+
+Columns<P> patch_columns(bool slip_is_distance) {
+  Columns<P> out{{"patch", unit::kCount, &P::patch}};
+  for (const PatchNumber& n : patch_numbers(slip_is_distance))
+    out.push_back({n.symbol, n.unit, [of = n.values](const P& p) { return (p.field->*of)[p.i]; }});
+  append(out, {{kPatchState, unit::kCount, [](const P& p) { return static_cast<double>(p.field->state[p.i]); }}});
+  return out;
+}
+
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                         const std::vector<const ContactField*>& fields) {
-  Columns<P> columns = patch_columns(*fields.front());
+  Columns<P> columns = patch_columns(fields.front()->slip_is_distance);
   const Columns<P> line = select(columns, {"x", "p", "q_x", "q_y", "slip_x"});
   if (fields.size() == 1) columns.erase(columns.begin());
   write_csv(folder / "patch.csv", provenance, patch_points(fields), columns);
-  write_csv(folder / "centre_line.csv", provenance, line_points(centre_line(*fields.front())), line);
+  const CentreLine centre = centre_line(*fields.front());
+  ContactField along;
+  along.x = centre.x;
+  along.p = centre.p;
+  along.q_x = centre.q_x;
+  along.q_y = centre.q_y;
+  along.slip_x = centre.slip_x;
+  write_csv(folder / "centre_line.csv", provenance, patch_points({&along}), line);
 }
 
 void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -185,7 +170,8 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
       }
   }
   const std::vector<P> points = patch_points(fields);
-  const Columns<P> all = patch_columns(*fields.front()), none{{"", unit::kNone, [](const P&) { return 0.0; }}};
+  const Columns<P> all = patch_columns(fields.front()->slip_is_distance),
+                   none{{"", unit::kNone, [](const P&) { return 0.0; }}};
   const auto vector = [&](const char* name, const char* x, const char* y) {
     Columns<P> parts = select(all, {x, y});
     append(parts, none);
@@ -193,7 +179,7 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
   };
   mesh.point_fields = {vtk_field<float>("pressure", points, select(all, {"p"})), vector("traction", "q_x", "q_y"),
                        vector(fields.front()->slip_is_distance ? "slip" : "slip_velocity", "slip_x", "slip_y"),
-                       vtk_field<std::int32_t>("state", points, select(all, {"state_0separated_1stick_2slip"}))};
+                       vtk_field<std::int32_t>("state", points, select(all, {kPatchState}))};
   return mesh;
 }
 

@@ -13,9 +13,25 @@
 
 namespace railstrata {
 
+/// A number of the points of a field in patch.csv, written and read back by this list. Slip in mm/s, of a shift in mm.
+struct PatchNumber {
+  const char* symbol;
+  Unit unit;
+  std::vector<double> ContactField::*values;
+  std::string column_name() const { return symbol + std::string(unit.column_ending); }
+};
+std::vector<PatchNumber> patch_numbers(bool slip_is_distance);
+/// A point of a patch, and its columns: the patch, those numbers, the state.
+struct PatchPoint {
+  const ContactField* field;
+  int patch;  ///< from 1 on
+  std::size_t i;
+};
+Columns<PatchPoint> patch_columns(bool slip_is_distance);
+inline constexpr const char* kPatchState = "state_0separated_1stick_2slip";
+
 /// patch.csv: every point of the fields, of several patches one after the other with their numbers from 1 on in the
-/// column `patch`; centre_line.csv: along the rolling direction through the largest pressure of the first. Slip stands
-/// in mm/s, of a shift in mm.
+/// column `patch`; centre_line.csv: along the rolling direction through the largest pressure of the first.
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                         const std::vector<const ContactField*>& fields);
 

@@ -13,6 +13,7 @@
 #include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "io/folder_kind.hpp"
+#include "io/result_files.hpp"
 #include "record/csv.hpp"
 
 namespace railstrata {
@@ -60,21 +61,15 @@ std::vector<CsvTable> tables_of_patches(const CsvTable& table) {
 ContactField patch_of(const CsvTable& table) {
   const fs::path& file = table.file;
   ContactField f;
-  f.x = table.column("x_mm", 1e-3);
-  f.y = table.column("y_mm", 1e-3);
-  f.z = table.column("z_mm", 1e-3);
-  f.area = table.column("area_mm2", 1e-6);
-  f.p = table.column("p_MPa", 1e6);
-  f.q_x = table.column("q_x_MPa", 1e6);
-  f.q_y = table.column("q_y_MPa", 1e6);
-  f.slip_is_distance =
-      std::any_of(table.columns.begin(), table.columns.end(), [](const CsvColumn& c) { return c.name == "slip_x_mm"; });
-  f.slip_x = table.column(f.slip_is_distance ? "slip_x_mm" : "slip_x_mm_s", 1e-3);
-  f.slip_y = table.column(f.slip_is_distance ? "slip_y_mm" : "slip_y_mm_s", 1e-3);
-  for (const auto* values : {&f.x, &f.y, &f.z, &f.area, &f.p, &f.q_x, &f.q_y, &f.slip_x, &f.slip_y})
-    if (!std::all_of(values->begin(), values->end(), [](double v) { return std::isfinite(v); }))
+  const std::string slip_of_shift = patch_numbers(true).back().column_name();
+  f.slip_is_distance = std::any_of(table.columns.begin(), table.columns.end(),
+                                   [&](const CsvColumn& c) { return c.name == slip_of_shift; });
+  for (const PatchNumber& n : patch_numbers(f.slip_is_distance)) {
+    const std::vector<double>& values = f.*n.values = table.column(n.column_name(), 1 / n.unit.column_factor);
+    if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
       refuse(file, "a value is not a finite number");
-  for (const double s : table.column("state_0separated_1stick_2slip")) {
+  }
+  for (const double s : table.column(kPatchState)) {
     if (s != 0 && s != 1 && s != 2) refuse(file, fmt::format("there is no contact state {}", s));
     f.state.push_back(static_cast<ContactState>(static_cast<int>(s)));
   }

@@ -36,14 +36,12 @@ Columns<TransientRow> transient_columns(bool rolls, bool timed) {
 
 Columns<FilmCell> film_columns() {
   using C = FilmCell;
-  return {{"step", unit::kCount, &C::step},
-          {"distance", unit::kMillimetres, &C::distance},
-          {"x", unit::kMillimetres, &C::x, 6},
-          {"y", unit::kMillimetres, &C::y, 6},
-          {"p", unit::kMPa, &C::p, 1},
-          {"q_x", unit::kMPa, &C::q_x, 1},
-          {"q_y", unit::kMPa, &C::q_y, 1},
-          {"state_0separated_1stick_2slip", unit::kCount, [](const C& c) { return static_cast<double>(c.state); }}};
+  const Columns<PatchPoint> all = patch_columns(false);
+  Columns<C> out{{"step", unit::kCount, &C::step}, {"distance", unit::kMillimetres, &C::distance}};
+  append(out, of_part<C>(rounded(select(all, {"x", "y"}), 6), &C::point));
+  append(out, of_part<C>(rounded(select(all, {"p", "q_x", "q_y"}), 1), &C::point));
+  append(out, of_part<C>(select(all, {kPatchState}), &C::point));
+  return out;
 }
 
 PatchFilm::PatchFilm(const std::filesystem::path& file, const std::vector<std::string>& provenance)
@@ -55,7 +53,7 @@ void PatchFilm::add(int step, double distance, const ContactField& f) {
   for (int s = (f.stations / 2) % stride; s < f.stations; s += stride)
     for (int c = (f.columns / 2) % stride; c < f.columns; c += stride) {
       const auto k = static_cast<std::size_t>(s) * static_cast<std::size_t>(f.columns) + static_cast<std::size_t>(c);
-      if (f.p[k] > 0) log_.add({step, distance, f.x[k], f.y[k], f.p[k], f.q_x[k], f.q_y[k], f.state[k]});
+      if (f.p[k] > 0) log_.add({step, distance, {&f, 1, k}});
     }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/result_files.hpp"
 #include "record/csv.hpp"
 #include "result/transient_row.hpp"
 
@@ -15,10 +16,9 @@ Columns<TransientRow> transient_columns(bool rolls, bool timed);
 
 /// A cell in contact, in a state of the patch on its way.
 struct FilmCell {
-  int step = 0;
-  double distance = 0, x = 0, y = 0;  ///< m
-  double p = 0, q_x = 0, q_y = 0;     ///< Pa
-  ContactState state = ContactState::separated;
+  int step;
+  double distance;  ///< m
+  PatchPoint point;
 };
 
 /// patch_film.csv: cells in contact in a number of states (of finite elements nodes in frames, `distance` the wheel's

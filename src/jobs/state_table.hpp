@@ -12,19 +12,34 @@ namespace railstrata {
 
 template <class Row>
 struct StateColumn {
-  const char* name;  ///< with its unit
+  const char* symbol;  ///< its name without a unit
   double Row::*value;
+  Unit unit = unit::kNone;
+
+  std::string name() const { return symbol + std::string(unit.column_ending); }
 };
 
 template <class Row>
 using StateColumns = std::vector<StateColumn<Row>>;
+
+/// A row of SI numbers in the units of its table, and back.
+template <class Row>
+Row in_table(const StateColumns<Row>& columns, Row si) {
+  for (const StateColumn<Row>& column : columns) si.*column.value *= column.unit.column_factor;
+  return si;
+}
+template <class Row>
+Row in_si(const StateColumns<Row>& columns, Row row) {
+  for (const StateColumn<Row>& column : columns) row.*column.value *= 1 / column.unit.column_factor;
+  return row;
+}
 
 template <class Row>
 void write_rows(const std::filesystem::path& file, const std::vector<std::string>& origin,
                 const StateColumns<Row>& columns, const std::vector<Row>& rows) {
   std::vector<CsvColumn> table;
   for (const StateColumn<Row>& column : columns) {
-    table.push_back({column.name, {}});
+    table.push_back({column.name(), {}});
     for (const Row& row : rows) table.back().values.push_back(row.*column.value);
   }
   write_csv(file, origin, table);
@@ -36,7 +51,7 @@ std::vector<Row> read_rows(const std::filesystem::path& file, const StateColumns
   const CsvTable table = read_csv(file);
   std::vector<Row> rows(table.rows());
   for (const StateColumn<Row>& column : columns) {
-    const std::vector<double> values = table.column(column.name);
+    const std::vector<double> values = table.column(column.name());
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*column.value = values[k];
   }
   return rows;

@@ -6,23 +6,18 @@
 #include <cmath>
 
 #include "many/axis.hpp"
+#include "record/json.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr const char* kShown[] = {"p_max_MPa",
-                                  "q_max_MPa",
-                                  "patch_length_mm",
-                                  "patch_width_mm",
-                                  "patch_area_mm2",
-                                  "slip_area_fraction",
-                                  "creepage_x",
-                                  "rail_subsurface_von_mises_MPa",
-                                  "rail_von_mises_MPa",
-                                  "rail_von_mises_depth_mm",
-                                  "section_sigma_1_MPa",
-                                  "section_sigma_1_depth_mm",
-                                  "t_gamma_N"};
+constexpr const char* kShown[] = {"p_max",           "q_max",
+                                  "patch_length",    "patch_width",
+                                  "patch_area",      "slip_area_fraction",
+                                  "creepage_x",      "rail_subsurface_von_mises",
+                                  "rail_von_mises",  "rail_von_mises_depth",
+                                  "section_sigma_1", "section_sigma_1_depth",
+                                  "t_gamma"};
 
 void add_point(ReportSeries& line, double x, double y) {
   const auto at = std::upper_bound(line.x.begin(), line.x.end(), x) - line.x.begin();
@@ -32,11 +27,13 @@ void add_point(ReportSeries& line, double x, double y) {
 
 }  // namespace
 
-std::vector<std::string> shown_columns(const std::vector<CaseRow>& rows) {
-  std::vector<std::string> out;
-  for (const char* name : kShown)
-    if (std::any_of(rows.begin(), rows.end(), [&](const CaseRow& row) { return std::isfinite(row.number(name)); }))
-      out.emplace_back(name);
+std::vector<const ResultColumn*> shown_columns(const std::vector<CaseRow>& rows) {
+  std::vector<const ResultColumn*> out;
+  for (const char* symbol : kShown) {
+    const ResultColumn& c = column_of(symbol);
+    if (std::any_of(rows.begin(), rows.end(), [&](const CaseRow& row) { return std::isfinite(row.number(c.name)); }))
+      out.push_back(&c);
+  }
   return out;
 }
 
@@ -64,28 +61,21 @@ void add_trend(ReportChart& chart, const std::string& key, const std::string& co
 }
 
 std::string axis_title(const std::string& name, const std::vector<std::string>& values) {
-  const std::string unit = values.empty() ? "" : axis_value(values.front()).second;
-  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+  return titled(name, values.empty() ? "" : axis_value(values.front()).second);
 }
 
 ReportTable cases_table(const std::string& note, const std::vector<CaseColumn>& head,
                         const std::vector<CaseRow>& rows) {
   ReportTable t{.id = "cases", .title = "All cases", .note = note, .columns = {}, .rows = {}};
-  for (const CaseColumn& c : head) t.columns.push_back(c.name);
-  std::vector<const ResultColumn*> shown;
-  for (const std::string& name : shown_columns(rows)) {
-    shown.push_back(find_column(name));
-    const auto& unit = shown.back()->shown_unit.shown;
-    t.columns.push_back(unit.empty() ? shown.back()->title : fmt::format("{} [{}]", shown.back()->title, unit));
-  }
-  t.columns.emplace_back("state");
-  for (const CaseRow& r : rows) {
-    std::vector<nlohmann::ordered_json>& row = t.rows.emplace_back();
-    for (const CaseColumn& c : head) row.push_back(c.cell(r));
-    for (const ResultColumn* c : shown)
-      row.push_back(number_cell(r.number(c->name) * (c->shown_unit.factor / c->factor)));
-    row.emplace_back(r.fault.empty() ? r.state : fmt::format("{}: {}", r.state, r.fault));
-  }
+  std::vector<CaseColumn> columns = head;
+  for (const ResultColumn* c : shown_columns(rows))
+    columns.push_back({titled(c->title, c->shown_unit.shown), [c](const CaseRow& row) {
+                         return json_number(row.number(c->name) * (c->shown_unit.factor / c->factor));
+                       }});
+  columns.push_back({"state", [](const CaseRow& row) {
+                       return row.fault.empty() ? row.state : fmt::format("{}: {}", row.state, row.fault);
+                     }});
+  add_rows(t, rows, columns);
   return t;
 }
 

@@ -9,7 +9,7 @@
 namespace railstrata {
 
 /// The columns that pages show, those of them that any row has.
-std::vector<std::string> shown_columns(const std::vector<CaseRow>& rows);
+std::vector<const ResultColumn*> shown_columns(const std::vector<CaseRow>& rows);
 
 /// A row as a point of the line `name`.
 struct LinePoint {

@@ -1,9 +1,9 @@
 #include "many/case_row.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "record/csv.hpp"
+#include "record/json.hpp"
 #include "record/output_file.hpp"
 #include "result/result_table.hpp"
 
@@ -39,8 +39,6 @@ std::vector<Json> cells_of(const std::vector<CaseColumn>& columns, const CaseRow
 std::string CaseRow::value(const std::string& key) const { return found(values, key, std::string()); }
 double CaseRow::number(const std::string& column) const { return found(numbers, column, kNotApplicable); }
 
-Json number_cell(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 std::vector<CaseColumn> value_columns(const std::vector<CaseRow>& rows) {
   std::vector<CaseColumn> out;
   for (const std::string& key : names_in(rows, &CaseRow::values))
@@ -51,7 +49,7 @@ std::vector<CaseColumn> value_columns(const std::vector<CaseRow>& rows) {
 std::vector<CaseColumn> number_columns(const std::vector<CaseRow>& rows) {
   std::vector<CaseColumn> out;
   for (const std::string& name : names_in(rows, &CaseRow::numbers))
-    out.push_back({name, [name](const CaseRow& row) { return number_cell(row.number(name)); }});
+    out.push_back({name, [name](const CaseRow& row) { return json_number(row.number(name)); }});
   return out;
 }
 

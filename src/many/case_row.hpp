@@ -1,7 +1,6 @@
 #pragma once
 // A case's result as a row of a table over many cases, and the table as CSV and JSON.
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 
 #include "core/engine.hpp"
 #include "many/result_columns.hpp"
+#include "report/report.hpp"
 
 namespace railstrata {
 
@@ -28,11 +28,7 @@ struct CaseRow {
   double number(const std::string& column) const;   ///< NaN if there is none
 };
 
-/// A column of a table of cases; its cells are texts, numbers or null.
-struct CaseColumn {
-  std::string name;
-  std::function<nlohmann::ordered_json(const CaseRow&)> cell;
-};
+using CaseColumn = TextColumn<CaseRow>;
 
 struct CaseTable {
   std::vector<CaseColumn> columns;
@@ -50,9 +46,6 @@ std::vector<CaseColumn> joined(std::vector<CaseColumn> first, const Lists&... mo
   (first.insert(first.end(), more.begin(), more.end()), ...);
   return first;
 }
-
-/// A cell that is a number; null where it is not finite.
-nlohmann::ordered_json number_cell(double value);
 
 /// Cells as a line of CSV.
 std::string csv_line(const std::vector<nlohmann::ordered_json>& cells);

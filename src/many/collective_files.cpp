@@ -9,6 +9,7 @@
 #include "many/result_columns.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
+#include "record/number_text.hpp"
 #include "record/output_file.hpp"
 #include "record/unit.hpp"
 #include "report/checks.hpp"
@@ -20,19 +21,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kSquareMillimetre = 1e-6;
-constexpr double kPerThousandKilometres = 1e-12;  // of m per m: µm per 1000 km
-
 bool known(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-std::vector<double> in_units(std::vector<double> values, double unit) {
-  for (double& v : values) v /= unit;
-  return values;
-}
+/// In the unit of a column, or as people see it: divided, as these files have always been, to the last digit.
+double in_column(const Unit& unit, double si) { return si / (1 / unit.column_factor); }
+double as_shown(const Unit& unit, double si) { return si / (1 / unit.factor); }
 
-Json finite(double v) { return json_number(v); }
+CsvColumn column(const std::string& symbol, const Unit& unit, std::vector<double> values) {
+  for (double& v : values) v = in_column(unit, v);
+  return {symbol + std::string(unit.column_ending), std::move(values)};
+}
 
 template <class Damage>
 std::vector<KnownWear> known_laws(const Damage& damage, const std::string& whose) {
@@ -85,7 +85,7 @@ Json row_json(const CollectiveRow& row) {
   for (const Warning& w : row.summary.warnings) warnings.push_back(w.name);
   return {{"name", row.name},
           {"passages", row.passages},
-          {"shakedown_wandering", finite(factor)},
+          {"shakedown_wandering", json_number(factor)},
           {"warnings", warnings},
           {"fault", row.fault.empty() ? Json(nullptr) : Json(row.fault)}};
 }
@@ -108,20 +108,30 @@ ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
                 .note =
                     "y: of the contact from the rail's axis, field side positive. Shakedown: load factor for "
                     "wandering traffic, above 1 there is a reserve.",
-                .columns = {"load", "passages", "load [kN]", "contact y [mm]", "p_max [MPa]", "T-gamma [N]",
-                            "USFD wear [nm/passage]", "shakedown", "where", "fault"},
+                .columns = {},
                 .rows = {}};
-  for (const CollectiveRow& row : rows) {
-    const ContactSummary& c = row.summary.contact;
-    const bool solved = row.solved();
-    const auto number = [&](double v) { return solved ? finite(v) : Json(nullptr); };
-    const double y = solved ? contact_y(row) : kNotApplicable;
-    t.rows.push_back({row.name, row.passages, number(kMilli * c.F_z), number(y / kMilli),
-                      number(c.patch.p_max * kMicro), number(row.summary.damage.t_gamma),
-                      number(row.summary.damage.usfd_depth * 1e9),
-                      number(row.summary.shakedown.least(&ShakedownFactors::wandering)), deciding_zone(row),
-                      row.fault.empty() ? Json(nullptr) : Json(row.fault)});
-  }
+  using C = CollectiveRow;
+  const auto number = [](const char* label, const Unit& unit, auto&& si) {
+    return TextColumn<C>{titled(label, unit.shown), [=](const C& row) {
+                           return row.solved() ? json_number(unit.factor * si(row)) : Json(nullptr);
+                         }};
+  };
+  const Unit mm = unit::kMillimetres;
+  Unit wear = unit::kNanometres;
+  wear.shown = "nm/passage";
+  add_rows(t, rows,
+           {{"load", [](const C& row) { return row.name; }},
+            {"passages", [](const C& row) { return row.passages; }},
+            number("load", unit::kKilonewtons, [](const C& row) { return row.summary.contact.F_z; }),
+            {titled("contact y", mm.shown),
+             [mm](const C& row) { return row.solved() ? json_number(as_shown(mm, contact_y(row))) : Json(nullptr); }},
+            number("p_max", unit::kMPa, [](const C& row) { return row.summary.contact.patch.p_max; }),
+            number("T-gamma", unit::kNewtons, [](const C& row) { return row.summary.damage.t_gamma; }),
+            number("USFD wear", wear, [](const C& row) { return row.summary.damage.usfd_depth; }),
+            number("shakedown", unit::kNone,
+                   [](const C& row) { return row.summary.shakedown.least(&ShakedownFactors::wandering); }),
+            {"where", [](const C& row) { return deciding_zone(row); }},
+            {"fault", [](const C& row) { return row.fault.empty() ? Json(nullptr) : Json(row.fault); }}});
   return t;
 }
 
@@ -134,23 +144,21 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
                     "crack, below zero wear removes the cracks.",
                 .columns = {"what", "unit", "total", "largest", "at y [mm]"},
                 .rows = {}};
-  const auto largest = [&](const std::vector<double>& values) {
-    return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  const auto add = [&](const std::string& what, const char* units, const Json& total, const std::vector<double>& values,
+                       auto&& shown) {
+    const auto at = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+    t.rows.push_back({what, units, total, shown(values[at]), as_shown(unit::kMillimetres, damage.y[at])});
   };
+  const auto plain = [](double v) { return v; };
   double passages = 0;
   for (const CollectiveRow& row : rows) passages += row.sound() ? row.passages : 0;
-  const std::size_t most = largest(damage.passages), hottest = largest(damage.friction_energy),
-                    cracked = largest(damage.rcf_damage);
-  t.rows.push_back({"passages; over one place", "", passages, damage.passages[most], damage.y[most] / kMilli});
-  t.rows.push_back({"friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
-                    damage.friction_energy[hottest] * kSquareMillimetre, damage.y[hottest] / kMilli});
-  for (const KnownWear& wear : known_wear(damage)) {
-    const std::vector<double>& depth = damage.depth(wear.law);
-    const std::size_t at = largest(depth);
-    t.rows.push_back({"wear, " + wear.words, "mm²; µm", worn_area(damage, depth) / kSquareMillimetre,
-                      depth[at] / kMicro, damage.y[at] / kMilli});
-  }
-  t.rows.push_back({"RCF damage", "", nullptr, damage.rcf_damage[cracked], damage.y[cracked] / kMilli});
+  add("passages; over one place", "", passages, damage.passages, plain);
+  add("friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
+      damage.friction_energy, [](double v) { return unit::kSurfaceEnergy.factor * v; });
+  for (const KnownWear& wear : known_wear(damage))
+    add("wear, " + wear.words, "mm²; µm", as_shown(unit::kSquareMillimetres, worn_area(damage, damage.depth(wear.law))),
+        damage.depth(wear.law), [](double v) { return as_shown(unit::kMicrometres, v); });
+  add("RCF damage", "", nullptr, damage.rcf_damage, plain);
   return t;
 }
 
@@ -167,18 +175,14 @@ std::pair<std::size_t, std::size_t> rolled_range(const std::vector<double>& pass
 }
 
 ReportSeries series_over(const std::string& name, const std::vector<double>& y, const std::vector<double>& rolled,
-                         const std::vector<double>& values, double unit) {
+                         const std::vector<double>& values, const Unit& shown_in) {
   const auto [from, to] = rolled_range(rolled);
   ReportSeries s{.name = name, .x = {}, .y = {}, .markers = false};
   for (std::size_t i = from; i < to; ++i) {
-    s.x.push_back(y[i] / kMilli);
-    s.y.push_back(values[i] / unit);
+    s.x.push_back(as_shown(unit::kMillimetres, y[i]));
+    s.y.push_back(as_shown(shown_in, values[i]));
   }
   return s;
-}
-
-ReportSeries series_of(const std::string& name, const RailDamage& d, const std::vector<double>& values, double unit) {
-  return series_over(name, d.y, d.passages, values, unit);
 }
 
 ReportChart wheel_chart(const WheelDamage& d) {
@@ -187,34 +191,30 @@ ReportChart wheel_chart(const WheelDamage& d) {
                   "Of one wheel that runs all loads in the shares of their passages: depth of a turn over the length "
                   "of a turn.",
                   "y across the wheel, from the tape circle to the field side [mm]",
-                  "wear depth [µm per 1000 km]",
+                  titled("wear depth", unit::kWearRate.shown),
                   {}};
   for (const KnownWear& known : known_wear(d))
-    out.series.push_back(series_over(known.words, d.y, d.share, d.depth(known.law), kPerThousandKilometres));
+    out.series.push_back(series_over(known.words, d.y, d.share, d.depth(known.law), unit::kWearRate));
   return out;
 }
 
 std::vector<ReportChart> charts_of(const RailDamage& d) {
-  ReportChart wear{"wear", "Wear depth over the rail", "All passages together.", kAcross, "wear depth [µm]", {}};
-  for (const KnownWear& known : known_wear(d))
-    wear.series.push_back(series_of(known.words, d, d.depth(known.law), kMicro));
-  ReportChart rcf{"rcf",
-                  "RCF damage over the rail",
-                  "Below zero wear removes cracks.",
-                  kAcross,
-                  "RCF damage",
-                  {series_of("Burstow, R260", d, d.rcf_damage, 1)}};
-  ReportChart energy{"energy",
-                     "Friction energy over the rail",
-                     "",
-                     kAcross,
-                     "friction energy [J/mm²]",
-                     {series_of("friction energy", d, d.friction_energy, 1 / kSquareMillimetre)}};
-  ReportChart passages{
-      "passages", "Passages over the rail", "", kAcross, "passages", {series_of("passages", d, d.passages, 1)}};
-  ReportChart profile{"profile", "The rail where wheels roll",          "", kAcross,
-                      "z [mm]",  {series_of("profile", d, d.z, kMilli)}};
-  return {wear, rcf, energy, passages, profile};
+  using Lines = std::vector<std::pair<std::string, std::vector<double>>>;
+  const auto chart = [&](const char* id, const char* title, const char* note, const char* label, const Unit& unit,
+                         const Lines& lines) {
+    ReportChart out{id, title, note, kAcross, titled(label, unit.shown), {}};
+    for (const auto& [name, values] : lines) out.series.push_back(series_over(name, d.y, d.passages, values, unit));
+    return out;
+  };
+  Lines wear;
+  for (const KnownWear& known : known_wear(d)) wear.emplace_back(known.words, d.depth(known.law));
+  return {chart("wear", "Wear depth over the rail", "All passages together.", "wear depth", unit::kMicrometres, wear),
+          chart("rcf", "RCF damage over the rail", "Below zero wear removes cracks.", "RCF damage", unit::kNone,
+                {{"Burstow, R260", d.rcf_damage}}),
+          chart("energy", "Friction energy over the rail", "", "friction energy", unit::kSurfaceEnergy,
+                {{"friction energy", d.friction_energy}}),
+          chart("passages", "Passages over the rail", "", "passages", unit::kNone, {{"passages", d.passages}}),
+          chart("profile", "The rail where wheels roll", "", "z", unit::kMillimetres, {{"profile", d.z}})};
 }
 
 }  // namespace
@@ -224,16 +224,22 @@ std::vector<KnownWear> known_wear(const WheelDamage& damage) { return known_laws
 
 void write_wheel_damage(const std::filesystem::path& file, const std::vector<std::string>& origin,
                         const WheelDamage& d) {
-  std::vector<CsvColumn> columns{{"s_mm", in_units(d.s, kMilli)},
-                                 {"wheel_y_mm", in_units(d.y, kMilli)},
-                                 {"wheel_z_mm", in_units(d.z, kMilli)},
-                                 {"share_of_distance", d.share}};
+  using namespace unit;
+  std::vector<CsvColumn> columns{column("s", kMillimetres, d.s), column("wheel_y", kMillimetres, d.y),
+                                 column("wheel_z", kMillimetres, d.z), column("share_of_distance", kNone, d.share)};
   for (const KnownWear& wear : known_wear(d))
-    columns.push_back({wear.key + "_depth_um_per_1000_km", in_units(d.depth(wear.law), kPerThousandKilometres)});
+    columns.push_back(column(wear.key + "_depth", kWearRate, d.depth(wear.law)));
   write_csv(file, origin, columns);
 }
 
 CaseTable collective_table(const std::vector<CollectiveRow>& rows) {
+  using C = CollectiveRow;
+  const Columns<C> own{
+      {"passages", unit::kNone, &C::passages},
+      {"speed", unit::kMetresPerSecond, [](const C& r) { return r.spec.drive.speed; }},
+      {"lateral_shift", unit::kMillimetres, [](const C& r) { return r.spec.geometry.lateral_shift; }},
+      {"friction_coefficient", unit::kNone, [](const C& r) { return r.spec.drive.friction_coefficient; }},
+      {"rail_y", unit::kMillimetres, [](const C& r) { return r.solved() ? contact_y(r) : kNotApplicable; }}};
   const std::vector<ResultColumn> columns = columns_for(rows);
   CaseTable out{{{"load", [](const CaseRow& row) { return row.name; }}}, {}};
   for (const CollectiveRow& r : rows) {
@@ -241,11 +247,7 @@ CaseTable collective_table(const std::vector<CollectiveRow>& rows) {
     row.name = r.name;
     row.state = r.solved() ? "done" : r.done ? "failed" : "to do";
     row.fault = r.fault;
-    row.numbers = {{"passages", r.passages},
-                   {"speed_m_s", r.spec.drive.speed},
-                   {"lateral_shift_mm", r.spec.geometry.lateral_shift / kMilli},
-                   {"friction_coefficient", r.spec.drive.friction_coefficient},
-                   {"rail_y_mm", r.solved() ? contact_y(r) / kMilli : kNotApplicable}};
+    for (const Column<CollectiveRow>& c : own) row.numbers.emplace_back(c.column_name(), in_column(c.unit, c.value(r)));
     for (const ResultColumn& c : columns) row.numbers.emplace_back(c.name, column_value(c, r.summary_json));
     row.numbers.emplace_back("rcf_damage", r.summary.damage.rcf_damage);
     row.values = {{"shakedown_zone", deciding_zone(r)}, {"warnings", warnings_text(r)}};
@@ -261,14 +263,15 @@ void write_collective_table(const std::filesystem::path& file, const std::vector
 }
 
 void write_rail_damage(const std::filesystem::path& file, const std::vector<std::string>& origin, const RailDamage& d) {
-  std::vector<CsvColumn> columns{{"s_mm", in_units(d.s, kMilli)},
-                                 {"rail_y_mm", in_units(d.y, kMilli)},
-                                 {"rail_z_mm", in_units(d.z, kMilli)},
-                                 {"passages", d.passages},
-                                 {"friction_energy_J_m2", d.friction_energy},
-                                 {"rcf_damage", d.rcf_damage}};
+  using namespace unit;
+  std::vector<CsvColumn> columns{column("s", kMillimetres, d.s),
+                                 column("rail_y", kMillimetres, d.y),
+                                 column("rail_z", kMillimetres, d.z),
+                                 column("passages", kNone, d.passages),
+                                 column("friction_energy", kSurfaceEnergy, d.friction_energy),
+                                 column("rcf_damage", kNone, d.rcf_damage)};
   for (const KnownWear& wear : known_wear(d))
-    columns.push_back({wear.key + "_depth_um", in_units(d.depth(wear.law), kMicro)});
+    columns.push_back(column(wear.key + "_depth", kMicrometres, d.depth(wear.law)));
   write_csv(file, origin, columns);
 }
 

@@ -8,17 +8,18 @@
 #include <iterator>
 
 #include "many/axis.hpp"
+#include "record/number_text.hpp"
 #include "record/output_file.hpp"
 #include "report/page.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr CurveAxis kAxes[] = {{"creepage", VariedCreepage::longitudinal, "creepage", "F_x",
-                                "longitudinal creepage (negative: driving)", -1, 0.02, 0.5},
-                               {"lateral_creepage", VariedCreepage::lateral, "lateral_creepage", "lateral force",
-                                "lateral creepage", 1, 0.02, 0.5},
-                               {"spin", VariedCreepage::spin, "spin_per_m", "lateral force", "spin [1/m]", 1, 5, 1000}};
+constexpr CurveAxis kAxes[] = {
+    {"creepage", VariedCreepage::longitudinal, unit::kNone, "F_x", "longitudinal creepage (negative: driving)", -1,
+     0.02, 0.5},
+    {"lateral_creepage", VariedCreepage::lateral, unit::kNone, "lateral force", "lateral creepage", 1, 0.02, 0.5},
+    {"spin", VariedCreepage::spin, unit::kPerMetre, "lateral force", "spin", 1, 5, 1000}};
 
 struct Chart {
   const char *id, *title, *note, *y;
@@ -28,34 +29,39 @@ constexpr Chart kCharts[] = {
      "force / (f F_n)"},
     {"slip", "Slip", "By the full theory.", "slip area / patch area"},
     {"across", "The other force", "By the full theory, on the wheel.", "other force / (f F_n)"},
-    {"moment", "Moment about the contact normal", "By the full theory, on the wheel.", "moment / (f F_n) [mm]"}};
+    {"moment", "Moment about the contact normal", "By the full theory, on the wheel.", "moment / (f F_n)"}};
 
+using P = CreepCurvePoint;
 /// A column with its line on a chart.
 struct CurveColumn {
-  const char *name, *heading;
-  double (*value)(const CreepCurvePoint&);
+  const char* symbol;
+  Unit unit;
+  std::function<double(const P&)> value;
+  const char* heading;
   std::string_view chart = {};
   const char *line = "full half-space theory, with the case's layers", *dash = "solid";
 };
-constexpr CurveColumn kColumns[] = {
-    {"full", "full theory", [](const CreepCurvePoint& p) { return 0.0 - p.full; }, "creep"},
-    {"fastsim", "FASTSIM", [](const CreepCurvePoint& p) { return 0.0 - p.fastsim; }, "creep", "FASTSIM, Hertz ellipse",
-     "dash"},
-    {"polach", "Polach", [](const CreepCurvePoint& p) { return 0.0 - p.polach; }, "creep", "Polach", "dot"},
-    {"vermeulen_johnson", "Vermeulen-Johnson", [](const CreepCurvePoint& p) { return 0.0 - p.vermeulen_johnson; },
-     "creep", "Vermeulen-Johnson", "dashdot"},
-    {"linear", "Kalker, linear", [](const CreepCurvePoint& p) { return 0.0 - p.linear; }},
-    {"slip_area_fraction", "slip area / patch area", [](const CreepCurvePoint& p) { return p.slip_fraction; }, "slip"},
-    {"full_across", "other force", [](const CreepCurvePoint& p) { return 0.0 - p.across; }, "across"},
-    {"full_moment_mm", "moment [mm]", [](const CreepCurvePoint& p) { return 0.0 - 1e3 * p.moment; }, "moment"}};
+std::function<double(const P&)> on_wheel(double P::*on_rail) {
+  return [on_rail](const P& p) { return 0.0 - p.*on_rail; };
+}
+const CurveColumn kColumns[] = {
+    {"full", unit::kNone, on_wheel(&P::full), "full theory", "creep"},
+    {"fastsim", unit::kNone, on_wheel(&P::fastsim), "FASTSIM", "creep", "FASTSIM, Hertz ellipse", "dash"},
+    {"polach", unit::kNone, on_wheel(&P::polach), "Polach", "creep", "Polach", "dot"},
+    {"vermeulen_johnson", unit::kNone, on_wheel(&P::vermeulen_johnson), "Vermeulen-Johnson", "creep",
+     "Vermeulen-Johnson", "dashdot"},
+    {"linear", unit::kNone, on_wheel(&P::linear), "Kalker, linear"},
+    {"slip_area_fraction", unit::kNone, &P::slip_fraction, "slip area / patch area", "slip"},
+    {"full_across", unit::kNone, on_wheel(&P::across), "other force", "across"},
+    {"full_moment", unit::kMillimetres, on_wheel(&P::moment), "moment", "moment"}};
 
 ReportTable points_of(const CurveAxis& axis, const std::vector<CsvColumn>& table) {
   ReportTable out{.id = "points",
                   .title = "Points",
                   .note = "Forces and moment over f F_n, on the wheel. creep_curve.csv has every digit.",
-                  .columns = {axis.title},
+                  .columns = {titled(axis.label, axis.unit.shown)},
                   .rows = {}};
-  for (const CurveColumn& c : kColumns) out.columns.emplace_back(c.heading);
+  for (const CurveColumn& c : kColumns) out.columns.push_back(titled(c.heading, c.unit.shown));
   for (std::size_t i = 0; i < table.front().values.size(); ++i) {
     auto& row = out.rows.emplace_back();
     for (const CsvColumn& c : table) row.emplace_back(c.values[i]);
@@ -87,13 +93,9 @@ std::vector<double> curve_values(const CurveAxis& axis, double largest, int poin
 }
 
 std::vector<CsvColumn> curve_table(const CurveAxis& axis, const std::vector<CreepCurvePoint>& curve) {
-  std::vector<CsvColumn> out{{axis.column, {}}};
-  for (const CurveColumn& c : kColumns) out.push_back({c.name, {}});
-  for (const CreepCurvePoint& p : curve) {
-    out.front().values.push_back(p.creepage);
-    for (std::size_t k = 0; k < std::size(kColumns); ++k) out[k + 1].values.push_back(kColumns[k].value(p));
-  }
-  return out;
+  Columns<P> columns{axis.column()};
+  for (const CurveColumn& c : kColumns) columns.push_back({c.symbol, c.unit, c.value});
+  return csv_columns(curve, columns);
 }
 
 void write_creep_curve_page(const std::filesystem::path& page, const std::string& title, const CurveAxis& axis,
@@ -101,11 +103,14 @@ void write_creep_curve_page(const std::filesystem::path& page, const std::string
   Report report;
   report.title = fmt::format("{}: creep curve", title);
   for (const Chart& c : kCharts) {
-    ReportChart& chart = report.charts.emplace_back(ReportChart{c.id, c.title, c.note, axis.title, c.y, {}});
-    for (std::size_t k = 0; k < std::size(kColumns); ++k)
-      if (kColumns[k].chart == c.id)
-        chart.series.push_back(
-            {.name = kColumns[k].line, .x = table.front().values, .y = table[k + 1].values, .dash = kColumns[k].dash});
+    ReportChart& chart =
+        report.charts.emplace_back(ReportChart{c.id, c.title, c.note, titled(axis.label, axis.unit.shown), c.y, {}});
+    for (std::size_t k = 0; k < std::size(kColumns); ++k) {
+      if (kColumns[k].chart != c.id) continue;
+      chart.y = titled(c.y, kColumns[k].unit.shown);
+      chart.series.push_back(
+          {.name = kColumns[k].line, .x = table.front().values, .y = table[k + 1].values, .dash = kColumns[k].dash});
+    }
   }
   report.charts.front().y = fmt::format("{} / (f F_n)", axis.force);
   if (!notes.empty()) report.charts.front().note += fmt::format(" {}", fmt::join(notes, " "));

@@ -15,10 +15,12 @@ namespace railstrata {
 struct CurveAxis {
   std::string_view word;  ///< "creepage", "lateral_creepage", "spin"
   VariedCreepage varied;
-  const char *column, *force;  ///< of the table; the force over f F_n that it shows
-  const char* title;           ///< of a chart's axis
-  double side;                 ///< sign of a curve to one side, driving
-  double largest, bound;       ///< chosen where nothing is asked; as much as may be asked; 1, of spin 1/m
+  Unit unit;
+  const char *force, *label;  ///< the force over f F_n that it shows; of a chart's axis
+  double side;                ///< sign of a curve to one side, driving
+  double largest, bound;      ///< chosen where nothing is asked; as much as may be asked; in its unit
+
+  Column<CreepCurvePoint> column() const { return {std::string(word), unit, &CreepCurvePoint::creepage}; }
 };
 
 /// The words.

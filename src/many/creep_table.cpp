@@ -11,6 +11,7 @@
 #include "judge/bem_summary.hpp"
 #include "many/each_case.hpp"
 #include "model/model.hpp"
+#include "result/result_table.hpp"
 #include "runs/solve_half_space.hpp"
 
 namespace railstrata {
@@ -31,37 +32,45 @@ void set_creepage(CaseSpec& spec, std::string_view key, double value) {
   spec.drive.lateral_traction_coefficient.reset();
 }
 
-struct Number {
-  const char *name, *unit;
-  double (*of)(const CaseSpec&, const BemResult&, const ContactSummary&);
+/// A point.
+struct Solved {
+  const CaseSpec& spec;
+  const BemResult& result;
+  Summary summary;
 };
-double dissipated(const BemResult& r) {
-  double out = r.dissipation;
-  for (const BemPatch& p : r.further) out += p.dissipation;
+
+/// Those of summary.json, two by other names, then those of the solution.
+Columns<Solved> creep_numbers() {
+  const Columns<Summary> all(result_numbers().begin(), result_numbers().end());
+  Columns<Solved> out = of_part<Solved>(select(all, {"F_x", "lateral_force", "normal_force", "spin_moment", "approach",
+                                                     "p_max", "patch_area", "slip_area_fraction"}),
+                                        &Solved::summary);
+  out.front().symbol = "force_x";
+  out.back().symbol = "slip";
+  append(out, {{"dissipation", unit::kWatts, [](const Solved& s) { return dissipation(s.result); }},
+               {"bound", unit::kNone, [](const Solved& s) {
+                  const ContactSummary& c = s.summary.contact;
+                  return std::hypot(c.F_x, c.lateral_force) / (s.spec.drive.friction_coefficient * c.normal_force);
+                }}});
   return out;
 }
-constexpr Number kNumbers[kCreepNumbers] = {
-    {"force_x", "N", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.F_x; }},
-    {"lateral_force", "N", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.lateral_force; }},
-    {"normal_force", "N", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.normal_force; }},
-    {"spin_moment", "N m", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.spin_moment; }},
-    {"approach", "m", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.approach; }},
-    {"p_max", "Pa", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.patch.p_max; }},
-    {"patch_area", "m2", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.patch.area; }},
-    {"slip", "", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.patch.slip_area_fraction; }},
-    {"dissipation", "W", [](const CaseSpec&, const BemResult& r, const ContactSummary&) { return dissipated(r); }},
-    {"bound", "", [](const CaseSpec& s, const BemResult&, const ContactSummary& c) {
-       return std::hypot(c.F_x, c.lateral_force) / (s.drive.friction_coefficient * c.normal_force);
-     }}};
+
+/// "N m", "m2": as a table has it.
+std::string si_text(const Unit& unit) {
+  std::string out(unit.key_ending.substr(unit.key_ending.empty() ? 0 : 1));
+  std::replace(out.begin(), out.end(), '_', ' ');
+  return out;
+}
 
 CreepNumbers solved(const CaseSpec& spec, const Placement& placement, const BemOptions& bem) {
   const BemResult result = solve_bem(spec, placement, bem);
-  const Summary summary = bem_contact_summary(spec, result);
-  for (const Check& check : summary.checks)
+  const Solved point{spec, result, bem_contact_summary(spec, result)};
+  for (const Check& check : point.summary.checks)
     if (!check.ok)
       throw CaseError(fmt::format("check {} fails: {:.3g}, limit {:.3g}", check.name, check.value, check.limit));
+  static const Columns<Solved> columns = creep_numbers();
   CreepNumbers out{};
-  for (std::size_t k = 0; k < kCreepNumbers; ++k) out[k] = kNumbers[k].of(spec, result, summary.contact);
+  for (std::size_t k = 0; k < kCreepNumbers; ++k) out[k] = columns[k].value(point);
   return out;
 }
 
@@ -102,7 +111,8 @@ CreepTable::CreepTable(const LoadedCase& base, const std::vector<std::string>& o
   }
   if (points_asked > kMostTablePoints)
     throw CaseError(fmt::format("{:.7g} points", points_asked), fmt::format("give {} at most", kMostTablePoints));
-  for (const Number& n : kNumbers) table_.numbers.push_back({n.name, n.unit, std::vector<double>(points(), NAN)});
+  for (const Column<Solved>& n : creep_numbers())
+    table_.numbers.push_back({n.symbol, si_text(n.unit), std::vector<double>(points(), NAN)});
   std::optional<CaseError> first_error;
   for (const std::vector<std::string>& values : combinations(outer_axes, kMostTablePoints)) {
     try {

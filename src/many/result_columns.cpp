@@ -18,45 +18,57 @@ std::vector<ResultColumn> result_columns(bool stresses) {
 
 const std::vector<ResultColumn>& study_columns() {
   using namespace unit;
-  const auto own = [](std::string name, std::string title, Unit unit) {
+  const auto own = [](const std::string& symbol, std::string title, Unit unit) {
     const std::string_view in_column = unit.factor == unit.column_factor ? unit.shown : "";
-    return ResultColumn{.name = std::move(name),
+    return ResultColumn{.name = symbol + std::string(unit.column_ending),
                         .factor = unit.column_factor,
                         .title = std::move(title),
                         .unit = in_column,
                         .shown_unit = unit};
   };
   static const std::vector<ResultColumn> columns{
-      own("rail_von_mises_MPa", "rail von Mises", kMPa),
-      own("rail_von_mises_depth_mm", "rail von Mises, depth", kMillimetres),
-      own("rail_sigma_1_MPa", "rail σ₁", kMPa),
-      own("rail_sigma_1_depth_mm", "rail σ₁, depth", kMillimetres),
-      own("section_von_mises_MPa", "von Mises on the section", kMPa),
-      own("section_von_mises_depth_mm", "von Mises on the section, depth", kMillimetres),
-      own("section_sigma_1_MPa", "σ₁ on the section", kMPa),
-      own("section_sigma_1_depth_mm", "σ₁ on the section, depth", kMillimetres),
-      own("whole_points_area_mm2", "area of whole points", kSquareMillimetres),
-      own("whole_points_length_mm", "length of whole points", kMillimetres),
+      own("rail_von_mises", "rail von Mises", kMPa),
+      own("rail_von_mises_depth", "rail von Mises, depth", kMillimetres),
+      own("rail_sigma_1", "rail σ₁", kMPa),
+      own("rail_sigma_1_depth", "rail σ₁, depth", kMillimetres),
+      own("section_von_mises", "von Mises on the section", kMPa),
+      own("section_von_mises_depth", "von Mises on the section, depth", kMillimetres),
+      own("section_sigma_1", "σ₁ on the section", kMPa),
+      own("section_sigma_1_depth", "σ₁ on the section, depth", kMillimetres),
+      own("whole_points_area", "area of whole points", kSquareMillimetres),
+      own("whole_points_length", "length of whole points", kMillimetres),
       own("whole_points_slip_fraction", "slip area of whole points", kShare),
       own("slip_over_stick", "slip area / stick area", kNone),
-      own("threads", "threads", kNone)};
+      {.name = "threads", .path = "/run/threads", .title = "threads"}};
   return columns;
 }
 
-const ResultColumn* find_column(std::string_view name) {
+namespace {
+
+/// The first of all columns that is it; null: none.
+template <class IsIt>
+const ResultColumn* first_column(IsIt&& is_it) {
   static const std::vector<ResultColumn> all = [] {
     std::vector<ResultColumn> out = result_columns(true);
     out.insert(out.end(), study_columns().begin(), study_columns().end());
     return out;
   }();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const ResultColumn& c) { return c.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(), is_it);
   return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const ResultColumn* find_column(std::string_view name) {
+  return first_column([&](const ResultColumn& c) { return c.name == name; });
+}
+const ResultColumn& column_of(std::string_view symbol) {
+  return *first_column([&](const ResultColumn& c) { return c.symbol() == symbol; });
 }
 
 std::string column_title(const std::string& name) {
   const ResultColumn* column = find_column(name);
-  if (!column) return name;
-  return column->unit.empty() ? column->title : fmt::format("{} [{}]", column->title, column->unit);
+  return column ? titled(column->title, column->unit) : name;
 }
 
 double column_value(const ResultColumn& column, const nlohmann::ordered_json& summary) {

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "record/number_text.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {
@@ -18,6 +19,9 @@ const std::vector<ResultColumn>& study_columns();
 
 /// The row of a column of a study's table by its name; null if there is none.
 const ResultColumn* find_column(std::string_view name);
+
+/// The row of this symbol. It must be there.
+const ResultColumn& column_of(std::string_view symbol);
 
 /// "p_max [MPa]": as an axis or the head of a column names it; the name itself if it is no column.
 std::string column_title(const std::string& name);

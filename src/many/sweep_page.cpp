@@ -57,9 +57,10 @@ void write_sweep_page(const std::filesystem::path& page, const std::string& titl
     const std::string x = axis_title(axis->key, axis->values);
     const std::string note =
         points.size() < rows.size() ? fmt::format("The first {} lines; the table has all.", kMostLines) : "";
-    for (const std::string& column : shown_columns(rows)) {
-      report.charts.push_back({column, column_title(column), note, x, column_title(column), {}});
-      add_trend(report.charts.back(), axis->key, column, points);
+    for (const ResultColumn* column : shown_columns(rows)) {
+      const std::string named = column_title(column->name);
+      report.charts.push_back({column->name, named, note, x, named, {}});
+      add_trend(report.charts.back(), axis->key, column->name, points);
     }
   }
   report.tables = {cases_table("sweep.csv has more columns and every digit.", value_columns(rows), rows)};

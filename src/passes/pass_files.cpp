@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 #include <nlohmann/json.hpp>
 
@@ -22,35 +22,42 @@ namespace railstrata {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// A row of passes.csv by the stationary method; cycle: of one that the pass completes.
-struct StationaryRow {
-  const PassRow& pass;
-  PassStrain cycle;
-};
+const Columns<PassStrain> kPassStrain{{"accumulated_strain", unit::kNone, &PassStrain::accumulated},
+                                      {"net_strain", unit::kNone, &PassStrain::net}},
+    kCycleStrain{{"cycle_accumulated", unit::kNone, &PassStrain::accumulated},
+                 {"cycle_net", unit::kNone, &PassStrain::net}};
 
-Columns<StationaryRow> row_columns() {
-  using S = StationaryRow;
-  Columns<S> out = of_part<S>(pass_columns(), [](const S& s) -> const PassRow& { return s.pass; });
-  append(out, {{"lateral", unit::kMillimetres, [](const S& s) { return s.pass.place; }},
-               {"traction", unit::kNone, [](const S& s) { return s.pass.traction; }},
-               {"force_share", unit::kNone, [](const S& s) { return s.pass.force_share; }},
-               {"cycle_accumulated", unit::kNone, [](const S& s) { return s.cycle.accumulated; }},
-               {"cycle_net", unit::kNone, [](const S& s) { return s.cycle.net; }}});
+/// Those that are in a table.
+std::vector<PassStrain> strains_in(const CsvTable& table, const Columns<PassStrain>& columns) {
+  const std::vector<double> accumulated = table.column(columns[0].column_name()),
+                            net = table.column(columns[1].column_name());
+  std::vector<PassStrain> out;
+  for (std::size_t n = 0; n < net.size(); ++n)
+    if (!std::isnan(net[n])) out.push_back({accumulated[n], net[n]});
   return out;
 }
 
-constexpr int kBegun = 7;  // numbers of PassSeries::begun
+constexpr std::size_t kBegun = 7;  // numbers of PassSeries::begun
 
-std::vector<std::string> state_names(const SteadyGrid& grid) {
-  std::vector<std::string> names{"passes"};
-  for (std::size_t n = 0; n < kPointPasses; ++n)
-    for (const char* what : {"accumulated", "net"}) names.push_back(fmt::format("{}_{}", what, n));
-  for (int n = 0; n < kBegun; ++n) names.push_back(fmt::format("begun_{}", n));
-  for (int n = 0; n < kStreamlineHistory; ++n) names.push_back(fmt::format("history_{}", n));
-  for (int n = 0; n < 6 * grid.active_stations(); ++n) names.push_back(fmt::format("strain_{}", n));
-  return names;
+/// state.csv, of the points of the section.
+Columns<std::size_t> state_columns(const SteadyGrid& grid, const PassSeries& series) {
+  using N = std::size_t;
+  const N active = static_cast<N>(grid.active_stations()), lines = grid.points();
+  Columns<N> out{{"passes", unit::kCount, [&](N) { return series.state.passes; }}};
+  append(out,
+         of_part<N>(remembered_columns(), [&](N n) -> const std::vector<PassStrain>& { return series.points[n]; }));
+  for (N k = 0; k < kBegun; ++k)
+    out.push_back({fmt::format("begun_{}", k), unit::kNone,
+                   [&, k](N n) { return n < series.begun.size() ? series.begun[n][k] : 0.0; }});
+  for (N k = 0; k < kStreamlineHistory; ++k)
+    out.push_back({fmt::format("history_{}", k), unit::kNone,
+                   [&, k](N n) { return series.state.history[n * kStreamlineHistory + k]; }});
+  for (N k = 0; k < 6 * active; ++k)
+    out.push_back({fmt::format("strain_{}", k), unit::kNone, [&, k, active, lines](N n) {
+                     return series.state.residual_strain[(k / active * lines + n) * active + k % active];
+                   }});
+  return out;
 }
 
 PassPoint point_of(const RailPasses& rail, const PassSeries& series, PassClass whole, const PassResult& last, int r,
@@ -96,72 +103,48 @@ Json grid_json(const SteadyGrid& g) {
 
 Columns<PassRow> pass_columns() {
   using R = PassRow;
-  return {{"pass", unit::kCount, &R::pass},
-          {"accumulated_strain", unit::kNone, [](const R& r) { return r.largest.accumulated; }},
-          {"net_strain", unit::kNone, [](const R& r) { return r.largest.net; }},
-          {"net_y", unit::kMillimetres, &R::net_y},
-          {"net_depth", unit::kMillimetres, &R::net_depth},
-          {"sigma_x_min", unit::kMPa, [](const R& r) { return r.stress[0]; }},
-          {"sigma_x_depth", unit::kMillimetres, [](const R& r) { return r.stress_depth[0]; }},
-          {"sigma_y_min", unit::kMPa, [](const R& r) { return r.stress[1]; }},
-          {"sigma_y_depth", unit::kMillimetres, [](const R& r) { return r.stress_depth[1]; }},
-          {"forward", unit::kMicrometres, &R::forward},
-          {"lateral", unit::kMicrometres, &R::lateral},
-          {"sinking", unit::kMicrometres, &R::sinking},
-          {"force", unit::kNewtons, &R::force},
-          {"balance", unit::kNone, &R::balance},
-          {"iterations", unit::kCount, &R::iterations},
-          {"error", unit::kNone, &R::error}};
+  Columns<R> out{{"pass", unit::kCount, &R::pass}};
+  append(out, of_part<R>(kPassStrain, &R::largest));
+  append(out, {{"net_y", unit::kMillimetres, &R::net_y},
+               {"net_depth", unit::kMillimetres, &R::net_depth},
+               {"sigma_x_min", unit::kMPa, [](const R& r) { return r.stress[0]; }},
+               {"sigma_x_depth", unit::kMillimetres, [](const R& r) { return r.stress_depth[0]; }},
+               {"sigma_y_min", unit::kMPa, [](const R& r) { return r.stress[1]; }},
+               {"sigma_y_depth", unit::kMillimetres, [](const R& r) { return r.stress_depth[1]; }},
+               {"forward", unit::kMicrometres, &R::forward},
+               {"lateral", unit::kMicrometres, &R::lateral},
+               {"sinking", unit::kMicrometres, &R::sinking},
+               {"force", unit::kNewtons, &R::force},
+               {"balance", unit::kNone, &R::balance},
+               {"iterations", unit::kCount, &R::iterations},
+               {"error", unit::kNone, &R::error}});
+  return out;
 }
 
-std::vector<std::string> stationary_columns() { return names_of(row_columns()); }
+std::vector<PassStrain> pass_strains(const CsvTable& table) { return strains_in(table, kPassStrain); }
 
-std::vector<double> stationary_values(const PassRow& pass, const std::optional<PassStrain>& cycle) {
-  return table_row(row_columns(), {pass, cycle.value_or(PassStrain{kNone, kNone})});
-}
-
-void write_pass_rows(const std::filesystem::path& file, const std::vector<std::string>& provenance,
-                     const std::vector<std::string>& names, const std::vector<std::vector<double>>& table) {
-  std::vector<CsvColumn> columns;
-  for (const std::string& name : names) {
-    const std::size_t c = columns.size();
-    columns.push_back({name, {}});
-    for (const std::vector<double>& row : table) columns.back().values.push_back(row[c]);
-  }
-  write_csv(file, provenance, columns);
-}
-
-void write_pass_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
-                      const PassSeries& series) {
-  write_pass_rows(file, provenance, stationary_columns(), series.table);
+Columns<StationaryRow> stationary_columns() {
+  using R = StationaryRow;
+  Columns<R> out = of_part<R>(pass_columns(), [](const R& r) -> const PassRow& { return r.pass; });
+  append(out, {{"lateral", unit::kMillimetres, [](const R& r) { return r.pass.place; }},
+               {"traction", unit::kNone, [](const R& r) { return r.pass.traction; }},
+               {"force_share", unit::kNone, [](const R& r) { return r.pass.force_share; }}});
+  append(out, of_part<R>(kCycleStrain, &R::cycle));
+  return out;
 }
 
 void write_pass_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                       const SteadyGrid& grid, const PassSeries& series) {
-  std::vector<CsvColumn> columns;
-  for (std::string& name : state_names(grid)) columns.push_back({std::move(name), {}});
-  const std::size_t active = static_cast<std::size_t>(grid.active_stations());
-  for (std::size_t n = 0; n < grid.points(); ++n) {
-    std::size_t c = 0;
-    const auto put = [&](double value) { columns[c++].values.push_back(value); };
-    put(series.state.passes);
-    for (std::size_t k = 0; k < kPointPasses; ++k) {
-      const bool known = k < series.points[n].size();
-      put(known ? series.points[n][k].accumulated : kNone);
-      put(known ? series.points[n][k].net : kNone);
-    }
-    for (std::size_t k = 0; k < kBegun; ++k) put(n < series.begun.size() ? series.begun[n][k] : 0);
-    for (std::size_t k = 0; k < kStreamlineHistory; ++k) put(series.state.history[n * kStreamlineHistory + k]);
-    for (std::size_t k = 0; k < 6; ++k)
-      for (std::size_t i = 0; i < active; ++i) put(series.state.residual_strain[(k * grid.points() + n) * active + i]);
-  }
-  write_csv(file, provenance, columns);
+  std::vector<std::size_t> points(grid.points());
+  std::iota(points.begin(), points.end(), 0U);
+  write_csv(file, provenance, points, state_columns(grid, series));
 }
 
 PassSeries read_pass_series(const std::filesystem::path& state, const std::filesystem::path& table,
                             const SteadyGrid& grid) {
   const CsvTable values = read_csv(state), rows = read_csv(table);
-  const std::vector<std::string> names = state_names(grid);
+  PassSeries series;
+  const std::vector<std::string> names = names_of(state_columns(grid, series));
   bool same = values.rows() == grid.points() && values.columns.size() == names.size();
   for (std::size_t c = 0; same && c < names.size(); ++c) same = values.columns[c].name == names[c];
   if (!same || rows.columns.size() != stationary_columns().size())
@@ -170,32 +153,23 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
   const double passes = values.columns[0].values[0];
   if (!(passes >= 0 && passes <= static_cast<double>(rows.rows())))
     throw CaseError("fewer passes than the state has seen", "begin anew with --force", table.string());
-  PassSeries series;
   series.state.passes = static_cast<int>(passes);
-  for (int n = 0; n < series.state.passes; ++n) {
-    series.table.emplace_back();
-    for (const CsvColumn& column : rows.columns) series.table.back().push_back(column.values[n]);
-    const auto at = [&](const char* name) { return rows.column(name)[static_cast<std::size_t>(n)]; };
-    series.strains.push_back({at("accumulated_strain"), at("net_strain")});
-    if (!std::isnan(at("cycle_net"))) series.cycles.push_back({at("cycle_accumulated"), at("cycle_net")});
-  }
+  series.table = first_rows(rows, stationary_columns(), static_cast<std::size_t>(series.state.passes));
+  series.strains = pass_strains(series.table);
+  series.cycles = strains_in(series.table, kCycleStrain);
   const std::size_t active = static_cast<std::size_t>(grid.active_stations());
   series.state.history.resize(grid.points() * kStreamlineHistory);
   series.state.residual_strain.resize(6 * grid.points() * active);
   series.points.resize(grid.points());
   series.begun.resize(grid.points());
   for (std::size_t n = 0; n < grid.points(); ++n) {
-    std::size_t c = 1;
+    series.points[n] = remembered_passes(values, n, 1);
+    std::size_t c = 1 + 2 * kPointPasses;
     const auto take = [&] { return values.columns[c++].values[n]; };
-    for (std::size_t k = 0; k < kPointPasses; ++k) {
-      const double accumulated = take(), net = take();
-      if (!std::isnan(net)) series.points[n].push_back({accumulated, net});
-    }
     for (std::size_t k = 0; k < kBegun; ++k) series.begun[n][k] = take();
     for (std::size_t k = 0; k < kStreamlineHistory; ++k) series.state.history[n * kStreamlineHistory + k] = take();
-    for (std::size_t k = 0; k < 6; ++k)
-      for (std::size_t i = 0; i < active; ++i)
-        series.state.residual_strain[(k * grid.points() + n) * active + i] = take();
+    for (std::size_t k = 0; k < 6 * active; ++k)
+      series.state.residual_strain[(k / active * grid.points() + n) * active + k % active] = take();
   }
   const auto finite = [](const auto& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); });
@@ -212,10 +186,9 @@ PointLists point_lists(PointColumns which) {
                  tensor_columns<P>("sigma", unit::kMPa, &P::stress),
                  tensor_columns<P>("plastic", unit::kNone, &P::plastic),
                  {{"plastic_strain_accumulated", unit::kNone, &P::accumulated}}};
-  if (which == PointColumns::of_passes)
-    out.of_pass = {{"accumulated_strain", unit::kNone, [](const P& p) { return p.strain.accumulated; }},
-                   {"net_strain", unit::kNone, [](const P& p) { return p.strain.net; }},
-                   {"class", unit::kCount, [](const P& p) { return static_cast<double>(p.kind); }}};
+  if (which == PointColumns::of_a_run) return out;
+  out.of_pass = of_part<P>(kPassStrain, &P::strain);
+  append(out.of_pass, {{"class", unit::kCount, [](const P& p) { return static_cast<double>(p.kind); }}});
   return out;
 }
 
@@ -242,9 +215,7 @@ std::vector<PassPoint> section_points(const RailPasses& rail, const PassSeries& 
 void write_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                     const RailPasses& rail, const PassSeries& series, const PassResult& last) {
   std::vector<std::string> remarks = provenance;
-  remarks.push_back(
-      "After the last pass. y: contact frame. class: 0 elastic shakedown, 1 plastic shakedown, 2 ratchetting, "
-      "3 transient. plastic_xy ...: tensor shears; plastic_strain_accumulated: accumulated over all passes.");
+  remarks.push_back(fmt::format("After the last pass. y: contact frame. {}", kPointRemark));
   const SteadyGrid& g = rail.grid;
   const std::vector<PassPoint> section = section_points(rail, series, last);
   const auto most = std::max_element(section.begin(), section.end(), [](const PassPoint& a, const PassPoint& b) {
@@ -269,7 +240,7 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   out["passes_per_cycle"] = series.cycle;
   out["net_strain_per_pass"] = verdict.rate;
   out["trend"] = verdict.trend;
-  out["last_pass"] = last_pass_json(stationary_columns(), series.table.back());
+  out["last_pass"] = last_pass_json(series.table);
   if (answer.ductility)
     out["ductility"] = ductility_json(*answer.ductility, largest_strain(result), series.cycles, series.cycle);
   Summary summary;

@@ -17,12 +17,14 @@ namespace railstrata {
 
 /// passes.csv: the columns that both methods have.
 Columns<PassRow> pass_columns();
-/// Columns of the stationary method; cycle: those of a cycle that the pass completes.
-std::vector<std::string> stationary_columns();
-std::vector<double> stationary_values(const PassRow& row, const std::optional<PassStrain>& cycle);
-/// Writes such a table, a row a pass.
-void write_pass_rows(const std::filesystem::path& file, const std::vector<std::string>& provenance,
-                     const std::vector<std::string>& names, const std::vector<std::vector<double>>& table);
+/// Plastic strain of passes read back from such a table.
+std::vector<PassStrain> pass_strains(const CsvTable& table);
+/// A row of the stationary method; cycle: that which the pass completes, else NaN.
+struct StationaryRow {
+  const PassRow& pass;
+  PassStrain cycle;
+};
+Columns<StationaryRow> stationary_columns();
 /// Quantities of a series of passes (class, strain of the last pass), or none of a single run.
 enum class PointColumns { of_passes, of_a_run };
 /// The columns of points: of the files of passes those of the last one too.
@@ -30,11 +32,13 @@ struct PointLists {
   Columns<PassPoint> zone, of_pass, stress, plastic, accumulated;
 };
 PointLists point_lists(PointColumns which);
+/// What their numbers mean.
+inline constexpr const char* kPointRemark =
+    "class: 0 elastic shakedown, 1 plastic shakedown, 2 ratchetting, 3 transient. plastic_xy ...: tensor shears; "
+    "plastic_strain_accumulated: accumulated over all passes.";
 /// A table of points: residual.csv and profile.csv. Of elements with their row and column in the fine zone, -1 deeper.
 void write_pass_points(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                        const std::vector<PassPoint>& points, PointColumns which = PointColumns::of_passes);
-void write_pass_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
-                      const PassSeries& series);
 
 /// The state, as one table that is whole or not there.
 void write_pass_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,

@@ -12,9 +12,10 @@ namespace railstrata {
 
 using Json = nlohmann::ordered_json;
 
-Json last_pass_json(const std::vector<std::string>& columns, const std::vector<double>& row) {
+Json last_pass_json(const CsvTable& table) {
   Json out;
-  for (std::size_t c = 1; c < columns.size(); ++c) out[columns[c]] = json_number(row[c]);
+  for (std::size_t c = 1; c < table.columns.size(); ++c)
+    out[table.columns[c].name] = json_number(table.columns[c].values.back());
   return out;
 }
 

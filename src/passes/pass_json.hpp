@@ -7,11 +7,12 @@
 
 #include "case/case_fwd.hpp"
 #include "passes/pass_point.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 
-/// The row of the last pass, but for its number; null for what is not finite.
-nlohmann::ordered_json last_pass_json(const std::vector<std::string>& columns, const std::vector<double>& row);
+/// The last row of passes.csv, but for its number; null for what is not finite.
+nlohmann::ordered_json last_pass_json(const CsvTable& table);
 
 /// Number of points of each class. points: the last passes of each; whole: the class of the series.
 nlohmann::ordered_json points_json(const std::vector<std::vector<PassStrain>>& points, PassClass whole);

@@ -1,8 +1,9 @@
 #include "passes/pass_series.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "passes/pass_files.hpp"
 
@@ -30,7 +31,7 @@ void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series)
   }
   series.strains.push_back(pass.largest);
   if (whole) series.cycles.push_back(largest);
-  series.table.push_back(stationary_values(pass, whole ? std::optional(largest) : std::nullopt));
+  add_row(stationary_columns(), {pass, whole ? largest : PassStrain{kNotApplicable, kNotApplicable}}, series.table);
 }
 
 PassVerdict verdict_of(const PassSeries& series) {
@@ -42,6 +43,26 @@ PassVerdict verdict_of(const PassSeries& series) {
 void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes) {
   if (passes.size() == kPointPasses) passes.erase(passes.begin());
   passes.push_back(strain);
+}
+
+Columns<std::vector<PassStrain>> remembered_columns() {
+  using P = std::vector<PassStrain>;
+  Columns<P> out;
+  for (std::size_t n = 0; n < kPointPasses; ++n)
+    for (const auto& [symbol, member] :
+         {std::pair{"accumulated", &PassStrain::accumulated}, std::pair{"net", &PassStrain::net}})
+      out.push_back({fmt::format("{}_{}", symbol, n), unit::kNone,
+                     [n, m = member](const P& p) { return n < p.size() ? p[n].*m : kNotApplicable; }});
+  return out;
+}
+
+std::vector<PassStrain> remembered_passes(const CsvTable& state, std::size_t row, std::size_t first) {
+  std::vector<PassStrain> out;
+  for (std::size_t c = first; c < first + 2 * kPointPasses; c += 2) {
+    const double net = state.columns[c + 1].values[row];
+    if (!std::isnan(net)) out.push_back({state.columns[c].values[row], net});
+  }
+  return out;
 }
 
 PassStanding standing_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last) {

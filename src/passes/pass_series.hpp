@@ -6,14 +6,15 @@
 
 #include "passes/pass_words.hpp"
 #include "passes/rail_passes.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 
 /// State of a series of passes.
 struct PassSeries {
-  std::vector<std::vector<double>> table;  ///< passes.csv, in its units
-  std::vector<PassStrain> strains;         ///< the largest of all points, of every pass
-  std::vector<PassStrain> cycles;          ///< the same of every whole cycle
+  CsvTable table;                   ///< passes.csv
+  std::vector<PassStrain> strains;  ///< the largest of all points, of every pass
+  std::vector<PassStrain> cycles;   ///< the same of every whole cycle
   PassState state;
   int cycle = 1;  ///< passes that are judged as one: passes_per_cycle (passes/pass_plan.hpp)
   std::vector<std::vector<PassStrain>> points;  ///< per point of the section its last cycles, kPointPasses at most
@@ -29,6 +30,9 @@ void add_pass(const PassRow& row, const PassResult& result, PassSeries& series);
 PassVerdict verdict_of(const PassSeries& series);
 /// Adds a pass to the last ones of a point.
 void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes);
+/// These in a state: kPointPasses times two numbers, NaN where there are fewer. Read: those of a row's from `first` on.
+Columns<std::vector<PassStrain>> remembered_columns();
+std::vector<PassStrain> remembered_passes(const CsvTable& state, std::size_t row, std::size_t first);
 /// Progress for passes/pass_words.hpp; strains: of every pass, the last one that of the row.
 PassStanding standing_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last);
 

@@ -20,31 +20,32 @@
 namespace railstrata {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNoQuad = -1;  // in state.csv: no element has become hot
+constexpr int kNoQuad = -1;  // in state.csv: no element has become hot
 
-/// A row of passes.csv by the finite elements.
-struct RolledRow {
-  const PassRow& pass;
-  const PassContact& contact;
+constexpr const char *kPasses = "passes", *kBlock = "block", *kQuadrilateral = "quadrilateral",
+                     *kShift = "creepage_shift";
+
+/// state.csv: a pair of Gauss points.
+struct StateRow {
+  int passes, block, quad, pair;
+  double creepage_shift;
+  const std::vector<PassStrain>& points;
+  const double* history;
 };
+constexpr std::size_t kHeads = 5;  // columns before those of remembered_columns
 
-Columns<RolledRow> rolled_row_columns() {
-  using R = RolledRow;
-  Columns<R> out = of_part<R>(pass_columns(), [](const R& r) -> const PassRow& { return r.pass; });
-  append(out, {{"traction", unit::kNone, [](const R& r) { return r.contact.traction; }},
-               {"creepage", unit::kNone, [](const R& r) { return r.contact.creepage; }},
-               {"p_max", unit::kMPa, [](const R& r) { return r.contact.p_max; }},
-               {"lateral", unit::kMillimetres, [](const R& r) { return r.contact.lateral; }}});
+Columns<StateRow> state_columns(int history) {
+  using R = StateRow;
+  Columns<R> out{{kPasses, unit::kCount, &R::passes},
+                 {kBlock, unit::kCount, &R::block},
+                 {kQuadrilateral, unit::kCount, &R::quad},
+                 {"pair", unit::kCount, &R::pair},
+                 {kShift, unit::kNone, &R::creepage_shift}};
+  const auto points = [](const R& r) -> const std::vector<PassStrain>& { return r.points; };
+  append(out, of_part<R>(remembered_columns(), points));
+  for (int k = 0; k < history; ++k)
+    out.push_back({fmt::format("history_{}", k), unit::kNone, [k](const R& r) { return r.history[k]; }});
   return out;
-}
-
-/// Columns of the state before the numbers of a point.
-std::vector<std::string> state_heads() {
-  std::vector<std::string> names{"passes", "block", "quadrilateral", "pair", "creepage_shift"};
-  for (std::size_t n = 0; n < kPointPasses; ++n)
-    for (const char* what : {"accumulated", "net"}) names.push_back(fmt::format("{}_{}", what, n));
-  return names;
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::filesystem::path& file) {
@@ -99,75 +100,52 @@ VtkQuads quads_of(const SectionMesh& section) {
 
 }  // namespace
 
-std::vector<std::string> rolled_columns() { return names_of(rolled_row_columns()); }
-
-std::vector<double> rolled_values(const PassRow& pass, const PassContact& contact) {
-  return table_row(rolled_row_columns(), {pass, contact});
-}
-
-void write_rolled_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
-                        const RolledSeries& series) {
-  write_pass_rows(file, provenance, rolled_columns(), series.table);
+Columns<RolledRow> rolled_columns() {
+  using R = RolledRow;
+  Columns<R> out = of_part<R>(pass_columns(), [](const R& r) -> const PassRow& { return r.pass; });
+  append(out, {{"traction", unit::kNone, [](const R& r) { return r.contact.traction; }},
+               {"creepage", unit::kNone, [](const R& r) { return r.contact.creepage; }},
+               {"p_max", unit::kMPa, [](const R& r) { return r.contact.p_max; }},
+               {"lateral", unit::kMillimetres, [](const R& r) { return r.contact.lateral; }}});
+  return out;
 }
 
 void write_rolled_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                         const RolledSeries& series) {
-  std::vector<CsvColumn> columns;
-  for (std::string& name : state_heads()) columns.push_back({std::move(name), {}});
   const PlasticSection& section = series.section;
-  for (int k = 0; k < section.point_entries; ++k) columns.push_back({fmt::format("history_{}", k), {}});
+  std::vector<StateRow> rows;
   for (std::size_t n = 0; n < section.quads.size(); ++n)
-    for (int pair = 0; pair < kGaussPairs; ++pair) {
-      std::size_t c = 0;
-      const auto put = [&](double value) { columns[c++].values.push_back(value); };
-      for (const int v : {series.passes, section.quads[n].block, section.quads[n].quad, pair}) put(v);
-      put(series.creepage_shift);
-      for (std::size_t k = 0; k < kPointPasses; ++k) {
-        const bool known = k < series.points[n].size();
-        put(known ? series.points[n][k].accumulated : kUnknown);
-        put(known ? series.points[n][k].net : kUnknown);
-      }
-      for (int k = 0; k < section.point_entries; ++k) put(section.point(n, pair)[k]);
-    }
-  if (section.quads.empty()) {  // nothing is hot: one row has the number of passes and the creepage
-    for (CsvColumn& column : columns) column.values.push_back(0);
-    columns[0].values[0] = series.passes;
-    columns[2].values[0] = kNoQuad;
-    columns[4].values[0] = series.creepage_shift;
-  }
-  write_csv(file, provenance, columns);
+    for (int pair = 0; pair < kGaussPairs; ++pair)
+      rows.push_back({series.passes, section.quads[n].block, section.quads[n].quad, pair, series.creepage_shift,
+                      series.points[n], section.point(n, pair)});
+  const std::vector<PassStrain> none(kPointPasses);
+  const std::vector<double> zeros(static_cast<std::size_t>(section.point_entries));
+  if (rows.empty())  // nothing is hot: one row has the number of passes and the creepage
+    rows.push_back({series.passes, 0, kNoQuad, 0, series.creepage_shift, none, zeros.data()});
+  write_csv(file, provenance, rows, state_columns(section.point_entries));
 }
 
 RolledSeries read_rolled_series(const std::filesystem::path& state, const std::filesystem::path& table) {
   const CsvTable values = read_csv(state), rows = read_csv(table);
-  const std::size_t heads = state_heads().size(), pairs = kGaussPairs;
-  const bool nothing_hot = values.rows() == 1 && values.column("quadrilateral")[0] == kNoQuad;
+  const std::size_t heads = kHeads + 2 * kPointPasses, pairs = kGaussPairs;
+  const bool nothing_hot = values.rows() == 1 && values.column(kQuadrilateral)[0] == kNoQuad;
   if (values.columns.size() < heads + 7 || values.rows() == 0 || (values.rows() % pairs != 0 && !nothing_hot))
     refuse("the state is none of such passes", state);
   RolledSeries series;
-  series.passes = whole(values, "passes", 0);
-  series.creepage_shift = values.column("creepage_shift")[0];
+  series.passes = whole(values, kPasses, 0);
+  series.creepage_shift = values.column(kShift)[0];
   if (static_cast<std::size_t>(series.passes) > rows.rows() || rows.columns.size() != rolled_columns().size())
     refuse("fewer passes than the state has seen", table);
-  for (int n = 0; n < series.passes; ++n) {
-    series.table.emplace_back();
-    for (const CsvColumn& column : rows.columns) series.table.back().push_back(column.values[n]);
-    series.strains.push_back({rows.column("accumulated_strain")[static_cast<std::size_t>(n)],
-                              rows.column("net_strain")[static_cast<std::size_t>(n)]});
-  }
+  series.table = first_rows(rows, rolled_columns(), static_cast<std::size_t>(series.passes));
+  series.strains = pass_strains(series.table);
   series.section.point_entries = static_cast<int>(values.columns.size() - heads);
   if (nothing_hot) return series;
   for (std::size_t row = 0; row < values.rows(); ++row) {
     for (std::size_t c = heads; c < values.columns.size(); ++c)
       series.section.history.push_back(values.columns[c].values[row]);
     if (row % pairs != 0) continue;
-    series.section.quads.push_back({whole(values, "block", row), whole(values, "quadrilateral", row)});
-    series.points.emplace_back();
-    for (std::size_t k = 0; k < kPointPasses; ++k) {
-      const double net = values.columns[heads - 2 * (kPointPasses - k) + 1].values[row];
-      if (!std::isnan(net))
-        series.points.back().push_back({values.columns[heads - 2 * (kPointPasses - k)].values[row], net});
-    }
+    series.section.quads.push_back({whole(values, kBlock, row), whole(values, kQuadrilateral, row)});
+    series.points.push_back(remembered_passes(values, row, kHeads));
   }
   if (!std::all_of(series.section.history.begin(), series.section.history.end(),
                    [](double v) { return std::isfinite(v); }))
@@ -180,11 +158,7 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
                          const std::vector<PassLoop>& loops) {
   const std::vector<PassPoint>& points = pass.points;
   std::vector<std::string> remarks = provenance;
-  remarks.emplace_back(
-      "After the last pass. y, depth: axes of the rigid contact point. class: 0 elastic shakedown, 1 plastic "
-      "shakedown, "
-      "2 ratchetting, 3 transient. plastic_xy ...: tensor shears; plastic_strain_accumulated: accumulated over all "
-      "passes.");
+  remarks.push_back(fmt::format("After the last pass. y, depth: axes of the rigid contact point. {}", kPointRemark));
   write_pass_points(folder / "residual.csv", remarks, points);
   remarks.emplace_back("Below the place with the largest plastic strain.");
   write_pass_points(folder / "profile.csv", remarks, profile_of(points));
@@ -192,11 +166,11 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   if (!loops.empty()) write_loops(folder / "loops.csv", provenance, loops);
   const PassVerdict verdict = classify(series.strains);
   nlohmann::ordered_json out{{"title", spec.title},
-                             {"passes", series.table.size()},
+                             {"passes", series.passes},
                              {"class", words(verdict.kind)},
                              {"net_strain_per_pass", verdict.rate},
                              {"trend", verdict.trend}};
-  out["last_pass"] = last_pass_json(rolled_columns(), series.table.back());
+  out["last_pass"] = last_pass_json(series.table);
   out["points"] = points_json(series.points, verdict.kind);
   out["engine"] = "fem";
   out["verdict"] = pass_words(standing_of(verdict, series.strains, pass.row));

@@ -18,12 +18,12 @@ struct PassRoll {
   double from = 0, to = 0;  ///< m, the steady stations
 };
 
-/// passes.csv: its columns, and a row of it.
-std::vector<std::string> rolled_columns();
-std::vector<double> rolled_values(const PassRow& row, const PassContact& contact);
-
-void write_rolled_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
-                        const RolledSeries& series);
+/// A row of passes.csv by the finite elements.
+struct RolledRow {
+  const PassRow& pass;
+  const PassContact& contact;
+};
+Columns<RolledRow> rolled_columns();
 
 /// The state as one table that is whole or not there: a row a pair of Gauss points.
 void write_rolled_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,

@@ -18,7 +18,7 @@ void add_rolled_pass(const PlasticSection& section, const PassContact& contact, 
   series.section = section;
   ++series.passes;
   pass.row.pass = series.passes;
-  series.table.push_back(rolled_values(pass.row, contact));
+  add_row(rolled_columns(), {pass.row, contact}, series.table);
   series.strains.push_back(pass.row.largest);
   const PassClass whole = classify(series.strains).kind;
   for (std::size_t n = 0; n < pass.points.size(); ++n) {

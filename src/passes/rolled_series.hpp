@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "passes/rolled_pass.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 
@@ -11,7 +12,7 @@ struct RolledSeries {
   int passes = 0;
   PlasticSection section;                       ///< after the last one; without quadrilaterals before the first
   std::vector<std::vector<PassStrain>> points;  ///< per quadrilateral its last passes
-  std::vector<std::vector<double>> table;       ///< passes.csv, in its units
+  CsvTable table;                               ///< passes.csv
   std::vector<PassStrain> strains;              ///< the largest of all points, of every pass
   double creepage_shift = 0;  ///< by what the creepage for a wanted traction differs from the estimate
 };

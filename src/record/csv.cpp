@@ -115,11 +115,6 @@ CsvTable parse_csv(const std::string& text, const std::filesystem::path& file) {
   return table;
 }
 
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& v : values) v *= factor;
-  return values;
-}
-
 std::string csv_remarks(const std::vector<std::string>& texts) {
   std::string out;
   for (std::string text : texts) {

@@ -20,9 +20,6 @@ struct CsvColumn {
   std::vector<double> values;
 };
 
-/// Every value times a factor, for a column in another unit.
-std::vector<double> scaled(std::vector<double> values, double factor);
-
 /// Texts as the "# " lines that head a table, one for each of their lines.
 std::string csv_remarks(const std::vector<std::string>& texts);
 

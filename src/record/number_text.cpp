@@ -36,6 +36,10 @@ std::string with_unit(const Unit& unit, double value_si, int digits) {
   return in_unit(unit, value_si, significant(unit.factor * value_si, digits));
 }
 
+std::string titled(const std::string& name, std::string_view unit) {
+  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+}
+
 std::string limit_text(const Unit& unit, double value_si) {
   return in_unit(unit, value_si, fmt::format("{:.6g}", unit.factor * value_si));
 }

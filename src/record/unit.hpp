@@ -47,6 +47,7 @@ inline constexpr Unit kMicrometres = both("_m", "_um", kToMicro, "µm");
 inline constexpr Unit kNanometres = both("_m", "_nm", 1e9, "nm");
 inline constexpr Unit kSquareMillimetres = both("_m2", "_mm2", 1e6, "mm²");
 inline constexpr Unit kWornArea = both("_m", "_mm2_per_km", 1e9, "mm²/km");  ///< m² per m
+inline constexpr Unit kWearRate = both("_m_per_m", "_um_per_1000_km", 1e12, "µm per 1000 km");
 inline constexpr Unit kPerMetre = si("_per_m", "1/m");
 inline constexpr Unit kKilonewtons = both("_N", "_kN", kMilli, "kN");
 inline constexpr Unit kNewtons = si("_N", "N");
@@ -54,6 +55,7 @@ inline constexpr Unit kNewtonMetres = si("_N_m", "N m");
 inline constexpr Unit kJoules = si("_J", "J");
 inline constexpr Unit kJoulesPerMetre = si("_J_per_m", "J/m");
 inline constexpr Unit kJoulesPerSquareMetre = si("_J_per_m2", "J/m²");
+inline constexpr Unit kSurfaceEnergy{"_J_per_m2", "_J_m2", 1, "J/mm²", 1e-6};  ///< of a collective
 inline constexpr Unit kWatts = si("_W", "W");
 inline constexpr Unit kKelvins = si("_K", "K");
 inline constexpr Unit kDegrees = both("_rad", "_deg", 180 / std::numbers::pi, "°");

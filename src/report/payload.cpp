@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <tuple>
 
 #include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "io/provenance.hpp"
+#include "io/result_files.hpp"
 #include "material/elastic.hpp"
 #include "record/json.hpp"
 #include "record/unit.hpp"
@@ -98,19 +100,19 @@ Json patch(const ContactField& f) {
   out["y"] = Json::array();
   for (int s : stations) out["x"].push_back(short_number(kToMilli * f.x[at(s, 0)]));
   for (int c : columns) out["y"].push_back(short_number(kToMilli * f.y[c]));
-  const auto values = [&](const std::vector<double>& all, double factor) {
+  const auto values = [&](const std::vector<double>& all, const Unit& unit) {
     std::vector<double> v;
     for (int s : stations)
-      for (int c : columns) v.push_back(factor * all[at(s, c)]);
+      for (int c : columns) v.push_back(unit.factor * all[at(s, c)]);
     return packed(v);
   };
-  out["p"] = values(f.p, kToMega);
-  out["q_x"] = values(f.q_x, kToMega);
-  out["q_y"] = values(f.q_y, kToMega);
-  const double slip_unit = f.slip_is_distance ? kToMicro : kToMilli;
-  out["slip_x"] = values(f.slip_x, slip_unit);
-  out["slip_y"] = values(f.slip_y, slip_unit);
-  out["slip_unit"] = f.slip_is_distance ? "µm" : "mm/s";
+  out["p"] = values(f.p, unit::kMPa);
+  out["q_x"] = values(f.q_x, unit::kMPa);
+  out["q_y"] = values(f.q_y, unit::kMPa);
+  const Unit slip = f.slip_is_distance ? unit::kMicrometres : unit::kMillimetresPerSecond;
+  out["slip_x"] = values(f.slip_x, slip);
+  out["slip_y"] = values(f.slip_y, slip);
+  out["slip_unit"] = std::string(slip.shown);
   std::string state;
   for (int s : stations)
     for (int c : columns) state += static_cast<char>('0' + static_cast<int>(f.state[at(s, c)]));
@@ -120,11 +122,14 @@ Json patch(const ContactField& f) {
 
 Json centre(const ContactField& field) {
   const CentreLine line = centre_line(field);
-  return {{"x_mm", numbers(line.x, kToMilli)},
-          {"p_MPa", numbers(line.p, kToMega)},
-          {"q_x_MPa", numbers(line.q_x, kToMega)},
-          {"q_y_MPa", numbers(line.q_y, kToMega)},
-          {"y", Json::array({short_number(kToMilli * line.y)})}};
+  Json out;
+  for (const auto& [symbol, unit, values] : {std::tuple{"x", unit::kMillimetres, &line.x},
+                                             {"p", unit::kMPa, &line.p},
+                                             {"q_x", unit::kMPa, &line.q_x},
+                                             {"q_y", unit::kMPa, &line.q_y}})
+    out[fmt::format("{}{}", symbol, unit.column_ending)] = numbers(*values, unit.column_factor);
+  out["y"] = Json::array({short_number(kToMilli * line.y)});
+  return out;
 }
 
 Json of_each(const std::vector<ContactField>& fields, Json (*part)(const ContactField&)) {
@@ -177,7 +182,7 @@ Json film(const std::optional<CsvTable>& table, bool own_grids) {
   const std::vector<double> step = table->column("step"), distance = table->column("distance_mm"),
                             x = table->column("x_mm"), y = table->column("y_mm");
   const std::vector<double> q_x = table->column("q_x_MPa"), q_y = table->column("q_y_MPa"),
-                            state = table->column("state_0separated_1stick_2slip");
+                            state = table->column(kPatchState);
   const FilmRows rows{x, y, q_x, q_y, state};
   const std::vector<double> all_x = unique(x), all_y = unique(y);
   Json out{{"x", own_grids ? Json::array({short_number(all_x.front()), short_number(all_x.back())}) : numbers(all_x)},
@@ -221,8 +226,7 @@ std::string material_digits(const std::vector<double>& material) {
 /// MPa, of every row of a table of stresses.
 std::vector<double> largest_shears(const CsvTable& table) {
   std::vector<std::vector<double>> s;
-  for (const char* name : {"xx", "yy", "zz", "xy", "yz", "xz"})
-    s.push_back(table.column(fmt::format("sigma_{}_MPa", name)));
+  for (const char* name : kTensorComponents) s.push_back(table.column(fmt::format("sigma_{}_MPa", name)));
   std::vector<double> out;
   for (std::size_t i = 0; i < s[0].size(); ++i)
     out.push_back(largest_shear(principal_stresses({s[0][i], s[1][i], s[2][i], s[3][i], s[4][i], s[5][i]})));

@@ -1,6 +1,7 @@
 #pragma once
 // Data of a report: a list of runs, the checks of their quality, and for a study tables and charts over all of them.
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -57,6 +58,22 @@ struct ReportTable {
   std::vector<std::string> columns;
   std::vector<std::vector<nlohmann::ordered_json>> rows;
 };
+
+/// A column of rows, whose cells are texts, numbers or null.
+template <class Row>
+struct TextColumn {
+  std::string name;
+  std::function<nlohmann::ordered_json(const Row&)> cell;
+};
+/// Adds the rows and the names of these columns, all that the table has.
+template <class Row>
+void add_rows(ReportTable& table, const std::vector<Row>& rows, const std::vector<TextColumn<Row>>& columns) {
+  for (const TextColumn<Row>& c : columns) table.columns.push_back(c.name);
+  for (const Row& row : rows) {
+    std::vector<nlohmann::ordered_json>& cells = table.rows.emplace_back();
+    for (const TextColumn<Row>& c : columns) cells.push_back(c.cell(row));
+  }
+}
 
 struct ReportSeries {
   std::string name;

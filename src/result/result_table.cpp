@@ -374,9 +374,8 @@ std::string ResultNumber::column_name() const {
   return fmt::format("{}{}{}", prefix, symbol, unit.column_ending);
 }
 
-std::string ResultColumn::key() const {
-  return name.substr(0, name.size() - shown_unit.column_ending.size()) + std::string(shown_unit.key_ending);
-}
+std::string ResultColumn::symbol() const { return name.substr(0, name.size() - shown_unit.column_ending.size()); }
+std::string ResultColumn::key() const { return symbol() + std::string(shown_unit.key_ending); }
 
 const std::vector<ResultNumber>& result_numbers() {
   static const std::vector<ResultNumber> numbers = [] {
@@ -448,11 +447,6 @@ std::vector<ResultColumn> table_columns() {
   out.insert(out.end(), strength_columns.begin(), strength_columns.end());
   out.insert(out.end(), run_columns.begin(), run_columns.end());
   return out;
-}
-
-const ResultColumn& table_column(std::string_view name) {
-  static const std::vector<ResultColumn> all = table_columns();
-  return *std::find_if(all.begin(), all.end(), [&](const ResultColumn& c) { return c.name == name; });
 }
 
 const ResultNumber* find_number(std::string_view path) {

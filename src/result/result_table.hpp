@@ -105,11 +105,9 @@ struct ResultColumn {
   bool comparable = true;
   int digits = 4;
 
-  std::string key() const;  ///< "p_max_Pa", of numbers in SI
+  std::string symbol() const;  ///< "p_max"
+  std::string key() const;     ///< "p_max_Pa", of numbers in SI
 };
-
-/// The column of this name. It must be there.
-const ResultColumn& table_column(std::string_view name);
 
 /// Every column of the tables in their order: contact, stresses of the rail, then the wall time.
 std::vector<ResultColumn> table_columns();

@@ -170,7 +170,7 @@ class SteadyPasses : public PassJob {
 
   /// Table before state: a table that has gone on is cut when the state is read.
   void save() override {
-    write_pass_table(folder() / kPassTable, origin(), series_);
+    write_csv(folder() / kPassTable, origin(), series_.table.columns);
     write_pass_state(folder() / kPassState, origin(), rail_.grid, series_);
   }
 

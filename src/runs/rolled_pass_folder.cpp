@@ -99,7 +99,7 @@ class RolledPassJob : public PassJob {
     if (pass.uneven > kLargestUnevenness)
       control_.warn("pass {}: plastic strain differs by {:.2g} of itself along the steady stations", row.pass,
                     pass.uneven);
-    write_rolled_table(folder() / kPassTable, origin(), series_);  // before the state, which cuts it
+    write_csv(folder() / kPassTable, origin(), series_.table.columns);  // before the state, which cuts it
     write_rolled_result(folder(), origin(), loaded_.spec, passes_.roll(), series_, pass, pass.loops);
     write_rolled_state(folder() / kPassState, origin(), series_);
     remove_checkpoints(folder());

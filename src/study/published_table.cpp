@@ -232,14 +232,13 @@ ReportTable claims_table(const Published& published, const std::vector<CaseRow>&
   ReportTable table{"claims",
                     "The paper's conclusions",
                     "Every statement as a test of the numbers, in the order of stiffness or thickness.",
-                    {"section", "statement"},
+                    {},
                     {}};
-  for (const AnswerColumn& c : published.columns) table.columns.push_back(c.name);
-  for (const PublishedClaim& claim : published.claims) {
-    std::vector<nlohmann::ordered_json> row{claim.section, claim.text};
-    for (const AnswerColumn& c : published.columns) row.push_back(claim_cell(claim, c, entries));
-    table.rows.push_back(std::move(row));
-  }
+  using Claim = PublishedClaim;
+  std::vector<TextColumn<Claim>> columns{{"section", &Claim::section}, {"statement", &Claim::text}};
+  for (const AnswerColumn& c : published.columns)
+    columns.push_back({c.name, [&](const Claim& claim) { return claim_cell(claim, c, entries); }});
+  add_rows(table, published.claims, columns);
   return table;
 }
 

@@ -41,11 +41,12 @@ fs::path beside(const fs::path& folder, const std::string& ending) { return fold
 void add_section_maxima(const fs::path& folder, Json& out) {
   const CsvTable table = read_csv(folder / "rail_longitudinal_section.csv");
   const std::vector<double> depth = table.column("depth_mm");
-  for (const auto& [name, column] : {std::pair{"von_mises", "von_mises_MPa"}, std::pair{"sigma_1", "sigma_1_MPa"}}) {
-    const std::vector<double> v = table.column(column);
+  for (const StressMeasure& m : stress_measures()) {
+    const ResultColumn& largest = column_of(fmt::format("section_{}", m.symbol));
+    const std::vector<double> v = table.column(fmt::format("{}{}", m.symbol, largest.shown_unit.column_ending));
     const auto k = static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
-    out[fmt::format("section_{}_MPa", name)] = v[k];
-    out[fmt::format("section_{}_depth_mm", name)] = depth[k];
+    out[largest.name] = v[k];
+    out[column_of(fmt::format("section_{}_depth", m.symbol)).name] = depth[k];
   }
 }
 
@@ -68,28 +69,33 @@ void add_whole_points(const fs::path& folder, Json& out) {
     longest = std::max(longest, n);
   }
   const double spacing = f.stations > 1 ? std::abs(f.x[f.columns] - f.x[0]) : 0;
-  out["whole_points_area_mm2"] = 1e6 * area;
-  out["whole_points_length_mm"] = 1e3 * spacing * longest;
-  out["whole_points_slip_fraction"] = area > 0 ? Json(slip / area) : Json(nullptr);
-  out["slip_over_stick"] = area > slip ? Json(slip / (area - slip)) : Json(nullptr);
+  const ResultColumn &of_area = column_of("whole_points_area"), &of_length = column_of("whole_points_length");
+  out[of_area.name] = of_area.factor * area;
+  out[of_length.name] = of_length.factor * spacing * longest;
+  out[column_of("whole_points_slip_fraction").name] = area > 0 ? Json(slip / area) : Json(nullptr);
+  out[column_of("slip_over_stick").name] = area > slip ? Json(slip / (area - slip)) : Json(nullptr);
 }
 
 /// The largest von Mises stress and principal stress of the rail wherever they are, the surface included, with their
 /// depth.
 void add_rail_maxima(const Json& summary, Json& out) {
-  for (const auto& [name, key] : {std::pair{"von_mises", "von_mises_max"}, std::pair{"sigma_1", "sigma1_max"}}) {
+  for (const StressMeasure& m : stress_measures()) {
+    const ResultColumn &largest = column_of(fmt::format("rail_{}", m.symbol)),
+                       &its_depth = column_of(fmt::format("rail_{}_depth", m.symbol));
     double best = -std::numeric_limits<double>::infinity(), depth = 0;
-    for (const char* zone : {"surface", "subsurface", "layer", "interface", "matrix"}) {
-      const std::string at = fmt::format("/stress/rail/{}/{}/", zone, key);
-      const double value = column_value({.name = "", .path = at + "value_Pa", .factor = 1e-6}, summary);
-      if (std::isfinite(value) && value > best) {
+    for (const StressZone& zone : stress_zones()) {
+      const auto number = [&](const char* key, const ResultColumn& c) {
+        const auto at = fmt::format("/stress/rail/{}/{}/{}{}", zone.key, m.key, key, c.shown_unit.key_ending);
+        return column_value({.name = "", .path = at, .factor = c.factor}, summary);
+      };
+      if (const double value = number("value", largest); std::isfinite(value) && value > best) {
         best = value;
-        depth = column_value({.name = "", .path = at + "depth_m", .factor = 1e3}, summary);
+        depth = number("depth", its_depth);
       }
     }
     if (!std::isfinite(best)) continue;
-    out[fmt::format("rail_{}_MPa", name)] = best;
-    out[fmt::format("rail_{}_depth_mm", name)] = depth;
+    out[largest.name] = best;
+    out[its_depth.name] = depth;
   }
 }
 
@@ -310,6 +316,7 @@ bool take_over(const fs::path& out, const StudyCase& c, const fs::path& working)
 
 std::vector<CaseRow> study_rows(const fs::path& out, const std::vector<StudyCase>& cases) {
   const std::vector<ResultColumn> columns = result_columns(true);
+  const ResultColumn& threads = column_of("threads");
   std::vector<CaseRow> rows;
   for (const StudyCase& c : cases) {
     CaseRow row{c.group, c.name, c.engine, "to do", last_failure(out, c), c.folder, c.values, {}, {}};
@@ -323,7 +330,7 @@ std::vector<CaseRow> study_rows(const fs::path& out, const std::vector<StudyCase
       for (const auto& [name, value] : study["numbers"].items())
         row.numbers.emplace_back(name, value.is_number() ? value.get<double>() : kNotApplicable);
       row.numbers.emplace_back("wall_s", column_value(columns.back(), summary));
-      row.numbers.emplace_back("threads", column_value({.name = "threads", .path = "/run/threads"}, summary));
+      row.numbers.emplace_back(threads.name, column_value(threads, summary));
     } else if (!row.fault.empty()) {
       row.state = "failed";
     }

@@ -6,13 +6,14 @@
 #include <cmath>
 
 #include "core/faults.hpp"
+#include "jobs/state_table.hpp"
 #include "many/collective_files.hpp"
-#include "record/csv.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kSpread = 4;  // cells, standard deviation of the smoothing
+const StateColumns<Vec2> kPoints{{"y", &Vec2::y, unit::kMillimetres}, {"z", &Vec2::z, unit::kMillimetres}};
 
 /// Between two curves with the same ends, positive where the second lies to the right of the first.
 double area_between(const std::vector<Vec2>& first, const std::vector<Vec2>& second) {
@@ -162,20 +163,15 @@ WearStep wear_step(const CaseSpec& spec, const std::filesystem::path& folder, co
 
 void write_worn_profile(const std::filesystem::path& file, const std::vector<std::string>& origin,
                         const std::vector<Vec2>& points) {
-  CsvColumn y{"y_mm", {}}, z{"z_mm", {}};
-  for (const Vec2 p : points) {
-    y.values.push_back(1e3 * p.y);
-    z.values.push_back(1e3 * p.z);
-  }
-  write_csv(file, origin, {y, z});
+  std::vector<Vec2> rows;
+  for (const Vec2& p : points) rows.push_back(in_table(kPoints, p));
+  write_rows(file, origin, kPoints, rows);
 }
 
 std::vector<Vec2> read_worn_profile(const std::filesystem::path& file) {
-  const CsvTable table = read_csv(file);
-  const std::vector<double> y = table.column("y_mm", 1e-3), z = table.column("z_mm", 1e-3);
-  std::vector<Vec2> out;
-  for (std::size_t i = 0; i < y.size(); ++i) out.push_back({y[i], z[i]});
-  return out;
+  std::vector<Vec2> points = read_rows(file, kPoints);
+  for (Vec2& p : points) p = in_si(kPoints, p);
+  return points;
 }
 
 }  // namespace railstrata

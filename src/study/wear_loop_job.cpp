@@ -19,13 +19,13 @@ namespace fs = std::filesystem;
 /// A step as a row of wear_loop.csv, in its units.
 struct WearLoopRow {
   double step = 0, passages = 0;  ///< with this step
-  double deepest = 0;             ///< um, of this step
-  double area = 0;                ///< mm², worn off with this step
+  double deepest = 0;             ///< of this step
+  double area = 0;                ///< worn off with this step
   double area_error = 0;          ///< of this step's area against that of its streamlines
-  double gauge = 0;               ///< mm, on the rail before the step; so the following
-  double pressure = 0;            ///< MPa, largest of all loads
-  double t_gamma = 0;             ///< N, likewise
-  double first_y = 0;             ///< mm, where the first load touches, from the rail's axis
+  double gauge = 0;               ///< on the rail before the step; so the following
+  double pressure = 0;            ///< largest of all loads
+  double t_gamma = 0;             ///< likewise
+  double first_y = 0;             ///< where the first load touches, from the rail's axis
 };
 using R = WearLoopRow;
 
@@ -34,10 +34,15 @@ constexpr const char *kWearTable = "wear_loop.csv", *kWearLoads = "wear_loads.cs
                      *kWearPage = "report.html", *kProfile = "rail_profile.csv";
 constexpr const char* kStepFiles[] = {kProfile, "rail_profile.prr", "rail_profile.ban", "collective.csv",
                                       "rail_damage.csv"};
-const StateColumns<R> kColumns{
-    {"step", &R::step},          {"passages", &R::passages},     {"deepest_of_step_um", &R::deepest},
-    {"worn_area_mm2", &R::area}, {"area_error", &R::area_error}, {"gauge_mm", &R::gauge},
-    {"p_max_MPa", &R::pressure}, {"t_gamma_max_N", &R::t_gamma}, {"rail_y_first_mm", &R::first_y}};
+const StateColumns<R> kColumns{{"step", &R::step},
+                               {"passages", &R::passages},
+                               {"deepest_of_step", &R::deepest, unit::kMicrometres},
+                               {"worn_area", &R::area, unit::kSquareMillimetres},
+                               {"area_error", &R::area_error},
+                               {"gauge", &R::gauge, unit::kMillimetres},
+                               {"p_max", &R::pressure, unit::kMPa},
+                               {"t_gamma_max", &R::t_gamma, unit::kNewtons},
+                               {"rail_y_first", &R::first_y, unit::kMillimetres}};
 
 WearLoopRow row_of(const WearStep& step, double area_before) {
   double pressure = 0, t_gamma = 0;
@@ -46,15 +51,15 @@ WearLoopRow row_of(const WearStep& step, double area_before) {
     t_gamma = std::max(t_gamma, row.summary.damage.t_gamma);
   }
   const CollectiveRow& first = step.rows.front();
-  return {.step = static_cast<double>(step.rail.step),
-          .passages = step.rail.passages,
-          .deepest = 1e6 * step.deepest,
-          .area = 1e6 * step.rail.area,
-          .area_error = (step.rail.area - area_before) / step.wanted_area - 1,
-          .gauge = 1e3 * step.gauge,
-          .pressure = 1e-6 * pressure,
-          .t_gamma = t_gamma,
-          .first_y = 1e3 * model_to_rail(first.track, first.patches.front().contact.point).y};
+  return in_table(kColumns, {.step = static_cast<double>(step.rail.step),
+                             .passages = step.rail.passages,
+                             .deepest = step.deepest,
+                             .area = step.rail.area,
+                             .area_error = (step.rail.area - area_before) / step.wanted_area - 1,
+                             .gauge = step.gauge,
+                             .pressure = pressure,
+                             .t_gamma = t_gamma,
+                             .first_y = model_to_rail(first.track, first.patches.front().contact.point).y});
 }
 
 /// The worn rail for other programs.
@@ -104,8 +109,8 @@ class WearLoopJob : public CaseJob {
   void resume() override {
     rows_ = read_rows(folder() / kWearTable, kColumns);
     if (rows_.empty()) return;
-    const WearLoopRow& last = rows_.back();
-    rail_ = {static_cast<int>(last.step), last.passages, 1e-6 * last.area, {}, step_folder(last.step) / kProfile};
+    const WearLoopRow last = in_si(kColumns, rows_.back());
+    rail_ = {static_cast<int>(last.step), last.passages, last.area, {}, step_folder(last.step) / kProfile};
     rail_.points = read_worn_profile(rail_.file);
     if (fs::exists(folder() / kWearLoads)) loads_ = read_rows(folder() / kWearLoads, wear_load_columns());
     std::erase_if(loads_, [&](const WearLoad& load) { return load.step > last.step; });  // a kill came before their row
@@ -161,7 +166,7 @@ class WearLoopJob : public CaseJob {
 
   void finish() override {
     control_.info("{:.6g} passages in {} steps, {:.4g} mm² worn off; the worn rail: {}", rail_.passages, rail_.step,
-                  1e6 * rail_.area, rail_.file.string());
+                  unit::kSquareMillimetres.factor * rail_.area, rail_.file.string());
   }
 
   bool write_page() override {
@@ -171,7 +176,7 @@ class WearLoopJob : public CaseJob {
     for (std::size_t i = 0; i < loaded_.spec.loads.size(); ++i) history.loads.push_back(load_name(loaded_.spec, i));
     history.unworn = read_worn_profile(folder() / kUnworn);
     for (const WearLoopRow& row : rows_)
-      history.profiles.push_back({static_cast<int>(row.step), row.passages, 1e-6 * row.area,
+      history.profiles.push_back({static_cast<int>(row.step), row.passages, in_si(kColumns, row).area,
                                   read_worn_profile(step_folder(row.step) / kProfile)});
     history.contacts = loads_;
     write_wear_loop_page(folder() / kWearPage, history);

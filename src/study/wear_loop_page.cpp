@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "many/collective_files.hpp"
-#include "record/csv.hpp"
 #include "record/json.hpp"
+#include "record/number_text.hpp"
 #include "record/output_file.hpp"
 #include "report/page.hpp"
 
@@ -56,8 +56,8 @@ std::string after(const WornProfile& p) {
 ReportSeries curve(const std::string& name, const std::vector<Vec2>& points, Reach reach) {
   ReportSeries s{.name = name, .x = {}, .y = {}, .markers = false};
   for (std::size_t i = reach.from; i < std::min(reach.to, points.size()); ++i) {
-    s.x.push_back(1e3 * points[i].y);
-    s.y.push_back(1e3 * points[i].z);
+    s.x.push_back(kToMilli * points[i].y);
+    s.y.push_back(kToMilli * points[i].z);
   }
   return s;
 }
@@ -77,24 +77,26 @@ ReportChart depth_chart(const WearLoopHistory& history, Reach reach) {
     const std::vector<double> depth = worn_depth(history.unworn, p->points);
     ReportSeries s{.name = after(*p), .x = {}, .y = {}, .markers = false};
     for (std::size_t i = reach.from; i < reach.to; ++i) {
-      s.x.push_back(1e3 * history.unworn[i].y);
-      s.y.push_back(1e6 * depth[i]);
+      s.x.push_back(kToMilli * history.unworn[i].y);
+      s.y.push_back(kToMicro * depth[i]);
     }
     out.series.push_back(std::move(s));
   }
   return out;
 }
 
-/// A line for each load over the passages.
+/// A number of wear_loads.csv, a line for each load over the passages.
 ReportChart load_chart(const WearLoopHistory& history, const std::string& id, const std::string& title,
-                       const std::string& note, const std::string& label, double WearLoad::*value) {
-  ReportChart out{id, title, note, kPassages, label, {}};
+                       const std::string& note, const std::string& label, std::string_view symbol) {
+  const auto& all = wear_load_columns();
+  const auto column = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.symbol == symbol; });
+  ReportChart out{id, title, note, kPassages, titled(label, column->unit.shown), {}};
   for (std::size_t k = 0; k < history.loads.size(); ++k) {
     ReportSeries s{.name = history.loads[k], .x = {}, .y = {}};
     for (const WearLoad& load : history.contacts)
       if (load.load == static_cast<double>(k + 1)) {
         s.x.push_back(load.passages);
-        s.y.push_back(load.*value);
+        s.y.push_back(load.*column->value);
       }
     if (!s.x.empty()) out.series.push_back(std::move(s));
   }
@@ -102,22 +104,21 @@ ReportChart load_chart(const WearLoopHistory& history, const std::string& id, co
 }
 
 ReportChart area_chart(const WearLoopHistory& history) {
-  ReportChart out{"area", "Area worn off", "", kPassages, "area [mm²]", {}};
+  ReportChart out{"area", "Area worn off", "", kPassages, titled("area", unit::kSquareMillimetres.shown), {}};
   ReportSeries s{.name = "area", .x = {0}, .y = {0}};
   for (const WornProfile& p : history.profiles) {
     s.x.push_back(p.passages);
-    s.y.push_back(1e6 * p.area);
+    s.y.push_back(unit::kSquareMillimetres.factor * p.area);
   }
   out.series.push_back(std::move(s));
   return out;
 }
 
-/// The most extreme of the loads of a step, NaN where it has none.
-template <class Better>
-double of_step(const WearLoopHistory& history, int step, double WearLoad::*value, Better&& better) {
+/// Of the loads of a step, NaN where it has none.
+double largest(const WearLoopHistory& history, int step, double WearLoad::*value) {
   double out = std::numeric_limits<double>::quiet_NaN();
   for (const WearLoad& load : history.contacts)
-    if (load.step == step && (std::isnan(out) || better(load.*value, out))) out = load.*value;
+    if (load.step == step && (std::isnan(out) || load.*value > out)) out = load.*value;
   return out;
 }
 
@@ -125,18 +126,31 @@ ReportTable steps_table(const WearLoopHistory& history) {
   ReportTable t{.id = "steps",
                 .title = "Steps",
                 .note = "Pressure and T-gamma: the largest of all loads, on the rail before the step.",
-                .columns = {"step", "passages so far", "deepest so far [µm]", "at y [mm]", "worn off [mm²]",
-                            "p_max [MPa]", "T-gamma [N]"},
+                .columns = {},
                 .rows = {}};
-  const auto finite = [](double v) { return json_number(v); };
-  const auto larger = [](double a, double b) { return a > b; };
+  struct Step {
+    const WornProfile& profile;
+    double deepest, y;         // m
+    double pressure, t_gamma;  // as wear_loads.csv has them
+  };
+  std::vector<Step> steps;
   for (const WornProfile& p : history.profiles) {
     const std::vector<double> depth = worn_depth(history.unworn, p.points);
-    const auto at = static_cast<std::size_t>(std::max_element(depth.begin(), depth.end()) - depth.begin());
-    t.rows.push_back({std::to_string(p.step), p.passages, 1e6 * depth[at], 1e3 * history.unworn[at].y, 1e6 * p.area,
-                      finite(of_step(history, p.step, &WearLoad::pressure, larger)),
-                      finite(of_step(history, p.step, &WearLoad::t_gamma, larger))});
+    const auto most = std::max_element(depth.begin(), depth.end());
+    steps.push_back({p, *most, history.unworn[static_cast<std::size_t>(most - depth.begin())].y,
+                     largest(history, p.step, &WearLoad::pressure), largest(history, p.step, &WearLoad::t_gamma)});
   }
+  const auto number = [](const char* label, const Unit& unit, auto&& si) {
+    return TextColumn<Step>{titled(label, unit.shown), [=](const Step& s) { return json_number(unit.factor * si(s)); }};
+  };
+  add_rows(t, steps,
+           {{"step", [](const Step& s) { return std::to_string(s.profile.step); }},
+            number("passages so far", unit::kNone, [](const Step& s) { return s.profile.passages; }),
+            number("deepest so far", unit::kMicrometres, [](const Step& s) { return s.deepest; }),
+            number("at y", unit::kMillimetres, [](const Step& s) { return s.y; }),
+            number("worn off", unit::kSquareMillimetres, [](const Step& s) { return s.profile.area; }),
+            {titled("p_max", unit::kMPa.shown), [](const Step& s) { return json_number(s.pressure); }},
+            {titled("T-gamma", unit::kNewtons.shown), [](const Step& s) { return json_number(s.t_gamma); }}});
   return t;
 }
 
@@ -147,17 +161,22 @@ std::vector<WearLoad> wear_loads(const WearStep& step, double passages_before) {
   for (std::size_t k = 0; k < step.rows.size(); ++k) {
     const CollectiveRow& row = step.rows[k];
     if (!row.solved()) continue;
-    out.push_back({static_cast<double>(step.rail.step), passages_before, static_cast<double>(k + 1),
-                   1e3 * model_to_rail(row.track, row.patches.front().contact.point).y,
-                   1e-6 * row.summary.contact.patch.p_max, row.summary.damage.t_gamma});
+    out.push_back(
+        in_table(wear_load_columns(), {static_cast<double>(step.rail.step), passages_before, static_cast<double>(k + 1),
+                                       model_to_rail(row.track, row.patches.front().contact.point).y,
+                                       row.summary.contact.patch.p_max, row.summary.damage.t_gamma}));
   }
   return out;
 }
 
 const StateColumns<WearLoad>& wear_load_columns() {
-  static const StateColumns<WearLoad> columns{{"step", &WearLoad::step},          {"passages", &WearLoad::passages},
-                                              {"load", &WearLoad::load},          {"rail_y_mm", &WearLoad::y},
-                                              {"p_max_MPa", &WearLoad::pressure}, {"t_gamma_N", &WearLoad::t_gamma}};
+  using W = WearLoad;
+  static const StateColumns<W> columns{{"step", &W::step},
+                                       {"passages", &W::passages},
+                                       {"load", &W::load},
+                                       {"rail_y", &W::y, unit::kMillimetres},
+                                       {"p_max", &W::pressure, unit::kMPa},
+                                       {"t_gamma", &W::t_gamma, unit::kNewtons}};
   return columns;
 }
 
@@ -179,14 +198,13 @@ void write_wear_loop_page(const std::filesystem::path& page, const WearLoopHisto
   Report report;
   report.title = fmt::format("{}: wear loop", history.title);
   report.tables = {steps_table(history)};
-  report.charts = {
-      depth_chart(history, reach),
-      profile_chart(history, reach),
-      load_chart(history, "contact", "Where each load touches", "First contact, y from the rail's axis.",
-                 "contact y [mm]", &WearLoad::y),
-      load_chart(history, "pressure", "Largest pressure of each load", "", "p_max [MPa]", &WearLoad::pressure),
-      load_chart(history, "t-gamma", "T-gamma of each load", "", "T-gamma [N]", &WearLoad::t_gamma),
-      area_chart(history)};
+  report.charts = {depth_chart(history, reach),
+                   profile_chart(history, reach),
+                   load_chart(history, "contact", "Where each load touches", "First contact, y from the rail's axis.",
+                              "contact y", "rail_y"),
+                   load_chart(history, "pressure", "Largest pressure of each load", "", "p_max", "p_max"),
+                   load_chart(history, "t-gamma", "T-gamma of each load", "", "T-gamma", "t_gamma"),
+                   area_chart(history)};
   write_whole_file(page, report_page(report));
 }
 
