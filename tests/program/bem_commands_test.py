@@ -252,6 +252,7 @@ young_ratio = 2.0
                      "layer.0.young_table: needs at least two rows",
                      "remedy: write a table whose rows have a depth and a modulus")
 
+    @slow
     def test_a_note_of_one_of_two_patches_names_it(self):
         words = ["--set", "friction.law=falling_exponential", "--set", "friction.kinetic_coefficient=0.1", "--set",
                  "friction.half_velocity=1 m/s"]

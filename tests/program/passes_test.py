@@ -36,6 +36,7 @@ class Passes(FromOutside):
             self.assertEqual(*numbers, name)
             self.assertGreater(len(numbers[0]), 1, name)
 
+    @slow
     def test_below_first_yield_nothing_yields_and_below_the_limit_it_settles(self):
         strong = json.loads((self.passes("strong", *strength(2000), "--passes", 2) / "passes.json").read_text())
         self.assertEqual(strong["class"], "elastic shakedown")
@@ -143,6 +144,7 @@ class Passes(FromOutside):
         self.assertEqual(both.read_text().count(summary["verdict"]), 2)
         self.assertFalse((self.passes("bare", *strength(2000), "--passes", 1, "--no-report") / "report.html").exists())
 
+    @slow
     def test_a_layer_may_stay_elastic_and_the_rail_below_it_yield(self):
         out = self.passes("layer", *strength(400), "--passes", 1, case=LAYERED)
         zones = {}

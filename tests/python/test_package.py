@@ -66,6 +66,7 @@ def test_frames_and_datasets_name_their_units(result):
     assert data.p.attrs["units"] == "Pa" and data.p.dims == ("x", "y")
 
 
+@pytest.mark.slow
 def test_the_tutorial_runs(tmp_path):
     nbformat = pytest.importorskip("nbformat")
     execute = pytest.importorskip("nbconvert.preprocessors").ExecutePreprocessor

@@ -35,6 +35,7 @@ def test_history_and_patch_are_there(in_one_go):
     assert rs.open(in_one_go.folder).p_max == in_one_go.p_max
 
 
+@pytest.mark.slow
 def test_ctrl_c_leaves_a_checkpoint_within_half_a_second_and_resume_has_the_same_bits(small, in_one_go, tmp_path):
     folder = tmp_path / "stopped"
     pressed = []

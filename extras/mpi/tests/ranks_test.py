@@ -95,6 +95,7 @@ class Ranks(FromOutside):
         os.kill(process_of(process, 0), signal.SIGTERM)
         return finished(process)
 
+    @slow
     def test_stopped_it_goes_on_with_another_number_of_ranks(self):
         words = [*WORDS, "-j", 1]
         rc, _, err = self.stop_at(ranked(2, "run", self.case(SMALL), *words, "--out", self.out), self.rows // 4)
@@ -106,6 +107,7 @@ class Ranks(FromOutside):
         self.assertEqual(rc, self.rc, err)
         self.expect_same(self.out)
 
+    @slow
     def test_where_a_rank_is_lost_the_others_end_and_the_checkpoint_stands(self):
         words = [*WORDS, "-j", 1]
         process = ranked(3, "run", self.case(SMALL), *words, "--out", self.out, "--checkpoint-every", "0.2 s")
