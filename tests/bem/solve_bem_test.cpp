@@ -186,7 +186,7 @@ TEST(SolveBem, TractionAboveFrictionIsACaseError) {
   spec.drive.friction_coefficient = 0;
   EXPECT_THROW(solve_bem(spec, place(spec, {})), CaseError);
   spec.drive.traction_coefficient = 0;
-  EXPECT_EQ(solve_bem(spec, place(spec, {})).patch.q_max, 0);
+  EXPECT_EQ(solve_bem(spec, place(spec, {})).patch.largest_traction, 0);
 }
 
 /// The key of the case that an error is about.

@@ -36,7 +36,7 @@ Found shakedown_of(const CaseSpec& spec, double cell, bool track = false) {
   if (track) add_single_track(spec, r, sections);
   const ShakedownSummary s = shakedown_summary(spec, sections);
   const double k = spec.rail_material.strength.yield_strength.value() / std::numbers::sqrt3;
-  return {r.patch.p_max / k, s.bodies.at(0).factors, s.bodies.at(0)};
+  return {r.patch.largest_pressure / k, s.bodies.at(0).factors, s.bodies.at(0)};
 }
 
 CaseSpec frictionless() {
