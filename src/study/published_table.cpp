@@ -234,10 +234,10 @@ ReportTable claims_table(const Published& published, const std::vector<CaseRow>&
                     "Every statement as a test of the numbers, in the order of stiffness or thickness.",
                     {},
                     {}};
-  using Claim = PublishedClaim;
-  std::vector<TextColumn<Claim>> columns{{"section", &Claim::section}, {"statement", &Claim::text}};
+  std::vector<TextColumn<PublishedClaim>> columns{{"section", &PublishedClaim::section},
+                                                  {"statement", &PublishedClaim::text}};
   for (const AnswerColumn& c : published.columns)
-    columns.push_back({c.name, [&](const Claim& claim) { return claim_cell(claim, c, entries); }});
+    columns.push_back({c.name, [&](const PublishedClaim& claim) { return claim_cell(claim, c, entries); }});
   add_rows(table, published.claims, columns);
   return table;
 }
