@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bem/cell_range.hpp"
 #include "case/case_file.hpp"
 #include "contact/contact_field.hpp"
 #include "result/summary.hpp"

@@ -119,9 +119,9 @@ TEST(SlidingMap, OfACircularContactMeetsTheNumbersWithAndWithoutFriction) {
   const BemResult r = solve_bem(spec, place(spec, {}), cells(0.25e-3));
   const std::vector<SlidingMap> maps = sliding_maps(r, half_space_shakedown(spec, r));
   ASSERT_EQ(maps.size(), 1u);
-  EXPECT_EQ(maps[0].p_max, r.patch.p_max);
+  EXPECT_EQ(maps[0].p_max, r.patch.largest_pressure);
   ASSERT_EQ(maps[0].limits.size(), 13u);
-  const double p0_over_k = r.patch.p_max / (500e6 / std::numbers::sqrt3);
+  const double p0_over_k = r.patch.largest_pressure / (500e6 / std::numbers::sqrt3);
   const auto expect = [&](std::size_t at, double traction, double yield, double wandering, double upper) {
     const SlidingLimit& l = maps[0].limits[at];
     EXPECT_NEAR(l.traction, traction, 1e-12);
