@@ -65,8 +65,8 @@ std::vector<PassStrain> remembered_passes(const CsvTable& state, std::size_t row
   return out;
 }
 
-PassStanding standing_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last) {
-  PassStanding out{verdict, last};
+PassProgress progress_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last) {
+  PassProgress out{verdict, last};
   for (std::size_t n = 0; n < strains.size(); ++n) {
     out.ever_yielded = out.ever_yielded || strains[n].accumulated > 0;
     if (strains[n].accumulated >= kNoFlow) out.first_quiet = static_cast<int>(n) + 2;

@@ -34,6 +34,6 @@ void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes);
 Columns<std::vector<PassStrain>> remembered_columns();
 std::vector<PassStrain> remembered_passes(const CsvTable& state, std::size_t row, std::size_t first);
 /// Progress for passes/pass_words.hpp; strains: of every pass, the last one that of the row.
-PassStanding standing_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last);
+PassProgress progress_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last);
 
 }  // namespace railstrata

@@ -22,7 +22,7 @@ constexpr double kConstant = 0.05;  // of a trend
 /// " as the pass to the power of -0.34"
 std::string trend_text(const PassVerdict& v) { return fmt::format(" as the pass to the power of -{:.2f}", v.trend); }
 
-std::string class_words(const PassStanding& s) {
+std::string class_words(const PassProgress& s) {
   const std::string where = fmt::format("{:.1f} mm depth", 1e3 * s.last.net_depth);
   switch (s.verdict.kind) {
     case PassClass::elastic_shakedown:
@@ -47,7 +47,7 @@ std::string class_words(const PassStanding& s) {
 
 }  // namespace
 
-std::string pass_words(const PassStanding& s) {
+std::string pass_words(const PassProgress& s) {
   const std::string claim = strain_words(s.last.strain);
   return claim.empty() ? class_words(s) : class_words(s) + " " + claim;
 }

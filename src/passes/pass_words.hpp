@@ -8,7 +8,7 @@
 namespace railstrata {
 
 /// Progress of a series.
-struct PassStanding {
+struct PassProgress {
   PassVerdict verdict;
   PassRow last;
   bool ever_yielded = false;
@@ -17,7 +17,7 @@ struct PassStanding {
 
 /// One sentence: "Ratchets: 3.1e-04 net strain per pass at 2.1 mm depth, the same from pass to pass."; a second one
 /// where the strain is no longer small.
-std::string pass_words(const PassStanding& standing);
+std::string pass_words(const PassProgress& standing);
 
 /// Long-term behaviour that a law allows, for any course of the passes so far: "perfect plasticity: …".
 std::string law_words(const PlasticParameters<double>& law);

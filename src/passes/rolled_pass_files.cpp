@@ -173,7 +173,7 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   out["last_pass"] = last_pass_json(series.table);
   out["points"] = points_json(series.points, verdict.kind);
   out["engine"] = "fem";
-  out["verdict"] = pass_words(standing_of(verdict, series.strains, pass.row));
+  out["verdict"] = pass_words(progress_of(verdict, series.strains, pass.row));
   if (spec.passes.ductility)
     out["ductility"] = ductility_json(*spec.passes.ductility, largest_plastic_norm(pass.points), series.strains, 1);
   out["zones"] = zones_json(spec, zones_of(spec));

@@ -7,8 +7,8 @@
 namespace railstrata {
 namespace {
 
-PassStanding standing(PassClass kind) {
-  PassStanding s;
+PassProgress standing(PassClass kind) {
+  PassProgress s;
   s.verdict = {kind, 3.1e-4, 0.5};
   s.last.pass = 12;
   s.last.net_depth = 2.14e-3;
@@ -19,7 +19,7 @@ PassStanding standing(PassClass kind) {
 }
 
 TEST(PassWords, EachClassIsOneSentenceWithItsNumberAndPlace) {
-  PassStanding constant = standing(PassClass::ratchetting);
+  PassProgress constant = standing(PassClass::ratchetting);
   EXPECT_EQ(
       pass_words(constant),
       "Ratchets: 3.1e-4 net strain per pass at 2.1 mm depth, within 2 % the same from pass to pass, but falling as "
@@ -32,13 +32,13 @@ TEST(PassWords, EachClassIsOneSentenceWithItsNumberAndPlace) {
   EXPECT_EQ(pass_words(standing(PassClass::transient)),
             "No claim yet: 3.1e-4 net strain in pass 12 at 2.1 mm depth, falling as the pass to the power of -0.50; "
             "more passes will show.");
-  PassStanding strong = standing(PassClass::elastic_shakedown);
+  PassProgress strong = standing(PassClass::elastic_shakedown);
   strong.ever_yielded = false;
   EXPECT_EQ(pass_words(strong), "Stays elastic: no point has yielded.");
 }
 
 TEST(PassWords, LargeStrainIsSaidAfterTheClass) {
-  PassStanding s = standing(PassClass::elastic_shakedown);
+  PassProgress s = standing(PassClass::elastic_shakedown);
   s.last.strain = 0.06;
   EXPECT_EQ(pass_words(s),
             "Shakes down: from pass 5 on nothing flows. Plastic strain reaches 6.0 %: the law is one of small strains, "
