@@ -231,7 +231,7 @@ TEST(Indentation, FirstYieldIsWhereHertzsPressureIs1_614TimesTheYieldStressAt0_4
   EXPECT_NEAR(ball.deepest() / after.radius, 0.48, 0.5 / kCells);
 }
 
-TEST(Indentation, BallAtFiveTimesTheApproachOfFirstYieldHasThePublishedLoadAndPatchWithinFivePercent) {
+TEST(SlowIndentation, BallAtFiveTimesTheApproachOfFirstYieldHasThePublishedLoadAndPatchWithinFivePercent) {
   expect_published_load_and_patch(5);
 }
 

@@ -139,7 +139,7 @@ TEST(Lateral, WithoutFrictionTheWheelMovesSidewaysAllTheSame) {
   EXPECT_EQ(system.options.lateral_friction, 0);
 }
 
-TEST(Lateral, AGivenCreepageIsKept) {
+TEST(SlowLateral, AGivenCreepageIsKept) {
   CaseSpec spec = ball_case();
   spec.drive.creepage = -1e-3;
   const Rolled m = rolled(spec);

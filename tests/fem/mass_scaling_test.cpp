@@ -332,6 +332,7 @@ class ThinLayerRolling : public ::testing::Test {
     return out;
   }
 };
+using SlowThinLayerRolling = ThinLayerRolling;
 
 TEST_F(ThinLayerRolling, ScaledMassesAndLocalStepsGiveTheSamePressuresStressesAndEnergiesWithATenTimesLongerStep) {
   const Outcome uniform = roll(TimeStepMethod::uniform);
@@ -349,7 +350,7 @@ TEST_F(ThinLayerRolling, ScaledMassesAndLocalStepsGiveTheSamePressuresStressesAn
 
 // The contact's answer is that of the stages, so that no choice of the step feeds it: what closes no longer closes with
 // the number of steps.
-TEST_F(ThinLayerRolling, LocalStepsKeepTheirEnergyWithAnyStep) {
+TEST_F(SlowThinLayerRolling, LocalStepsKeepTheirEnergyWithAnyStep) {
   for (double safety : {0.25, 0.35, 0.6}) {
     const Outcome o = roll(TimeStepMethod::local, 0.8e-3, safety);
     EXPECT_LT(o.closure, 1e-4) << safety;

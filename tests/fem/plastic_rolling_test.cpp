@@ -87,7 +87,7 @@ TEST(SlowPlasticRolling, HasTheSameBitsOnAnyNumberOfThreads) {
   expect_same_motion(one, three);
 }
 
-TEST(PlasticRolling, ClosesTheEnergyBalanceWithThePlasticWork) {
+TEST(SlowPlasticRolling, ClosesTheEnergyBalanceWithThePlasticWork) {
   double closure[2], plastic[2];
   for (int k : {0, 1}) {
     const RollingSystem system = small_system(yielding_case(k == 0 ? kNever : 300e6));

@@ -71,7 +71,7 @@ TEST(Resume, InSinglePrecisionToo) {
 
 TEST(Resume, WithScaledMassesToo) { expect_same_bits(thinly_layered(damped_case(), TimeStepMethod::mass_scaling)); }
 
-TEST(Resume, WithLocalStepsToo) { expect_same_bits(thinly_layered(damped_case(), TimeStepMethod::local)); }
+TEST(SlowResume, WithLocalStepsToo) { expect_same_bits(thinly_layered(damped_case(), TimeStepMethod::local)); }
 
 TEST(Resume, OfAYawedWheelThatIsFreeSidewaysToo) {
   CaseSpec spec = damped_case();
@@ -115,7 +115,7 @@ TEST(Resume, UnderFrictionThatRemembersToo) {
 
 // A guard that stops the run in the second window, long after the last good state: what is saved goes on to the bits of
 // a run to which nothing happened.
-TEST(Resume, FromTheLastGoodStateToo) {
+TEST(SlowResume, FromTheLastGoodStateToo) {
   CaseSpec spec = small_case();
   spec.drive.speed = 12;
   spec.run.positions = {5e-3, 10e-3};

@@ -10,6 +10,7 @@ if(RAILSTRATA_LIBRARY)
     add_test(NAME install:${group} COMMAND ${install_test} ${group})
     set_tests_properties(install:${group} PROPERTIES FIXTURES_REQUIRED installed)
   endforeach()
+  set_tests_properties(install:Headers install:PkgConfigConsumer install:Moved PROPERTIES LABELS slow)
   foreach(group Wheel Tarball)
     add_test(NAME install:${group} COMMAND /usr/bin/python3 ${here}/wheel_test.py ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}
       ${installed}/prefix ${CMAKE_CURRENT_BINARY_DIR}/packed_${group} ${group})

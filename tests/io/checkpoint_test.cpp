@@ -108,6 +108,7 @@ class Checkpoints : public testing::Test {
     return {};
   }
 };
+using SlowCheckpoints = Checkpoints;
 
 }  // namespace
 
@@ -178,7 +179,7 @@ TEST_F(Checkpoints, TheSystemHasTheMemoryBack) {
   EXPECT_LT(most, 20 << 20);
 }
 
-TEST_F(Checkpoints, EveryFlippedByteIsFound) {
+TEST_F(SlowCheckpoints, EveryFlippedByteIsFound) {
   std::string bytes = checkpoint_bytes(kOrigin, small_run(1e-3));
   std::size_t found = 0;
   for (std::size_t k = 0; k < bytes.size(); ++k) {

@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "core/faults.hpp"
-#include "tests/result/crossed_cylinders.hpp"
 #include "judge/half_space_track.hpp"
 #include "judge/sliding_map.hpp"
 #include "judge/verdict.hpp"
+#include "tests/result/crossed_cylinders.hpp"
 
 namespace railstrata {
 namespace {
@@ -68,7 +68,7 @@ TEST(ShakedownSummary, ALayerOfTheRailsOwnStiffnessAndStrengthChangesNothing) {
   EXPECT_EQ(b.body.zones.size(), 2u);
 }
 
-TEST(ShakedownSummary, HalfTheCellsGiveTheSameFactors) {
+TEST(SlowShakedownSummary, HalfTheCellsGiveTheSameFactors) {
   CaseSpec spec = frictionless();
   spec.drive.friction_coefficient = 0.25;
   spec.drive.traction_coefficient = 0.2;
@@ -199,7 +199,7 @@ TEST(ShakedownSummary, AZoneWithoutAStrengthIsTold) {
 }
 
 // Where the surface decides, behind a strip of slip of three cells.
-TEST(ShakedownSummary, SaysWhereAStripOfSlipIsTooShortForItsCells) {
+TEST(SlowShakedownSummary, SaysWhereAStripOfSlipIsTooShortForItsCells) {
   CaseSpec spec;
   spec.rail_material.strength.yield_strength = 480e6;
   spec.drive.friction_coefficient = 0.5;

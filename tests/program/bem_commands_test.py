@@ -518,6 +518,7 @@ young_ratio = 2.0
             self.assertTrue((out / name).exists(), name)
         self.refused(2, ["collective", BASE, "--out", self.folder / "none"], "the case has no load collective")
 
+    @slow
     def test_a_wear_loop_goes_on_where_it_stopped_to_the_same_profile(self):
         loop = ["wear-loop", LOADS, *COARSE, "--max-wear", "4 um"]
         self.done(*loop, "--steps", 2, "--out", self.folder / "whole")

@@ -421,6 +421,7 @@ class Killed(StudyTest):
             time.sleep(0.01)
         return True
 
+    @slow
     def test_kill_9_at_any_moment_neither_redoes_nor_loses_a_case(self):
         text = GRID.replace('cell = "1.5 mm"', 'cell = "0.6 mm"')
         chance, kept = random.Random(5), {}

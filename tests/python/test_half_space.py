@@ -136,6 +136,7 @@ def test_a_sweep_has_the_numbers_of_single_solutions(case):
     assert table["p_max_MPa"][2] == pytest.approx(single.p_max / 1e6, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_shakedown_needs_a_strength_and_gives_ordered_factors(case):
     with pytest.raises(ValueError, match="yield_strength"):
         rs.shakedown(case)

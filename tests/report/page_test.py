@@ -734,6 +734,7 @@ class Rest(Page):
         self.assertEqual(self.first_words + self.browser.console(), [])
 
 
+@slow
 class TwoPatches(Page):
     """A wheel that touches on the tread and in the flange's root."""
 
@@ -788,6 +789,7 @@ class TwoPatches(Page):
         self.assertEqual(self.first_words + self.browser.console(), [])
 
 
+@slow
 class WheelLayer(Page):
     """A layer on the wheel alone is shown as one of the rail."""
 
@@ -862,6 +864,7 @@ class Creep(Page):
         self.assertEqual(self.first_words + self.browser.console(), [])
 
 
+@slow
 class Fretting(Page):
     """A cycle of fretting: its loop."""
 

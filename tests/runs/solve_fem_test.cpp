@@ -32,7 +32,7 @@ void expect_same_bits(const FemPosition& a, const FemPosition& b) {
 
 }  // namespace
 
-TEST(SolveFem, StoppedByTheFlagItGoesOnFromItsStateToTheSameBits) {
+TEST(SlowSolveFem, StoppedByTheFlagItGoesOnFromItsStateToTheSameBits) {
   const RollingSystem system = fem_system(small_case().spec, ".");
   const FemSolution whole = solve_fem(system);
   EXPECT_FALSE(whole.stopped);

@@ -35,6 +35,7 @@ class WriteResult : public testing::Test {
   const TemporaryFolder temporary;
   const fs::path folder = temporary.path();
 };
+using SlowWriteResult = WriteResult;
 
 const Names kPosition{"centre_line.csv",
                       "depth_line.csv",
@@ -103,7 +104,7 @@ TEST_F(WriteResult, AWriterThatObservesARunLeavesItsFilesAndNoCheckpoint) {
             solution.positions[0].summary.contact.patch.p_max);
 }
 
-TEST_F(WriteResult, ACheckpointThatCannotBeWrittenIsAWarningUnlessTheRunStops) {
+TEST_F(SlowWriteResult, ACheckpointThatCannotBeWrittenIsAWarningUnlessTheRunStops) {
   const RollingSystem system = fem_system(run_checks::small_case({"output.patch_series=false"}).spec, ".");
   const fs::path gone = folder / "gone";
   FemWriter writer(system, gone, {"sha", "program", {}});

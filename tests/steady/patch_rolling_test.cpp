@@ -103,7 +103,7 @@ TEST(SlowPatchRolling, WithoutFrictionItShakesDownToTheLimitOfOneTrackAndNotBeyo
   EXPECT_GT(roll(beyond, 24).back().accumulated, 1e-4);
 }
 
-TEST(PatchRolling, WithFrictionItShakesDownToTheLimitOfOneTrackAndRatchetsBeyond) {
+TEST(SlowPatchRolling, WithFrictionItShakesDownToTheLimitOfOneTrackAndRatchetsBeyond) {
   const SteadyGrid g = patch_grid(0.2, 0.1);
   PatchRolling settles(g, 4.1, 0.2);  // above the limit of wandering wheels, 3.683, below that of one track, 4.290
   EXPECT_EQ(classify(roll(settles, 20)).kind, PassClass::elastic_shakedown);

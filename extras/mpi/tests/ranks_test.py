@@ -71,14 +71,20 @@ class Ranks(FromOutside):
         for name, content in reference.items():
             self.assertTrue(found[name] == content, name)
 
+    def expect_bits_of_one(self, count, threads):
+        out = self.folder / f"{count}-{threads}"
+        rc, _, err = finished(ranked(count, "run", self.case(SMALL), *WORDS, "-j", threads, "--out", out))
+        self.assertEqual(rc, self.rc, err)
+        self.expect_same(out)
+        self.assertEqual(err.count("static preload"), 1, err)  # one rank reports
+
+    def test_two_ranks_give_the_bits_of_one(self):
+        self.expect_bits_of_one(2, 1)
+
+    @slow
     def test_any_number_of_ranks_and_threads_gives_the_bits_of_one(self):
-        case = self.case(SMALL)
         for count, threads in ((2, 2), (3, 1), (4, 1)):
-            out = self.folder / f"{count}-{threads}"
-            rc, text, err = finished(ranked(count, "run", case, *WORDS, "-j", threads, "--out", out))
-            self.assertEqual(rc, self.rc, err)
-            self.expect_same(out)
-            self.assertEqual(err.count("static preload"), 1, err)  # one rank reports
+            self.expect_bits_of_one(count, threads)
         fact("ranks give the bits of one", ranks="2, 3, 4", files=len(self.reference))
 
     @slow
