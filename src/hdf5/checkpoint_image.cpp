@@ -162,7 +162,7 @@ class Reader {
  private:
   void require_part_of_file(const char* name) const {
     H5L_info_t link;
-    checked(H5Lget_info(at_, name, &link, H5P_DEFAULT), name);
+    if (H5Lget_info(at_, name, &link, H5P_DEFAULT) < 0) throw Damage{fmt::format("{} is missing", name)};
     if (link.type != H5L_TYPE_HARD) throw Damage{fmt::format("{} is a link", name)};
   }
   /// Refuses data that HDF5 would fill in because they were never written. Only data in one piece in this file have an
