@@ -11,6 +11,7 @@ railstrata_python_test(report:columns ${CMAKE_SOURCE_DIR}/web/columns.py ${rails
 railstrata_python_test(report:bundle ${here}/bundle_test.py ${CMAKE_SOURCE_DIR}/web)
 railstrata_python_test(report:what_if ${here}/what_if_page_test.py ${railstrata} ${results})
 set_tests_properties(report:what_if report:view report:passes_page PROPERTIES LABELS slow)
-set_tests_properties(report:results PROPERTIES FIXTURES_SETUP report_results)
+set_tests_properties(report:results PROPERTIES FIXTURES_SETUP report_results COST 60)
+set_tests_properties(report:page PROPERTIES COST 40)
 set_tests_properties(report:page report:page_slow report:view report:view_slow report:what_if PROPERTIES
   FIXTURES_REQUIRED report_results)
