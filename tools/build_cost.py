@@ -3,11 +3,11 @@
 
 usage: build_cost.py [--csv FILE] [--source CHECKOUT] [--target NAME] FOLDER [CMAKE OPTION]...
 
-Configures FOLDER, which must not exist, as `./railstrata` does, without a compiler cache, and builds it with this script
-in front of every compiler call. --target: railstrata is what `demo` needs; all, the default, what `test` needs. --csv:
-keeps the sums, in place of those of the same commit and target (bench/results/build_cost.csv). --source: a checkout of
-another commit, for a comparison. On a machine that does other work, times of the processor are longer too: compare two
-builds made beside the same.
+Configures FOLDER, which must not exist, as `./railstrata` does, without a compiler cache, and builds it with this
+script in front of every compiler call. --target: railstrata is what `demo` needs; all, the default, what `test` needs.
+--csv: keeps the sums, in place of those of the same commit and target (bench/results/build_cost.csv). --source: a
+checkout of another commit, for a comparison. On a machine that does other work, times of the processor are longer
+too: compare two builds made beside the same.
 """
 import argparse
 import collections

@@ -22,8 +22,8 @@ FOLDERS = ("src/", "extras/", "tests/", "docs/", "tools/", "cases/", "web/src", 
 LOUD = re.compile(r"\bspdlog\b|\bfmt::print\b|\bstd::(?:cout|cerr|clog)\b|\bf?(?:printf|puts)\(|\bstd(?:out|err)\b"
                   r"|\b_?exit\(|\babort\(|\b(?:signal|sigaction)\(")
 # SI prefixes and units are defined in record/unit.hpp alone
-FACTOR = re.compile(r"\bconstexpr\b.*\bk(?:To)?(?:Milli|Micro|Nano|Mega|Kilo|Giga|Percent|Milli(?:metres?)|M(?:ega)?[Pp]a"
-                    r"(?:scals?)?|Degrees?)\s*=\s*[-\d.(]")
+FACTOR = re.compile(r"\bconstexpr\b.*\bk(?:To)?(?:Milli|Micro|Nano|Mega|Kilo|Giga|Percent|Milli(?:metres?)"
+                    r"|M(?:ega)?[Pp]a(?:scals?)?|Degrees?)\s*=\s*[-\d.(]")
 LOUD_FILES = {"mpi/plug_in.cpp",  # the end of all ranks, where one has died
               "study/child_process.cpp",  # what a child does between fork and exec
               "cntc/message_file.cpp"}  # the screen, where a user of CONTACT's interface asks for it

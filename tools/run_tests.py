@@ -69,7 +69,7 @@ def measured(build, words, folder):
 
 def one(costs, name, *command):
     """A test as CTest called it; its processor time, with that of whom it left behind, is added as a line."""
-    ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)  # PR_SET_CHILD_SUBREAPER: a browser's processes are not waited for by others
+    ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)  # PR_SET_CHILD_SUBREAPER: its browser's processes are ours to wait for
     code = subprocess.run(command).returncode
     end = time.monotonic() + 3
     try:
@@ -108,9 +108,10 @@ def run(given, words, folder):
     build = measured(given.build, chosen, folder) if given.costs else given.build
     results, temporary = folder / "results.xml", folder / "tmp"
     temporary.mkdir()
+    folders = {"TMPDIR": str(temporary), "TEST_TMPDIR": str(temporary)}
     code = subprocess.run(["ctest", "--test-dir", build, "-j", "2", "--output-on-failure", "--output-junit", results,
                            "--test-output-size-passed", "100000", *chosen],
-                          env={**os.environ, **WAIT, "TMPDIR": str(temporary), "TEST_TMPDIR": str(temporary)}).returncode
+                          env={**os.environ, **WAIT, **folders}).returncode
     for name, reason in skipped(results) if results.exists() else ():
         print(f"skipped: {name}: {reason}")
     left = sorted(file.name for file in temporary.iterdir())

@@ -103,7 +103,7 @@ class PlasticElements {
   /// Scale of the elements that the hourglass stiffness of a class was made for.
   const SweepScale& scale(int block, int hourglass_class) const { return scales_[block][hourglass_class]; }
 
-  /// Adds its part to a body's history: of elements to which nothing has happened.
+  /// Makes it that of elements to which nothing has happened.
   void initialise(PlasticHistory& history) const;
   /// A place becomes hot, its elements virgin.
   void add(PlasticHistory& history, int candidate) const;

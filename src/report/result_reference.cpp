@@ -9,6 +9,7 @@
 #include "judge/check_limits.hpp"
 #include "judge/verdict.hpp"
 #include "passes/run_residual.hpp"
+#include "record/json.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {
@@ -36,8 +37,6 @@ std::string_view kind_word(CheckKind kind) {
 
 // ---- for programs
 Json unit_json(const Unit& unit) { return {{"si", unit.si()}, {"shown", unit.shown}, {"factor", unit.factor}}; }
-
-Json limit_json(double limit) { return std::isfinite(limit) ? Json(limit) : Json(nullptr); }
 
 /// Null: every digit is one of the result.
 Json round_off_json(const RoundOff& r) {
@@ -76,8 +75,8 @@ Json check_json(const CheckRow& c) {
           {"name", c.name},
           {"what", c.advice.empty() ? std::string(c.what) : fmt::format("{}: {}", c.what, c.advice)},
           {"unit", unit_json(c.unit)},
-          {"fem_limit", limit_json(c.fem_limit)},
-          {"bem_limit", limit_json(c.bem_limit)},
+          {"fem_limit", json_number(c.fem_limit)},
+          {"bem_limit", json_number(c.bem_limit)},
           {"limit_from", c.case_option.empty() ? Json(nullptr) : Json(c.case_option)}};
 }
 

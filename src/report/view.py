@@ -7,8 +7,8 @@
                                        xvfb-run -a python3 view.py --png view.png
 
 Both bodies are cut lengthwise through the largest pressure; the half on the field side is shown, seen from the track.
-Colours are von Mises stresses of the elements (--field sigma_1_MPa: largest principal stresses); the black lines are the
-border of the layer. A half-space result has no elements: its patch is shown on the rail.
+Colours are von Mises stresses of the elements (--field sigma_1_MPa: largest principal stresses); the black lines are
+the border of the layer. A half-space result has no elements: its patch is shown on the rail.
 Axes: x rolling direction, y to the field side, z up; metres. The arrows in the lower left corner of VTK's picture are
 10 mm long."""
 import argparse

@@ -156,8 +156,8 @@ class YieldingRun(Results):
 
     def test_the_rail_has_plastic_strain_and_backstress_where_it_has_yielded_and_the_layer_has_none(self):
         cells = read(self.out / "rail.vtu").GetCellData()
-        self.assertEqual(names(cells), {"stress_MPa", "von_mises_MPa", "sigma_1_MPa", "material", "plastic_strain_accumulated",
-                                        "plastic_strain", "backstress_MPa"})
+        self.assertEqual(names(cells), {"stress_MPa", "von_mises_MPa", "sigma_1_MPa", "material",
+                                        "plastic_strain_accumulated", "plastic_strain", "backstress_MPa"})
         p, material = array(cells, "plastic_strain_accumulated").astype(float), array(cells, "material")
         strain, back = (array(cells, name).astype(float) for name in ("plastic_strain", "backstress_MPa"))
         self.assertGreater(p.max(), 1e-4)
@@ -176,9 +176,10 @@ class YieldingRun(Results):
             table = self.table(name)
             for value in table["plastic_strain_accumulated"][table["plastic_strain_accumulated"] > 0][:5]:
                 self.assertLess(np.abs(p / value - 1).min(), 1e-6)
+            tensors = {f"{what}_{c}{unit}" for c in ("xx", "yy", "zz", "xy", "yz", "xz")
+                       for what, unit in (("plastic", ""), ("backstress", "_MPa"))}
             self.assertEqual({c for c in table.dtype.names if c.startswith(("plastic", "backstress"))},
-                             {"plastic_strain_accumulated"} | {f"{what}_{c}{unit}" for c in ("xx", "yy", "zz", "xy", "yz", "xz")
-                                              for what, unit in (("plastic", ""), ("backstress", "_MPa"))})
+                             {"plastic_strain_accumulated"} | tensors)
         self.assertGreater(self.table("rail_longitudinal_section.csv")["plastic_strain_accumulated"].max(), 0)
 
     def test_the_summary_says_where_and_with_how_much_work(self):
@@ -225,7 +226,8 @@ class Residual(Results):
             section, table = read(folder / "section.vtp"), self.table(folder)
             fields = section.GetCellData()
             self.assertEqual(section.GetNumberOfPolys(), len(table))
-            self.assertEqual(names(fields), {"residual_stress_MPa", "plastic_strain", "plastic_strain_accumulated", "zone"} | own)
+            self.assertEqual(names(fields), {"residual_stress_MPa", "plastic_strain", "plastic_strain_accumulated",
+                                             "zone"} | own)
             self.assertEqual({"class"} & set(table.dtype.names), own & {"class"})
             np.testing.assert_allclose(array(fields, "residual_stress_MPa")[:, 1], table["sigma_yy_MPa"], rtol=1e-12)
             np.testing.assert_allclose(array(fields, "plastic_strain")[:, 5], table["plastic_xz"], rtol=1e-12)
@@ -283,11 +285,12 @@ class Passes(Results):
     def test_stress_strain_and_class_are_those_of_the_table_at_its_places(self):
         fields = self.section.GetCellData()
         self.assertEqual(self.section.GetNumberOfPolys(), len(self.table))
-        self.assertEqual(names(fields), {"residual_stress_MPa", "plastic_strain", "plastic_strain_accumulated", "accumulated_strain",
-                                         "net_strain", "class", "zone"})
+        self.assertEqual(names(fields), {"residual_stress_MPa", "plastic_strain", "plastic_strain_accumulated",
+                                         "accumulated_strain", "net_strain", "class", "zone"})
         np.testing.assert_allclose(array(fields, "residual_stress_MPa")[:, 0], self.table["sigma_xx_MPa"], rtol=1e-12)
         np.testing.assert_allclose(array(fields, "plastic_strain")[:, 5], self.table["plastic_xz"], rtol=1e-12)
-        np.testing.assert_allclose(array(fields, "plastic_strain_accumulated"), self.table["plastic_strain_accumulated"], rtol=1e-12)
+        np.testing.assert_allclose(array(fields, "plastic_strain_accumulated"),
+                                   self.table["plastic_strain_accumulated"], rtol=1e-12)
         np.testing.assert_array_equal(array(fields, "class"), self.table["class"])
         for k in (0, len(self.table) - 1):
             corners = np.array([self.section.GetCell(k).GetPoints().GetPoint(c) for c in range(4)])

@@ -33,7 +33,8 @@ static void* function(const char* name) {
 #define CALL(name) ((__typeof__(&name))function(#name))
 
 enum { MOST = 40000 };
-static const int ire = 1, icp = 1, one = 1, two = 2, three = 3, four = 4, none = 0, six = 6;
+static const int ire = 1, icp = 1;
+static const int none = 0, one = 1, two = 2, three = 3, four = 4, six = 6;
 
 static void set_up(double a, double b, double dx, const int* half, const int* digits, double fx, const double* creep) {
   static const int flags[] = {1933, 1970, 1972, 1974}; /* units, P, T, F */

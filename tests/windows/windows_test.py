@@ -67,7 +67,8 @@ def tearDownModule():
 def wine(*words, **options):
     done = subprocess.run([WINE, *map(str, words)], capture_output=True, timeout=600, env=ENVIRONMENT, check=False,
                           **options)
-    return done.returncode, *(text.decode(errors="replace").replace("\r\n", "\n") for text in (done.stdout, done.stderr))
+    texts = (text.decode(errors="replace") for text in (done.stdout, done.stderr))
+    return done.returncode, *(text.replace("\r\n", "\n") for text in texts)
 
 
 def unit(name):
@@ -208,8 +209,8 @@ class Program(unittest.TestCase):
         self.assertEqual(code, 7, errors)
 
     def test_a_second_program_is_kept_out_of_the_folder_of_the_first(self):
-        first = subprocess.Popen([WINE, WINDOWS / "railstrata.exe", "passes", "cases/plastic/r260.toml", "--cell", "1 mm",
-                                  "--passes", "500", "--out", "results"], cwd=self.folder, env=ENVIRONMENT,
+        first = subprocess.Popen([WINE, WINDOWS / "railstrata.exe", "passes", "cases/plastic/r260.toml", "--cell",
+                                  "1 mm", "--passes", "500", "--out", "results"], cwd=self.folder, env=ENVIRONMENT,
                                  stderr=subprocess.PIPE)
         try:
             end = time.monotonic() + 120
@@ -229,8 +230,8 @@ class Library(unittest.TestCase):
         with tempfile.TemporaryDirectory() as place:
             mine, case = WINDOWS / "examples" / "mine.c", SOURCE / "cases/quick/case.toml"
             include = ["-I", WINDOWS / "include"]
-            subprocess.run([COMPILER, "-std=c89", mine, *include, WINDOWS / "railstrata.lib", "-o", f"{place}/mine.exe"],
-                           check=True)
+            subprocess.run([COMPILER, "-std=c89", mine, *include, WINDOWS / "railstrata.lib", "-o",
+                            f"{place}/mine.exe"], check=True)
             subprocess.run(["gcc", "-std=c89", mine, *include, LIBRARY, f"-Wl,-rpath,{LIBRARY.parent}", "-lm", "-o",
                             f"{place}/mine"], check=True)
             shutil.copy(WINDOWS / "railstrata.dll", place)
@@ -263,8 +264,8 @@ class Contact(unittest.TestCase):
             code, out, errors = wine(f"{place}/driver.exe", WINDOWS / "contact/contact_addon_win64.dll",
                                      input=lines.encode())
             self.assertEqual(code, 0, out + errors)
-            linux = subprocess.run([f"{place}/driver", CONTACT], input=lines, check=True, capture_output=True, text=True)
-        ours, theirs = ([[float(v) for v in line.split()] for line in text.splitlines()] for text in (out, linux.stdout))
+            linux = subprocess.check_output([f"{place}/driver", CONTACT], input=lines, text=True)
+        ours, theirs = ([[float(v) for v in line.split()] for line in text.splitlines()] for text in (out, linux))
         self.assertEqual(len(ours), 15)
         for row, (a, b) in enumerate(zip(ours, theirs, strict=True)):
             self.assertEqual(a[0], 0)

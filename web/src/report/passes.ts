@@ -25,7 +25,8 @@ function classesOf(s: SectionHistory): string[] {
   return kClassFills.map((_, k) => words[k] ?? `class ${k}`);
 }
 const several = (all: SectionHistory[]) => all.length > 1;
-const called = (s: SectionHistory, all: SectionHistory[], words: string) => (several(all) ? `${words}: ${s.name}` : words);
+const called = (s: SectionHistory, all: SectionHistory[], words: string) =>
+    (several(all) ? `${words}: ${s.name}` : words);
 const strain = (v: number|null|undefined) => (v === 0 ? "0" : powerText(v));
 const depthText = (metres: number) => `${(1e3 * metres).toFixed(2)} mm`;
 
@@ -151,7 +152,8 @@ function windowOf(s: SectionHistory, section: Section): Span {
   const p = 0.02 * largest(residual.plastic_strain_accumulated);
   const stress = 0.25 * largest(residual.sigma_xx_MPa);
   const reach = residual.y_mm.filter(
-      (_, i) => residual.plastic_strain_accumulated[i] > p || (stress > 0 && Math.abs(residual.sigma_xx_MPa[i]) > stress));
+      (_, i) =>
+          residual.plastic_strain_accumulated[i] > p || (stress > 0 && Math.abs(residual.sigma_xx_MPa[i]) > stress));
   const deepest = Math.max(...section.depth);
   const half = residual.row && section.y.length > 1 ? 0.5 * Math.abs(section.y[1] - section.y[0]) : 0;  // of an element
   const all: Span = [Math.min(...section.y) - half, Math.max(...section.y) + half];

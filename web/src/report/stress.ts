@@ -110,7 +110,12 @@ const kKinds: Kind[] = [
   {key: "sigma_1", name: "Largest principal stress σ₁", column: "sigma_1_MPa", hover: "σ₁ %{z:.1f} MPa"},
   {key: "sigma_xz", name: "Shear stress τ_xz", column: "sigma_xz_MPa", hover: "τ_xz %{z:.1f} MPa"},
   {key: "tau_max", name: "Largest shear stress τ_max", column: "tau_max_MPa", hover: "τ_max %{z:.1f} MPa"},
-  {key: "plastic_strain_accumulated", name: "Accumulated plastic strain p", column: "plastic_strain_accumulated", hover: "p %{z:.2e}"},
+  {
+    key: "plastic_strain_accumulated",
+    name: "Accumulated plastic strain p",
+    column: "plastic_strain_accumulated",
+    hover: "p %{z:.2e}"
+  },
 ];
 /// A value with its unit, to so many decimals of a stress.
 const valueText = (kind: Kind, v: number, decimals: number) =>

@@ -116,7 +116,8 @@ function pictures(runs: Run[], look: Look): Painted[] {
 export function yieldedPart(runs: Run[]): HTMLElement|null {
   if (!runs.some((run) => run.summary.plastic)) return null;
   const told = runs.map((run) => element("p", {class: "yielded"}, named(run, runs), words(run)));
-  const bodies = kBodies.filter((body) => runs.some((run) => run.sections[body]?.longitudinal.plastic_strain_accumulated));
+  const bodies =
+      kBodies.filter((body) => runs.some((run) => run.sections[body]?.longitudinal.plastic_strain_accumulated));
   const along = bodies.flatMap((body) => sectionMaps(runs, body, ["plastic_strain_accumulated"]))
                     .filter((figure) => figure.id.includes("longitudinal"));
   const [strain, stress] = [pictures(runs, kStrain), pictures(runs, kStress)];
