@@ -60,7 +60,8 @@ BENCHMARK(memory_traffic)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMilli
 struct Lines {
   Body solid;
   Traversal elements;
-  Field u, v, f, history, inverse_mass;
+  Field u, v, f, inverse_mass;
+  PlasticHistory history;
   Lines(SweepKind kind, Precision precision, int columns, int rows, int stations, bool random = false)
       : solid(body(kind, columns, rows, stations, random), {elastic(210e9, 0.3, 7800)},
               {ElementKind::full, 0.05, precision}),
