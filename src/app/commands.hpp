@@ -88,8 +88,8 @@ struct SchemaOptions {
   bool results = false;                        ///< --results: of results instead of cases
 };
 
-/// Values from the command line: options of several commands first, then those of one.
-struct CommandOptions {
+/// Options that several commands have.
+struct CommonOptions {
   std::filesystem::path case_file;     ///< a file, or a folder that holds case.toml; first folder of `compare`
   std::filesystem::path reference;     ///< second folder of `compare`
   std::vector<std::string> overrides;  ///< --set
@@ -100,6 +100,10 @@ struct CommandOptions {
   bool json = false;                   ///< --json: results on standard output as JSON
   int threads = 1;
   std::vector<std::string> command_line;
+};
+
+/// Values from the command line.
+struct CommandOptions : CommonOptions {
   RunOptions run;
   CreepCurveOptions creep_curve;
   CreepTableCommandOptions creep_table;
