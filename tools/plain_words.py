@@ -18,11 +18,6 @@ import statement_lines
 
 ROOT = statement_lines.ROOT
 SUFFIXES = statement_lines.CPP | statement_lines.SCRIPTS | {".py", ".md"}
-# Files that still have such words. One that has none any more is a finding, so that the list gets shorter.
-LATER = (
-    "docs/results-reference.md", "extras/device/README.md", "extras/device/no_card.cpp", "src/fem/rank_exchange.hpp",
-    "src/many/creep_table.cpp", "src/report/checks.cpp", "src/report/payload.cpp", "src/report/result_reference.cpp",
-    "src/study/claim.cpp", "src/study/study_file.cpp", "src/study/study_plan.cpp", "tests/program/study_test.py")
 
 GAP = r"(?:[ ]|\n[ \t]*(?:///?<?|\*|#)?[ \t]*)"  # between two words, at a line's end too
 INSTEAD = {
@@ -117,10 +112,7 @@ def findings(files):
     for file in files:
         if file.suffix not in SUFFIXES or file.resolve() == pathlib.Path(__file__).resolve():
             continue
-        here = messages(file.read_text(), file.suffix)
-        if file.resolve() in [ROOT / name for name in LATER]:
-            here = [] if here else [(1, "is clean: take it out of LATER in tools/plain_words.py [plain-words]")]
-        found += [f"{file}:{line}: warning: {message}" for line, message in here]
+        found += [f"{file}:{line}: warning: {message}" for line, message in messages(file.read_text(), file.suffix)]
     return found
 
 

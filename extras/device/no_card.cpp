@@ -27,7 +27,8 @@ bool built_for_cards() { return false; }
 void require_card() {
   throw EnvironmentError(
       "this program was built without CUDA",
-      "run.device = \"cpu\", or build it where nvcc is found (docs/gpu.md; cmake -DRAILSTRATA_CUDA=ON says why not)");
+      "run.device = \"cpu\", or build it where nvcc is found (docs/gpu.md; cmake -DRAILSTRATA_CUDA=ON gives the "
+      "reason if it is not)");
 }
 
 std::unique_ptr<Device> open_card() {

@@ -28,8 +28,8 @@ class RankExchange {
   /// `bodies`: already cut, and at the start.
   RankExchange(const Ranks& ranks, const Model& model, RollingBodies& bodies);
 
-  /// To be called before a step: brings what it will read of other ranks' tiles, and tells the bodies which part of
-  /// their lines it has (RollingBody::part).
+  /// To be called before a step: receives what the step will read of other ranks' tiles, and sets which part of
+  /// the bodies' lines this rank has (RollingBody::part).
   void prepare(RollingBodies& bodies, BodyStates& states, const StepScope& scope, const AxlePose& pose);
   /// Two numbers of the step that all ranks must have to the last bit; they go with its forces.
   void mark(double first, double second) { mark_ = {first, second}; }

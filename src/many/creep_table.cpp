@@ -132,7 +132,7 @@ CreepTable::Outer CreepTable::load(const std::vector<std::string>& values) const
   try {
     const LoadedCase loaded = parse_case(base_.source_text, base_.file, all);
     CaseSpec spec = loaded.spec;
-    spec.run.rolling = true;  // whatever the case says
+    spec.run.rolling = true;  // also where the case has run.rolling = false
     spec = half_space_case(std::move(spec));
     Placement placement = place(spec, loaded.folder());
     return {std::move(spec), std::move(placement), {}};

@@ -16,7 +16,7 @@
 namespace railstrata {
 namespace {
 
-/// What tells how a case is computed, not what it is.
+/// Whether an option sets how a case is computed, not what it is.
 bool is_numerical(const CaseOption& o) {
   static const std::set<std::string> tables{"case", "mesh", "contact", "bem", "output"},
       keys{"layer.elements", "drive.torque_ramp", "drive.creepage_start"};

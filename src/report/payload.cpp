@@ -335,7 +335,7 @@ std::string without_folders(const std::string& word) {
   return path.is_absolute() ? path.lexically_normal().filename().string() : word;
 }
 
-/// What a page says of where a run comes from. The processor, the machine's name and absolute paths stay in
+/// The origin of a run as a page gives it. The processor, the machine's name and absolute paths stay in
 /// provenance.json.
 Json origin(const ReportRun& run) {
   if (!run.provenance.is_object()) return Json::object();

@@ -160,7 +160,7 @@ constexpr std::string_view kSeveralPatches =
     "largest pressure, but `F_x_N`, `F_y_N` and `F_z_N` of all, and `patches` lists every patch, that one first: the\n"
     "keys of `contact`, and `y_m`, `rail_y_m`, `wheel_y_m` of its rigid contact point in the model's and in each\n"
     "profile's own frame. Stresses are those below the first. The same holds for the columns of tables; their column\n"
-    "`patches` says how many there are.\n";
+    "`patches` gives their number.\n";
 
 std::string checks_markdown() {
   return check_rows(

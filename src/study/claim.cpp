@@ -38,7 +38,8 @@ struct Opened {
   int descriptor;
 };
 
-/// Asked of an open file: of a closed one a network file system may tell what it was some seconds ago.
+/// Time of the last change. Read from an open file: for a closed one a network file system may give a value some
+/// seconds old.
 std::optional<double> time_of(int descriptor) {
   struct stat s {};
   if (descriptor < 0 || ::fstat(descriptor, &s) != 0) return std::nullopt;
@@ -72,7 +73,7 @@ std::string new_text(double lease) {
          "\n";
 }
 
-/// All of it: of a disk that is nearly full the first call takes a part, the next one says why.
+/// Writes all of it. On a disk that is nearly full the first call takes a part; the next one fails with the reason.
 bool write_all(int descriptor, const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t n = ::write(descriptor, text.data() + at, text.size() - at);

@@ -277,7 +277,7 @@ class StudyReader {
     return out;
   }
 
-  /// Those of a list, or of a range that a text says (many/axis.hpp).
+  /// The values of a list, or of a range given as a text (many/axis.hpp).
   std::vector<StudyValue> values_of(const std::string& key, const toml::node& node) {
     std::vector<StudyValue> out;
     if (const toml::array* list = node.as_array())

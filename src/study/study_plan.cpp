@@ -158,13 +158,13 @@ std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>&
 std::vector<bool> only(const std::vector<StudyCase>& cases, int index, const std::vector<bool>& among) {
   if (index < 1 || index > static_cast<int>(cases.size()))
     throw CaseError(fmt::format("--only {}: the study has {} cases", index, cases.size()),
-                    "railstrata study FILE --list tells their indices");
+                    "railstrata study FILE --list gives their indices");
   const std::string& key = cases[static_cast<std::size_t>(index) - 1].key;
   std::vector<bool> out;
   for (std::size_t k = 0; k < cases.size(); ++k) out.push_back(among[k] && cases[k].key == key);
   if (std::find(out.begin(), out.end(), true) == out.end())
     throw CaseError(fmt::format("--only {}: --engine, --group or --shard leave this case out", index),
-                    "give --only without them; railstrata study FILE --list tells the indices");
+                    "give --only without them; railstrata study FILE --list gives the indices");
   return out;
 }
 

@@ -234,7 +234,7 @@ class Cases(StudyTest):
         self.assertEqual([c["key"] for c in done], [c["key"] for c in cases])
         self.assertIsNone(done[3]["seconds"])
         self.refused(2, ["study", self.study(GRID), "--out", self.out, "--only", "7"], "--only 7: the study has 6",
-                     "--list tells their indices")
+                     "--list gives their indices")
         self.refused(2, ["study", self.study(GRID), "--out", self.out, "--only", "2", "--engine", "fem"],
                      "--only 2: --engine, --group or --shard leave this case out")
 
