@@ -6,9 +6,9 @@
 #include <memory>
 #include <system_error>
 
-#include "app/command_words.hpp"
 #include "app/commands.hpp"
 #include "app/completion.hpp"
+#include "app/help_texts.hpp"
 #include "app/manual.hpp"
 #include "case/case_schema.hpp"
 #include "core/faults.hpp"
@@ -32,7 +32,7 @@ void write_page(const std::filesystem::path& root, const ManualPage& page) {
 
 void manual(const CLI::App& program, const std::string& wanted, const std::filesystem::path& folder) {
   const std::string name = wanted.empty() ? "railstrata" : "railstrata-" + wanted;
-  for (const ManualPage& page : manual_pages(command_words(program), case_keys(), build_info().version)) {
+  for (const ManualPage& page : manual_pages(command_help(program), case_keys(), build_info().version)) {
     if (!folder.empty())
       write_page(folder, page);
     else if (page.name == name)
@@ -44,7 +44,7 @@ void declare_completion(CLI::App& sub, CommandOptions&) {
   const auto shell = std::make_shared<std::string>();
   sub.add_option("shell", *shell, "The shell that reads it")->required()->check(CLI::IsMember({"bash"}));
   sub.final_callback(
-      [shell, &sub] { fmt::print("{}", bash_completion(command_words(*sub.get_parent()), case_keys())); });
+      [shell, &sub] { fmt::print("{}", bash_completion(command_help(*sub.get_parent()), case_keys())); });
 }
 
 void declare_manual(CLI::App& sub, CommandOptions&) {

@@ -132,16 +132,16 @@ std::string array_of(const std::vector<std::string>& words) {
   return "(" + out + ")";
 }
 
-std::vector<std::string> option_names(const CommandWords& command) {
+std::vector<std::string> option_names(const CommandHelp& command) {
   std::vector<std::string> out;
-  for (const OptionWords& option : command.options)
+  for (const OptionHelp& option : command.options)
     for (const std::string& name : option.names)
       if (name.starts_with("--")) out.push_back(name);
   return out;
 }
 
 /// Options whose value is a file or a folder.
-bool takes_file(const OptionWords& option) {
+bool takes_file(const OptionHelp& option) {
   const auto is = [&](const char* name) {
     return std::find(option.names.begin(), option.names.end(), name) != option.names.end();
   };
@@ -149,23 +149,23 @@ bool takes_file(const OptionWords& option) {
          is("--monotonic") || option.value == "FOLDER";
 }
 
-std::string option_functions(const std::vector<CommandWords>& commands) {
-  const CommandWords& program = commands.front();
+std::string option_functions(const std::vector<CommandHelp>& commands) {
+  const CommandHelp& program = commands.front();
   std::string names, values, words;
-  for (const CommandWords& command : commands) {
+  for (const CommandHelp& command : commands) {
     std::vector<std::string> all = option_names(command);
     if (!command.name.empty())
       for (const std::string& name : option_names(program))
         if (std::find(all.begin(), all.end(), name) == all.end() && name != "--version") all.push_back(name);
     names += fmt::format("    '{}') values={} ;;\n", command.name, array_of(all));
-    for (const OptionWords& option : command.options) {
+    for (const OptionHelp& option : command.options) {
       if (option.value.empty() || option.value == "KEY=VALUE" || option.value == "KEY=VALUES") continue;
       const std::string then =
           takes_file(option) ? "_railstrata_files" : fmt::format("values={}", array_of(option.choices));
       const std::string place = command.name.empty() ? "*" : "'" + command.name + "'";
       for (const std::string& name : option.names) values += fmt::format("    {}' {}') {} ;;\n", place, name, then);
     }
-    for (const OptionWords& positional : command.positionals)
+    for (const OptionHelp& positional : command.positionals)
       if (!positional.choices.empty())
         words += fmt::format("    '{}') values={} ;;\n", command.name, array_of(positional.choices));
   }
@@ -199,9 +199,9 @@ std::string key_function(const std::vector<CaseKey>& keys) {
 
 }  // namespace
 
-std::string bash_completion(const std::vector<CommandWords>& commands, const std::vector<CaseKey>& keys) {
+std::string bash_completion(const std::vector<CommandHelp>& commands, const std::vector<CaseKey>& keys) {
   std::vector<std::string> names{"help"};
-  for (const CommandWords& command : commands)
+  for (const CommandHelp& command : commands)
     if (!command.name.empty()) names.push_back(command.name);
   return fmt::format(
       "# bash completion of railstrata, written by `railstrata completion bash`\n\n"

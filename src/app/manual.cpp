@@ -44,12 +44,12 @@ std::string head(const std::string& title, int section, const std::string& versi
                      section == 1 ? "User Commands" : "File Formats", roff(title), roff(brief));
 }
 
-std::string synopsis_of(const OptionWords& positional) {
+std::string synopsis_of(const OptionHelp& positional) {
   const std::string word = italic(positional.names.front()) + (positional.repeated ? "..." : "");
   return positional.required ? word : "[" + word + "]";
 }
 
-std::string described(const OptionWords& option) {
+std::string described(const OptionHelp& option) {
   std::string names;
   for (const std::string& name : option.names)
     names += (names.empty() ? "" : ", ") + (name.starts_with("-") ? bold(name) : italic(name));
@@ -57,10 +57,10 @@ std::string described(const OptionWords& option) {
   return fmt::format(".TP\n{}{}\n{}.\n", names, value.empty() ? "" : " " + italic(value), roff(option.what));
 }
 
-std::string options_section(const CommandWords& command) {
+std::string options_section(const CommandHelp& command) {
   std::string out;
-  for (const std::vector<OptionWords>* all : {&command.positionals, &command.options})
-    for (const OptionWords& option : *all) out += described(option);
+  for (const std::vector<OptionHelp>* all : {&command.positionals, &command.options})
+    for (const OptionHelp& option : *all) out += described(option);
   return out.empty() ? out : ".SH OPTIONS\n" + out;
 }
 
@@ -98,25 +98,25 @@ std::string see_also(const std::string& name) {
   return out + "/usr/share/doc/railstrata/README.md.gz\n";
 }
 
-ManualPage program_page(const std::vector<CommandWords>& commands, const std::string& version) {
-  const CommandWords& program = commands.front();
+ManualPage program_page(const std::vector<CommandHelp>& commands, const std::string& version) {
+  const CommandHelp& program = commands.front();
   std::string text = head("railstrata", 1, version, program.what.substr(program.what.find(": ") + 2));
   text += ".SH SYNOPSIS\n.B railstrata\n.I command\n[\\fIargument\\fR...]\n.SH DESCRIPTION\n" + roff(program.what) +
           ".\nA case is a text file with what differs from the defaults; "
           "every command lists its options with \\fB\\-\\-help\\fR.\n.SH COMMANDS\n";
-  for (const CommandWords& command : commands)
+  for (const CommandHelp& command : commands)
     if (!command.name.empty()) text += fmt::format(".TP\n{}\n{}.\n", bold(command.name), roff(command.what));
   return {"railstrata", 1, text + options_section(program) + footer_sections(program.footer) + see_also("railstrata")};
 }
 
-ManualPage command_page(const CommandWords& command, const std::vector<OptionWords>& of_program,
+ManualPage command_page(const CommandHelp& command, const std::vector<OptionHelp>& of_program,
                         const std::string& version) {
   const std::string name = "railstrata-" + command.name;
   std::string text = head(name, 1, version, command.what);
   text += fmt::format(".SH SYNOPSIS\n.B railstrata {}\n", roff(command.name));
-  for (const OptionWords& positional : command.positionals) text += synopsis_of(positional) + "\n";
+  for (const OptionHelp& positional : command.positionals) text += synopsis_of(positional) + "\n";
   text += "[\\fIoption\\fR...]\n.SH DESCRIPTION\n" + roff(command.what) + ".\n" + options_section(command);
-  for (const OptionWords& option : of_program)
+  for (const OptionHelp& option : of_program)
     if (option.names.back() != "--help" && option.names.back() != "--version") text += described(option);
   return {name, 1, text + footer_sections(command.footer) + see_also(name)};
 }
@@ -138,10 +138,10 @@ ManualPage case_page(const std::vector<CaseKey>& keys, const std::string& versio
 
 }  // namespace
 
-std::vector<ManualPage> manual_pages(const std::vector<CommandWords>& commands, const std::vector<CaseKey>& keys,
+std::vector<ManualPage> manual_pages(const std::vector<CommandHelp>& commands, const std::vector<CaseKey>& keys,
                                      const std::string& version) {
   std::vector<ManualPage> out{program_page(commands, version)};
-  for (const CommandWords& command : commands)
+  for (const CommandHelp& command : commands)
     if (!command.name.empty()) out.push_back(command_page(command, commands.front().options, version));
   out.push_back(case_page(keys, version));
   return out;

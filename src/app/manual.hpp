@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command_words.hpp"
+#include "app/help_texts.hpp"
 #include "case/case_schema.hpp"
 
 namespace railstrata {
@@ -16,7 +16,7 @@ struct ManualPage {
 };
 
 /// railstrata(1), a page for each command, and railstrata-case(5) on the keys of a case.
-std::vector<ManualPage> manual_pages(const std::vector<CommandWords>& commands, const std::vector<CaseKey>& keys,
+std::vector<ManualPage> manual_pages(const std::vector<CommandHelp>& commands, const std::vector<CaseKey>& keys,
                                      const std::string& version);
 
 }  // namespace railstrata

@@ -1,4 +1,4 @@
-#include "app/command_words.hpp"
+#include "app/help_texts.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -20,8 +20,8 @@ std::string value_word(const CLI::Option& option, const std::vector<std::string>
   return type.substr(0, type.find(':'));
 }
 
-OptionWords words_of(const CLI::Option& option) {
-  OptionWords out;
+OptionHelp help_of(const CLI::Option& option) {
+  OptionHelp out;
   for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) out.names.push_back("--" + name);
   if (option.get_positional()) out.names = {option.get_name(true)};
@@ -33,19 +33,19 @@ OptionWords words_of(const CLI::Option& option) {
   return out;
 }
 
-CommandWords words_of(const CLI::App& app, const std::string& name) {
-  CommandWords out{name, app.get_description(), app.get_footer(), {}, {}};
+CommandHelp help_of(const CLI::App& app, const std::string& name) {
+  CommandHelp out{name, app.get_description(), app.get_footer(), {}, {}};
   for (const CLI::Option* option : app.get_options())
-    (option->get_positional() ? out.positionals : out.options).push_back(words_of(*option));
+    (option->get_positional() ? out.positionals : out.options).push_back(help_of(*option));
   return out;
 }
 
 }  // namespace
 
-std::vector<CommandWords> command_words(const CLI::App& app) {
-  std::vector<CommandWords> out{words_of(app, "")};
+std::vector<CommandHelp> command_help(const CLI::App& app) {
+  std::vector<CommandHelp> out{help_of(app, "")};
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    out.push_back(words_of(*sub, sub->get_name()));
+    out.push_back(help_of(*sub, sub->get_name()));
   return out;
 }
 
