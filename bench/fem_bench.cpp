@@ -165,7 +165,7 @@ BENCHMARK(swept_lines<SweepKind::revolve, Precision::single_precision>)->Apply(s
 
 // -- whole steps of a case ------------------------------------------------------------------------
 
-/// Most memory the process has had since forget_peak(): VmHWM of /proc/self/status.
+/// Most memory the process has had since reset_peak(): VmHWM of /proc/self/status.
 double peak_bytes() {
   std::ifstream file("/proc/self/status");
   std::string word;
@@ -174,7 +174,7 @@ double peak_bytes() {
     if (word == "VmHWM:" && file >> kilobytes) break;
   return 1024 * kilobytes;
 }
-void forget_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
+void reset_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 /// The paper's base case, elements of `millimetres`, after the run-up damping has gone: contact, suspension, ties,
 /// absorbers.
@@ -208,7 +208,7 @@ Rolling& rolling(double millimetres, bool single) {
   static std::pair<double, bool> which;
   if (!latest || which != std::pair{millimetres, single}) {
     latest.reset();
-    forget_peak();
+    reset_peak();
     latest = std::make_unique<Rolling>(
         millimetres, single ? ArithmeticPrecision::single_precision : ArithmeticPrecision::double_precision);
     which = {millimetres, single};

@@ -83,10 +83,10 @@ void solve_case(int ire, int icp, Problem& problem) {
   require_all_taken(problem);
   if (flag(problem.settings, kReturn) >= 2) {
     discretise(problem.settings);
-    registry().tell(ire, icp, &problem, kCall, 0, "R = 2, 3: the settings were looked at, nothing was solved");
+    registry().report(ire, icp, &problem, kCall, 0, "R = 2, 3: the settings were looked at, nothing was solved");
     return;
   }
-  registry().forget(problem);
+  registry().clear_message(problem);
   std::vector<std::string> remarks;
   solve(problem, remarks);
   if (problem.solved->border_cells > 0)
@@ -94,7 +94,7 @@ void solve_case(int ire, int icp, Problem& problem) {
         fmt::format("{} elements at the border of the potential contact area are in contact: it is too "
                     "small",
                     problem.solved->border_cells));
-  for (const std::string& remark : remarks) registry().tell(ire, icp, &problem, kCall, 0, remark);
+  for (const std::string& remark : remarks) registry().report(ire, icp, &problem, kCall, 0, remark);
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 /// Calls `work`; what it throws is kept and written. The code of what was thrown, or 0. No exception leaves.
 template <class Work>
 int guarded(int ire, int icp, Problem* problem, const char* call, Work&& work) noexcept {
-  const auto tell = [&](int code, const char* text) noexcept {
+  const auto report = [&](int code, const char* text) noexcept {
     try {
-      registry().tell(ire, icp, problem, call, code, text);
+      registry().report(ire, icp, problem, call, code, text);
     } catch (...) {  // not even the memory for a message: the code has to do
     }
     return code;
@@ -26,13 +26,13 @@ int guarded(int ire, int icp, Problem* problem, const char* call, Work&& work) n
     work();
     return 0;
   } catch (const Refused& e) {
-    return tell(e.code, e.what());
+    return report(e.code, e.what());
   } catch (const std::bad_alloc&) {
-    return tell(kOther, "there is not enough memory");
+    return report(kOther, "there is not enough memory");
   } catch (const std::exception& e) {
-    return tell(kOther, e.what());
+    return report(kOther, e.what());
   } catch (...) {
-    return tell(kOther, "an unknown fault");
+    return report(kOther, "an unknown fault");
   }
 }
 

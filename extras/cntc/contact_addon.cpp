@@ -129,14 +129,14 @@ void cntc_setflags(const int* ire, const int* icp, const int* lenflg, const int*
     }
     setting(*ire, *icp, params[k], "cntc_setflags", [&](Problem& p) {
       const std::string remark = set_flag(p, params[k], values[k]);
-      if (!remark.empty()) registry().tell(*ire, *icp, &p, "cntc_setflags", 0, remark);
+      if (!remark.empty()) registry().report(*ire, *icp, &p, "cntc_setflags", 0, remark);
     });
   }
 }
 
 void cntc_setmetadata(const int* ire, const int* icp, const int*, const int*, const double*) {
   with_problem(*ire, *icp, "cntc_setmetadata", [&](Problem& p) {
-    registry().tell(*ire, *icp, &p, "cntc_setmetadata", 0, "has no effect: no .mat file is written");
+    registry().report(*ire, *icp, &p, "cntc_setmetadata", 0, "has no effect: no .mat file is written");
   });
 }
 
@@ -160,7 +160,7 @@ void cntc_settemperaturedata(const int* ire, const int* icp, const int* imeth, c
 
 void cntc_settimestep(const int* ire, const int* icp, const double*) {
   with_problem(*ire, *icp, "cntc_settimestep", [&](Problem& p) {
-    registry().tell(*ire, *icp, &p, "cntc_settimestep", 0, "has no effect: nothing here depends on time in a shift");
+    registry().report(*ire, *icp, &p, "cntc_settimestep", 0, "has no effect: nothing here depends on time in a shift");
   });
 }
 
@@ -175,7 +175,7 @@ void cntc_setrollingstepsize(const int* ire, const int* icp, const double* chi, 
 void cntc_setfrictionmethod(const int* ire, const int* icp, const int* imeth, const int* nparam, const double* params) {
   set(ire, icp, Setting::friction, "cntc_setfrictionmethod", [&](Problem& p) {
     const std::string remark = set_friction(p, *imeth, given(params, *nparam));
-    if (!remark.empty()) registry().tell(*ire, *icp, &p, "cntc_setfrictionmethod", 0, remark);
+    if (!remark.empty()) registry().report(*ire, *icp, &p, "cntc_setfrictionmethod", 0, remark);
   });
 }
 

@@ -77,7 +77,7 @@ void Registry::remove_all() {
   messages_.close();
 }
 
-void Registry::tell(int ire, int icp, Problem* problem, const char* call, int code, const std::string& text) {
+void Registry::report(int ire, int icp, Problem* problem, const char* call, int code, const std::string& text) {
   {
     const std::lock_guard lock(mutex_);  // a second thread on a busy problem gets a report too
     if (problem) problem->last = {code, text};
@@ -89,7 +89,7 @@ void Registry::tell(int ire, int icp, Problem* problem, const char* call, int co
                             : fmt::format("{}: {}: error {}: {}", where, call, code, text));
 }
 
-void Registry::forget(Problem& problem) {
+void Registry::clear_message(Problem& problem) {
   const std::lock_guard lock(mutex_);
   problem.last = {};
 }

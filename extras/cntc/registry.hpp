@@ -26,9 +26,9 @@ class Registry {
   void remove_all();
 
   /// Keeps a message of a problem, or of the library, and writes it.
-  void tell(int ire, int icp, Problem* problem, const char* call, int code, const std::string& text);
-  /// The message of a problem that is solved anew.
-  void forget(Problem& problem);
+  void report(int ire, int icp, Problem* problem, const char* call, int code, const std::string& text);
+  /// Clears the message of a problem that is solved anew.
+  void clear_message(Problem& problem);
   Refusal last(int ire, int icp);
 
   int print_level = 1;

@@ -26,13 +26,13 @@ namespace {
 
 /// Notes of cases that the case itself does not have, each once.
 void warn_of_notes(const LoadedCase& base, const std::vector<SweepCase>& cases) {
-  std::set<std::string> told(base.static_notes.begin(), base.static_notes.end());
-  told.insert(base.notes.begin(), base.notes.end());
+  std::set<std::string> reported(base.static_notes.begin(), base.static_notes.end());
+  reported.insert(base.notes.begin(), base.notes.end());
   for (const SweepCase& c : cases) {
     if (!c.loaded) continue;
     for (const auto* notes : {&c.loaded->notes, &c.loaded->static_notes})
       for (const std::string& note : *notes)
-        if (told.insert(note).second) spdlog::warn("{}", note);
+        if (reported.insert(note).second) spdlog::warn("{}", note);
   }
 }
 

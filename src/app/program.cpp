@@ -98,12 +98,12 @@ void say(FILE* stream, const std::string& text) {
   std::fflush(stream);
 }
 
-int tell(ExitCode code, const std::string& text) {
+int report(ExitCode code, const std::string& text) {
   say(stderr, printable(fmt::format("error: {}\n", text)));
   return static_cast<int>(code);
 }
 
-int tell(const CaseError& e, bool json) {
+int report(const CaseError& e, bool json) {
   if (json) {
     auto all = nlohmann::ordered_json::array();
     for (const Diagnostic& d : e.diagnostics)
@@ -179,21 +179,21 @@ int run_program(int argc, const char* const* argv) {
     return code;
   } catch (const CaseError& e) {
     log_on_rank_0_only();  // a mistake is that of all
-    return tell(e, options.json);
+    return report(e, options.json);
   } catch (const NumericalError& e) {
-    return tell(ExitCode::numerics, e.what());
+    return report(ExitCode::numerics, e.what());
   } catch (const Interrupted& e) {
-    return tell(ExitCode::interrupted, e.what());
+    return report(ExitCode::interrupted, e.what());
   } catch (const EnvironmentError& e) {
-    return tell(ExitCode::environment,
-                e.remedy.empty() ? e.what() : fmt::format("{}\n    remedy: {}", e.what(), e.remedy));
+    return report(ExitCode::environment,
+                  e.remedy.empty() ? e.what() : fmt::format("{}\n    remedy: {}", e.what(), e.remedy));
   } catch (const std::system_error& e) {  // of a file system, or of standard output
-    return tell(ExitCode::environment, e.what());
+    return report(ExitCode::environment, e.what());
   } catch (const std::bad_alloc&) {
-    return tell(ExitCode::environment, "not enough memory; `railstrata check` reports what a case needs");
+    return report(ExitCode::environment, "not enough memory; `railstrata check` reports what a case needs");
   } catch (const std::exception& e) {
-    return tell(ExitCode::internal,
-                fmt::format("{} (a fault of the program: please report it with the case file)", e.what()));
+    return report(ExitCode::internal,
+                  fmt::format("{} (a fault of the program: please report it with the case file)", e.what()));
   }
 }
 

@@ -59,7 +59,7 @@ class Course {
   TransientState run(const TransientObserver& observer) {
     const auto begin = std::chrono::steady_clock::now();
     start();
-    while (tell(observer) && state_.step < state_.steps) advance();
+    while (report(observer) && state_.step < state_.steps) advance();
     state_.result = result();
     state_.result.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(state_);
@@ -80,7 +80,7 @@ class Course {
         "give a longer transient.distance, or smaller cells with --cell");
   }
 
-  bool tell(const TransientObserver& observer) {
+  bool report(const TransientObserver& observer) {
     const double at = place_at_end(state_.step);
     state_.time = history_.time(at);
     state_.distance = history_.rolls() ? at : 0.0;

@@ -100,7 +100,7 @@ int railstrata_wait(RailstrataCall* call, int milliseconds) {
 }
 
 const char* railstrata_progress(RailstrataCall* call) {
-  call->progress = call->call.told();
+  call->progress = call->call.reported();
   return call->progress.empty() ? nullptr : call->progress.c_str();
 }
 

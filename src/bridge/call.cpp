@@ -117,14 +117,14 @@ Json Call::kept(std::vector<double> values, const std::vector<std::size_t>& shap
   return view(held->data(), shape);
 }
 
-void Call::tell(const Json& how_far) {
+void Call::report(const Json& how_far) {
   const std::lock_guard hold(lock_);
-  told_ = json_text(how_far);
+  reported_ = json_text(how_far);
 }
 
-std::string Call::told() const {
+std::string Call::reported() const {
   const std::lock_guard hold(lock_);
-  return told_;
+  return reported_;
 }
 
 }  // namespace railstrata::bridge

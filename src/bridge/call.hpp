@@ -76,8 +76,8 @@ class Call {
   // while it lasts
   Control control;
   /// Progress, for the caller's progress function.
-  void tell(const Json& how_far);
-  std::string told() const;
+  void report(const Json& how_far);
+  std::string reported() const;
 
  private:
   std::shared_ptr<void> made_before(const char* name, const std::type_info& type);
@@ -85,7 +85,7 @@ class Call {
   std::vector<std::shared_ptr<void>> held_;
   Made made_;
   mutable std::mutex lock_;
-  std::string told_;
+  std::string reported_;
 };
 
 }  // namespace railstrata::bridge

@@ -60,7 +60,7 @@ void answer_half_space(Call& call) {
                       call.flag("maps")};
   const auto run = std::make_shared<HalfSpaceRun>(HalfSpaceRun{*loaded, place(loaded->spec, loaded->folder()), {}});
   const TransientObserver observer = [&](const TransientState& state) {
-    call.tell(Json::array({static_cast<double>(state.step) / state.steps}));
+    call.report(Json::array({static_cast<double>(state.step) / state.steps}));
     return !call.control.stop.load();
   };
   const ThreadsOfCaller threads(wanted.threads);

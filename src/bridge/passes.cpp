@@ -26,7 +26,7 @@ void solve_passes(Call& call) {
   std::vector<std::string> notes;
   call.control.on_warning = [&notes](const std::string& text) { notes.push_back(text); };
   call.control.on_progress = [&call](const std::string&, double fraction, int pass) {
-    if (pass > 0) call.tell({pass, fraction});
+    if (pass > 0) call.report({pass, fraction});
   };
   const PassesEnd end = call.flag("rolled") ? rolled_passes_in_folder(*loaded, order, call.control)
                                             : passes_in_folder(*loaded, order, call.control);

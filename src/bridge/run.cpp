@@ -8,7 +8,7 @@ namespace {
 void carry_out(Call& call, const LoadedCase& loaded, bool resume, bool force) {
   std::vector<std::string> notes;
   call.control.on_progress = [&call](const std::string& phase, double fraction, int) {
-    if (!phase.empty()) call.tell({phase, fraction});
+    if (!phase.empty()) call.report({phase, fraction});
   };
   call.control.on_warning = [&notes](const std::string& text) { notes.push_back(text); };
   FemOptions options;

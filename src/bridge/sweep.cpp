@@ -30,7 +30,7 @@ void sweep(Call& call) {
   options.bem.cache = &cache;
   options.stresses = call.flag("stresses");
   options.control = &call.control;
-  options.ended = [&] { call.tell(Json::array({static_cast<double>(++done) / static_cast<double>(cases.size())})); };
+  options.ended = [&] { call.report(Json::array({static_cast<double>(++done) / static_cast<double>(cases.size())})); };
   run_sweep(cases, options);
   Json& rows = call.answer["rows"] = Json::array();
   for (const SweepCase& c : cases) rows.push_back(row_of(c));

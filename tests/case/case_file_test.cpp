@@ -384,22 +384,22 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "contact, run, bem, transient, load, collective, passes, output"},
   };
   for (const Bad& bad : all) {
-    const std::string told = error_of(bad.text);
+    const std::string message = error_of(bad.text);
     if (std::string(bad.message).ends_with("TOML: "))
-      EXPECT_TRUE(told.starts_with(bad.message)) << told;
+      EXPECT_TRUE(message.starts_with(bad.message)) << message;
     else
-      EXPECT_EQ(told, bad.message);
+      EXPECT_EQ(message, bad.message);
   }
 }
 
 TEST(CaseFile, AMissingProfileIsToldWithThePlaceLookedAtAndTheBuiltInNames) {
-  const std::string told = error_of("[geometry]\nrail_profile = \"CN6\"\n");
-  EXPECT_TRUE(told.starts_with(
+  const std::string message = error_of("[geometry]\nrail_profile = \"CN6\"\n");
+  EXPECT_TRUE(message.starts_with(
       "a.toml:2:16: geometry.rail_profile = \"CN6\": neither a built-in profile nor a file (looked for /"))
-      << told;
-  EXPECT_NE(told.find("remedy: did you mean \"CN60\"? built in: CN60, UIC54, UIC60, flat, arc:R=300 mm"),
+      << message;
+  EXPECT_NE(message.find("remedy: did you mean \"CN60\"? built in: CN60, UIC54, UIC60, flat, arc:R=300 mm"),
             std::string::npos)
-      << told;
+      << message;
 }
 
 TEST(CaseFile, AllErrorsOfAFileComeAtOnceInItsOrder) {

@@ -42,7 +42,7 @@ TEST(RcfDamage, PresetsHaveTheirPublishedValues) {
 }
 
 TEST(RcfDamage, AFaultyTableIsNamedByItsRow) {
-  const auto told = [](const RcfDamageFunction& f) {
+  const auto message = [](const RcfDamageFunction& f) {
     try {
       rcf_damage(f, 50);
     } catch (const CaseError& e) {
@@ -50,10 +50,10 @@ TEST(RcfDamage, AFaultyTableIsNamedByItsRow) {
     }
     return std::string();
   };
-  EXPECT_NE(told({{{15, 0}}, false}).find("two break points"), std::string::npos);
-  EXPECT_NE(told({{{15, 0}, {65, 1e-5}, {65, 0}}, false}).find("row 3"), std::string::npos);
-  EXPECT_NE(told({{{-15, 0}, {65, 1e-5}}, false}).find("row 1"), std::string::npos);
-  EXPECT_NE(told({{{15, 0}, {65, std::nan("")}}, false}).find("row 2"), std::string::npos);
+  EXPECT_NE(message({{{15, 0}}, false}).find("two break points"), std::string::npos);
+  EXPECT_NE(message({{{15, 0}, {65, 1e-5}, {65, 0}}, false}).find("row 3"), std::string::npos);
+  EXPECT_NE(message({{{-15, 0}, {65, 1e-5}}, false}).find("row 1"), std::string::npos);
+  EXPECT_NE(message({{{15, 0}, {65, std::nan("")}}, false}).find("row 2"), std::string::npos);
 }
 
 TEST(BrrWear, HasItsThreeBranchesAndItsJump) {

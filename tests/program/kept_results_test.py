@@ -119,7 +119,7 @@ class Edited(FromOutside):
         self.assertIn(old, text)
         (self.out / file).write_text(text.replace(old, new, 1))
 
-    def told(self, command, *words, code=0):
+    def messages_of(self, command, *words, code=0):
         rc, _, err = railstrata(command, *words)
         self.assertEqual(rc, code, err)
         return err
@@ -129,27 +129,27 @@ class Edited(FromOutside):
         return {c["name"]: c for c in json.loads(page.split('id="data">', 1)[1].split("</script>", 1)[0])["checks"]}
 
     def test_as_it_is_written_nothing_is_said(self):
-        err = self.told("report", self.out)
+        err = self.messages_of("report", self.out)
         self.assertNotIn("warning", err)
         self.assertRegex(err, r"info: verdict of the page: all \d+ checks hold\n")
         self.assertNotIn("case_edited", self.checks())
 
     def test_a_case_changed_after_the_run_fails_on_page_and_terminal(self):
         self.edit("case.toml", 'speed = "', 'speed = "1')
-        err = self.told("report", self.out, code=1)
+        err = self.messages_of("report", self.out, code=1)
         self.assertIn(f"warning: {self.out}: case.toml was changed after the run", err)
         self.assertRegex(err, r"warning: verdict of the page: 1 of \d+ checks fails: Case unchanged since the run\n")
         self.assertFalse(self.checks()["case_edited"]["ok"])
         self.assertIn("case.toml was changed after the run",
-                      self.told("compare", self.out, self.out, "--out", self.folder / "c"))
+                      self.messages_of("compare", self.out, self.out, "--out", self.folder / "c"))
 
     def doubted(self, text):
-        err = self.told("report", self.out, code=1)
+        err = self.messages_of("report", self.out, code=1)
         self.assertIn(f"warning: {self.out}: {text}", err)
         self.assertRegex(err, r"warning: verdict of the page: \d of \d+ checks fails?: ")
         self.assertFalse(self.checks()["summary_contradicted"]["ok"])
-        self.assertIn(f"warning: {self.out}: {text}", self.told("compare", self.out, self.out, "--force", "--out",
-                                                                self.folder / "c"))
+        self.assertIn(f"warning: {self.out}: {text}",
+                      self.messages_of("compare", self.out, self.out, "--force", "--out", self.folder / "c"))
 
     def test_a_check_that_is_said_to_hold_beyond_its_limit_fails(self):
         summary = json.loads((self.out / "summary.json").read_text())
@@ -179,7 +179,7 @@ class Edited(FromOutside):
     def test_another_version_is_named(self):
         version = json.loads((self.out / "provenance.json").read_text())["version"]
         self.edit("provenance.json", f'"version": "{version}"', '"version": "9.7.3"')
-        err = self.told("report", self.out)
+        err = self.messages_of("report", self.out)
         self.assertIn(f"warning: {self.out}: written by RailStrata 9.7.3, newer than this one ({version})", err)
         self.assertFalse(self.checks()["other_version"]["judged"])
 

@@ -289,9 +289,9 @@ TEST(TransientCase, ForcesBeyondAFilmAreToldBeforeTheFirstStepWithTheirRow) {
     return "";
   };
   EXPECT_EQ(message("1 kN"), "");
-  const std::string told = message("2 kN");
-  EXPECT_NE(told.find("a.toml:"), std::string::npos) << told;
-  EXPECT_NE(told.find("third_body.yield_shear: row 2 of the transient wants 2 kN"), std::string::npos) << told;
+  const std::string text = message("2 kN");
+  EXPECT_NE(text.find("a.toml:"), std::string::npos) << text;
+  EXPECT_NE(text.find("third_body.yield_shear: row 2 of the transient wants 2 kN"), std::string::npos) << text;
 }
 
 // The load falls to a five-thousandth on the way and comes back: the patch is 0.7 mm wide there.
