@@ -56,7 +56,7 @@ RollingLaw rolling_law(const RollingSystem& sys, const RollingBodies& bodies, do
   return law;
 }
 
-std::string words_of(Fault fault) {
+std::string describe(Fault fault) {
   switch (fault) {
     case Fault::none:
       return {};
@@ -181,7 +181,7 @@ std::span<const StepRecord> Engine::take(int steps, bool energies) {
   if (const auto fault = static_cast<Fault>(records.back().fault); fault != Fault::none)
     throw NumericalError(
         fmt::format("run.device: {} (t = {:.4g} ms)\n    run.device = \"cpu\" goes on from the checkpoint",
-                    words_of(fault), 1e3 * records.back().time));
+                    describe(fault), 1e3 * records.back().time));
   return records;
 }
 

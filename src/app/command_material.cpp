@@ -92,7 +92,7 @@ std::string cycles_text(const MaterialRun& run) {
 }
 
 void warn_of_large_strain(const MaterialRun& run) {
-  if (const std::string words = strain_words(largest_plastic_strain(run)); !words.empty()) spdlog::warn("{}", words);
+  if (const std::string words = strain_warning(largest_plastic_strain(run)); !words.empty()) spdlog::warn("{}", words);
 }
 
 nlohmann::ordered_json as_json(const MaterialRun& run, const fs::path& out, const std::vector<std::string>& notes) {

@@ -25,7 +25,7 @@ void require_resume_alone(const CommandOptions& options) {
 }
 
 void report_residual(const RunResidual& residual) {
-  spdlog::info("{}", words_of(residual));
+  spdlog::info("{}", describe(residual));
   if (const std::string doubt = doubt_of(residual); !doubt.empty()) spdlog::warn("{}", doubt);
 }
 

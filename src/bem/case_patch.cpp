@@ -39,7 +39,7 @@ void keep_to_room(const PatchGrid& g, const PatchRoom& room, Plane& gap) {
       for (int i = 0; i < g.nx; ++i) gap[g.index(i, j)] = ProfileGap::kNoSurface;
 }
 
-std::string in_words(const NormalTarget& target) {
+std::string describe(const NormalTarget& target) {
   return target.load ? fmt::format("load of {:.1f} kN", 1e-3 * *target.load)
                      : fmt::format("approach of {:.3g} mm", 1e3 * *target.approach);
 }
@@ -67,7 +67,7 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
     const int half_x = edge.x ? std::min(g.nx * 7 / 10 + 1, most) : g.nx / 2,
               half_y = edge.y ? std::min(g.ny * 7 / 10 + 1, most) : g.ny / 2;
     if (half_x == g.nx / 2 && half_y == g.ny / 2)
-      throw CaseError(fmt::format("the {} flattens the whole potential contact area of {:.0f} mm", in_words(target),
+      throw CaseError(fmt::format("the {} flattens the whole potential contact area of {:.0f} mm", describe(target),
                                   1e3 * options.largest_patch),
                       "check the load, the profiles and the moduli; half-space theory no longer applies",
                       target.load ? "vehicle.wheel_load" : "vehicle.approach");

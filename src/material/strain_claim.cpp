@@ -11,7 +11,7 @@ namespace railstrata {
 
 double equivalent_strain(const double* plastic) { return std::sqrt(2.0 / 3 * double_contraction(plastic, plastic)); }
 
-std::string strain_words(double largest) {
+std::string strain_warning(double largest) {
   if (largest > kNoClaimStrain)
     return fmt::format("No claim of accuracy: plastic strain reaches {:.1f} %, and the law is one of small strains.",
                        kToPercent * largest);

@@ -12,6 +12,6 @@ inline constexpr double kLargeStrain = 0.05, kNoClaimStrain = 0.1;
 double equivalent_strain(const double* plastic);
 
 /// One sentence on the largest equivalent plastic strain that something has come to; empty up to kLargeStrain.
-std::string strain_words(double largest);
+std::string strain_warning(double largest);
 
 }  // namespace railstrata

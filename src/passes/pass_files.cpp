@@ -236,7 +236,7 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   Json out{{"title", spec.title}, {"method", "stationary"}, {"passes", series.state.passes}};
   out["verdict"] = answer.verdict;
   out["law"] = answer.law;
-  out["class"] = words(verdict.kind);
+  out["class"] = class_text(verdict.kind);
   out["passes_per_cycle"] = series.cycle;
   out["net_strain_per_pass"] = verdict.rate;
   out["trend"] = verdict.trend;

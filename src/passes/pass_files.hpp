@@ -55,7 +55,7 @@ void write_residual(const std::filesystem::path& folder, const std::vector<std::
 
 /// Contents of passes.json besides the series itself.
 struct PassAnswer {
-  std::string verdict, law;         ///< sentences (passes/pass_words.hpp)
+  std::string verdict, law;         ///< sentences (passes/pass_text.hpp)
   ShakedownSummary shakedown;       ///< of the elastic stress of the first of the tractions; empty: none
   std::optional<double> ductility;  ///< equivalent strain that the material bears
 };

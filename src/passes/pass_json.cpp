@@ -23,7 +23,7 @@ Json points_json(const std::vector<std::vector<PassStrain>>& points, PassClass w
   Json out;
   for (const PassClass kind :
        {PassClass::elastic_shakedown, PassClass::plastic_shakedown, PassClass::ratchetting, PassClass::transient})
-    out[words(kind)] =
+    out[class_text(kind)] =
         std::count_if(points.begin(), points.end(), [&](const auto& p) { return class_of_point(p, whole) == kind; });
   return out;
 }

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "passes/pass_words.hpp"
+#include "passes/pass_text.hpp"
 #include "passes/rail_passes.hpp"
 #include "record/csv.hpp"
 
@@ -33,7 +33,7 @@ void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes);
 /// These in a state: kPointPasses times two numbers, NaN where there are fewer. Read: those of a row's from `first` on.
 Columns<std::vector<PassStrain>> remembered_columns();
 std::vector<PassStrain> remembered_passes(const CsvTable& state, std::size_t row, std::size_t first);
-/// Progress for passes/pass_words.hpp; strains: of every pass, the last one that of the row.
+/// Progress for passes/pass_text.hpp; strains: of every pass, the last one that of the row.
 PassProgress progress_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last);
 
 }  // namespace railstrata

@@ -167,13 +167,13 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   const PassVerdict verdict = classify(series.strains);
   nlohmann::ordered_json out{{"title", spec.title},
                              {"passes", series.passes},
-                             {"class", words(verdict.kind)},
+                             {"class", class_text(verdict.kind)},
                              {"net_strain_per_pass", verdict.rate},
                              {"trend", verdict.trend}};
   out["last_pass"] = last_pass_json(series.table);
   out["points"] = points_json(series.points, verdict.kind);
   out["engine"] = "fem";
-  out["verdict"] = pass_words(progress_of(verdict, series.strains, pass.row));
+  out["verdict"] = describe(progress_of(verdict, series.strains, pass.row));
   if (spec.passes.ductility)
     out["ductility"] = ductility_json(*spec.passes.ductility, largest_plastic_norm(pass.points), series.strains, 1);
   out["zones"] = zones_json(spec, zones_of(spec));

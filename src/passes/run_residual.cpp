@@ -80,7 +80,7 @@ RunResidual run_residual(const RollingSystem& system, const RollingState& end) {
   return out;
 }
 
-std::string words_of(const RunResidual& residual) {
+std::string describe(const RunResidual& residual) {
   if (!residual.none.empty()) return fmt::format("residual stress not available: {}", residual.none);
   const PassRow& row = residual.pass.row;
   return fmt::format(

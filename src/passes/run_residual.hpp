@@ -37,7 +37,7 @@ struct ResidualNumber {
 std::span<const ResidualNumber> residual_numbers();
 
 /// One line for the screen: the most compressive stresses, or the reason why there are none.
-std::string words_of(const RunResidual& residual);
+std::string describe(const RunResidual& residual);
 /// A warning where the stations are not steady; else empty.
 std::string doubt_of(const RunResidual& residual);
 

@@ -41,7 +41,7 @@ TransientRow transient_row(const TransientState& state) {
   return row;
 }
 
-std::string state_words(const CaseSpec& spec, const TransientState& state) {
+std::string state_text(const CaseSpec& spec, const TransientState& state) {
   if (spec.transient.kind == TransientKind::shift)
     return fmt::format("after {} of {} increments of a shift", state.step, state.steps);
   return fmt::format("after {:.6g} mm of rolling from {}", 1e3 * state.distance,

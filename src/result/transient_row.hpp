@@ -31,6 +31,6 @@ struct TransientRow : TransientLoads, TransientMotion {
 TransientRow transient_row(const TransientState& state);
 
 /// "after 25 mm of rolling from rest".
-std::string state_words(const CaseSpec& spec, const TransientState& state);
+std::string state_text(const CaseSpec& spec, const TransientState& state);
 
 }  // namespace railstrata

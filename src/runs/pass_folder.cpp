@@ -8,9 +8,9 @@
 #include "core/stop_request.hpp"
 #include "judge/check_limits.hpp"
 #include "passes/pass_plan.hpp"
+#include "passes/pass_text.hpp"
 #include "passes/pass_way.hpp"
 #include "passes/pass_way_files.hpp"
-#include "passes/pass_words.hpp"
 #include "result/result_table.hpp"
 #include "runs/pass_job.hpp"
 #include "runs/solve_half_space.hpp"
@@ -197,8 +197,8 @@ class SteadyPasses : public PassJob {
   void write_results() {
     const PassWay way = pass_way(rail_, body_, strain_, *last_, series_.state);
     const std::size_t governing = way.points.front().point / static_cast<std::size_t>(rail_.grid.ny);
-    answer_.verdict = verdict_ = pass_words(progress_of(verdict_of(series_), series_.strains, last_row_));
-    answer_.law = law_words(rail_.rows[governing].law);
+    answer_.verdict = verdict_ = describe(progress_of(verdict_of(series_), series_.strains, last_row_));
+    answer_.law = describe_law(rail_.rows[governing].law);
     answer_.ductility = loaded_.spec.passes.ductility;
     write_residual(folder(), origin(), rail_, series_, *last_);
     write_way(folder(), origin(), rail_, way);

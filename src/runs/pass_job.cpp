@@ -46,7 +46,7 @@ void PassJob::report(const PassRow& row, const std::string& more) const {
 }
 
 void PassJob::warn_of_large_strain(double strain) const {
-  if (const std::string words = strain_words(strain); !words.empty()) control_.warn("{}", words);
+  if (const std::string words = strain_warning(strain); !words.empty()) control_.warn("{}", words);
 }
 
 }  // namespace railstrata

@@ -108,7 +108,7 @@ class RolledPassJob : public PassJob {
 
   void finish() override {
     const PassVerdict verdict = classify(series_.strains);
-    verdict_ = words(verdict.kind);
+    verdict_ = class_text(verdict.kind);
     control_.info("after {}: {}; net strain {:.3g} per pass; results are in {}", passes_text(passes()), verdict_,
                   verdict.rate, folder().string());
   }

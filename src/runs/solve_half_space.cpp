@@ -18,7 +18,7 @@ void summarise(const CaseSpec& spec, const TransientState& last, HalfSpaceSoluti
   s = bem_contact_summary(case_of_moment(spec, last.moment), out.result);
   judge_coarsest_state(out.coarsest, s);
   s.warnings = bem_warnings(s, spec, out.result, out.coarsest);
-  s.state = state_words(spec, last);
+  s.state = state_text(spec, last);
   s.position = last.distance;
   s.run.steps = last.step;
   ContactSummary& c = s.contact;

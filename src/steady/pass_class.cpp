@@ -94,7 +94,7 @@ DuctilityReach passes_to_ductility(double ductility, double reached, const std::
   return out;
 }
 
-std::string words(PassClass kind) {
+std::string class_text(PassClass kind) {
   switch (kind) {
     case PassClass::elastic_shakedown:
       return "elastic shakedown";

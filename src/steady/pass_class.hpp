@@ -51,6 +51,6 @@ struct DuctilityReach {
 DuctilityReach passes_to_ductility(double ductility, double reached, const std::vector<PassStrain>& passes);
 
 /// "elastic shakedown", ...; of transient "transient: no claim yet".
-std::string words(PassClass kind);
+std::string class_text(PassClass kind);
 
 }  // namespace railstrata

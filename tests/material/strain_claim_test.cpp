@@ -12,11 +12,11 @@ TEST(StrainClaim, EquivalentStrainOfTensionIsTheStrainAndOfShearTheTensorOneByRo
 }
 
 TEST(StrainClaim, WarnsAboveFivePercentAndClaimsNothingAboveTen) {
-  EXPECT_EQ(strain_words(0), "");
-  EXPECT_EQ(strain_words(0.0499), "");
-  EXPECT_NE(strain_words(0.0501).find("reaches 5.0 %"), std::string::npos);
-  EXPECT_EQ(strain_words(0.0999).find("No claim of accuracy"), std::string::npos);
-  EXPECT_EQ(strain_words(0.1001).find("No claim of accuracy: plastic strain reaches 10.0 %"), 0u);
+  EXPECT_EQ(strain_warning(0), "");
+  EXPECT_EQ(strain_warning(0.0499), "");
+  EXPECT_NE(strain_warning(0.0501).find("reaches 5.0 %"), std::string::npos);
+  EXPECT_EQ(strain_warning(0.0999).find("No claim of accuracy"), std::string::npos);
+  EXPECT_EQ(strain_warning(0.1001).find("No claim of accuracy: plastic strain reaches 10.0 %"), 0u);
 }
 
 }  // namespace

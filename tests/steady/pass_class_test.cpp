@@ -49,7 +49,7 @@ TEST(PassClass, NoClaimWhileItStillChangesOrAfterFewPasses) {
                 .kind,
             PassClass::transient);
   EXPECT_EQ(classify({}).kind, PassClass::transient);
-  EXPECT_EQ(words(PassClass::transient), "transient: no claim yet");
+  EXPECT_EQ(class_text(PassClass::transient), "transient: no claim yet");
 }
 
 TEST(PassClass, TheDuctilityIsUsedUpAtTheRateOfTheRatchetting) {

@@ -1,5 +1,5 @@
 #pragma once
-// The verdict of a series of passes in words, and the statement of the law behind it.
+// The verdict of a series of passes as a sentence, and the statement of the law behind it.
 #include <string>
 
 #include "material/plastic.hpp"
@@ -17,9 +17,9 @@ struct PassProgress {
 
 /// One sentence: "Ratchets: 3.1e-04 net strain per pass at 2.1 mm depth, the same from pass to pass."; a second one
 /// where the strain is no longer small.
-std::string pass_words(const PassProgress& standing);
+std::string describe(const PassProgress& standing);
 
 /// Long-term behaviour that a law allows, for any course of the passes so far: "perfect plasticity: …".
-std::string law_words(const PlasticParameters<double>& law);
+std::string describe_law(const PlasticParameters<double>& law);
 
 }  // namespace railstrata

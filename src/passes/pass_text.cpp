@@ -1,4 +1,4 @@
-#include "passes/pass_words.hpp"
+#include "passes/pass_text.hpp"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ constexpr double kConstant = 0.05;  // of a trend
 /// " as the pass to the power of -0.34"
 std::string trend_text(const PassVerdict& v) { return fmt::format(" as the pass to the power of -{:.2f}", v.trend); }
 
-std::string class_words(const PassProgress& s) {
+std::string class_sentence(const PassProgress& s) {
   const std::string where = fmt::format("{:.1f} mm depth", 1e3 * s.last.net_depth);
   switch (s.verdict.kind) {
     case PassClass::elastic_shakedown:
@@ -47,12 +47,12 @@ std::string class_words(const PassProgress& s) {
 
 }  // namespace
 
-std::string pass_words(const PassProgress& s) {
-  const std::string claim = strain_words(s.last.strain);
-  return claim.empty() ? class_words(s) : class_words(s) + " " + claim;
+std::string describe(const PassProgress& s) {
+  const std::string claim = strain_warning(s.last.strain);
+  return claim.empty() ? class_sentence(s) : class_sentence(s) + " " + claim;
 }
 
-std::string law_words(const PlasticParameters<double>& law) {
+std::string describe_law(const PlasticParameters<double>& law) {
   if (!std::isfinite(law.yield)) return "elastic: it does not yield";
   bool recalls = false, linear = false;
   for (int k = 0; k < kMostBackstresses; ++k)

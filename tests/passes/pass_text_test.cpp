@@ -1,4 +1,4 @@
-#include "passes/pass_words.hpp"
+#include "passes/pass_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,49 +18,49 @@ PassProgress standing(PassClass kind) {
   return s;
 }
 
-TEST(PassWords, EachClassIsOneSentenceWithItsNumberAndPlace) {
+TEST(PassText, EachClassIsOneSentenceWithItsNumberAndPlace) {
   PassProgress constant = standing(PassClass::ratchetting);
   EXPECT_EQ(
-      pass_words(constant),
+      describe(constant),
       "Ratchets: 3.1e-4 net strain per pass at 2.1 mm depth, within 2 % the same from pass to pass, but falling as "
       "the pass to the power of -0.50.");
   constant.verdict.trend = 0.01;
-  EXPECT_EQ(pass_words(constant), "Ratchets: 3.1e-4 net strain per pass at 2.1 mm depth, the same from pass to pass.");
-  EXPECT_EQ(pass_words(standing(PassClass::elastic_shakedown)), "Shakes down: from pass 5 on nothing flows.");
-  EXPECT_EQ(pass_words(standing(PassClass::plastic_shakedown)),
+  EXPECT_EQ(describe(constant), "Ratchets: 3.1e-4 net strain per pass at 2.1 mm depth, the same from pass to pass.");
+  EXPECT_EQ(describe(standing(PassClass::elastic_shakedown)), "Shakes down: from pass 5 on nothing flows.");
+  EXPECT_EQ(describe(standing(PassClass::plastic_shakedown)),
             "Closed cycles (plastic shakedown): 2.8e-3 plastic strain in every pass, none of it stays.");
-  EXPECT_EQ(pass_words(standing(PassClass::transient)),
+  EXPECT_EQ(describe(standing(PassClass::transient)),
             "No claim yet: 3.1e-4 net strain in pass 12 at 2.1 mm depth, falling as the pass to the power of -0.50; "
             "more passes will show.");
   PassProgress strong = standing(PassClass::elastic_shakedown);
   strong.ever_yielded = false;
-  EXPECT_EQ(pass_words(strong), "Stays elastic: no point has yielded.");
+  EXPECT_EQ(describe(strong), "Stays elastic: no point has yielded.");
 }
 
-TEST(PassWords, LargeStrainIsSaidAfterTheClass) {
+TEST(PassText, LargeStrainFollowsTheClass) {
   PassProgress s = standing(PassClass::elastic_shakedown);
   s.last.strain = 0.06;
-  EXPECT_EQ(pass_words(s),
+  EXPECT_EQ(describe(s),
             "Shakes down: from pass 5 on nothing flows. Plastic strain reaches 6.0 %: the law is one of small strains, "
             "numbers are some percent off.");
   s.last.strain = 0.12;
-  EXPECT_EQ(pass_words(s),
+  EXPECT_EQ(describe(s),
             "Shakes down: from pass 5 on nothing flows. No claim of accuracy: plastic strain reaches 12.0 %, and the "
             "law is one of small strains.");
 }
 
-TEST(PassWords, ALawSaysWhatItAllows) {
+TEST(PassText, ALawIsDescribedByWhatItAllows) {
   PlasticParameters<double> law{80e9, 300e6, 0, 0, {}, {}};
-  EXPECT_NE(law_words(law).find("perfect plasticity"), std::string::npos);
+  EXPECT_NE(describe_law(law).find("perfect plasticity"), std::string::npos);
   law.saturation = 50e6;
-  EXPECT_NE(law_words(law).find("isotropic"), std::string::npos);
+  EXPECT_NE(describe_law(law).find("isotropic"), std::string::npos);
   law.modulus[0] = 60e9;
   law.recall[0] = 250;
-  EXPECT_NE(law_words(law).find("Armstrong"), std::string::npos);
+  EXPECT_NE(describe_law(law).find("Armstrong"), std::string::npos);
   law.modulus[1] = 1e9;  // without recall: its backstress grows without limit
-  EXPECT_NE(law_words(law).find("linear kinematic"), std::string::npos);
+  EXPECT_NE(describe_law(law).find("linear kinematic"), std::string::npos);
   law.yield = std::numeric_limits<double>::infinity();
-  EXPECT_NE(law_words(law).find("elastic"), std::string::npos);
+  EXPECT_NE(describe_law(law).find("elastic"), std::string::npos);
 }
 
 }  // namespace
