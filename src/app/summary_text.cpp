@@ -98,7 +98,7 @@ std::string interface_text(const InterfaceSummary& i) {
                                 printable(i.above), printable(i.below), 1e3 * i.depth, mpa(i.tension), mpa(i.shear),
                                 mpa(i.shear_range));
   if (std::isfinite(i.delamination)) out += fmt::format(", delamination index {:.2f}", i.delamination);
-  if (i.delamination >= 1) out += fmt::format(": {}", words_of(Verdict::interface_shears).words);
+  if (i.delamination >= 1) out += fmt::format(": {}", verdict_text(Verdict::interface_shears));
   return out + "\n";
 }
 
@@ -111,7 +111,7 @@ std::string brittle_text(const BrittleSummary& z) {
   else if (std::isfinite(z.critical_flaw))
     out += fmt::format(", opens flaws deeper than {:.3f} mm", 1e3 * z.critical_flaw);
   if (z.share_of_tensile >= 1 && std::isfinite(z.thickness))
-    out += fmt::format(": {}", words_of(Verdict::layer_cracks).words);
+    out += fmt::format(": {}", verdict_text(Verdict::layer_cracks));
   return out + "\n";
 }
 
@@ -136,7 +136,7 @@ std::string shakedown_text(const Summary& s) {
     for (const ZoneShakedown& z : b.zones)
       out += fmt::format(
           "  {}{}; load factors: first yield {}, shakedown {} to {}, kinematic {}; decided {:.2f} mm deep\n",
-          padded(z.zone == b.body ? b.body : b.body + ", " + z.zone, 24), words_of(verdict_of(z.factors)).words,
+          padded(z.zone == b.body ? b.body : b.body + ", " + z.zone, 24), verdict_text(verdict_of(z.factors)),
           factor_text(z.factors.first_yield), factor_text(z.factors.wandering), factor_text(z.factors.upper),
           factor_text(z.factors.kinematic), 1e3 * z.depth);
     for (const std::string& note : b.notes) out += fmt::format("  {}\n", printable(note));
@@ -152,8 +152,8 @@ std::string lasts_text(const Summary& s) {
   if (failing == std::vector{Verdict::one_track})
     return fmt::format("  {}in one track only: wheels that wander sideways make it yield again and again\n",
                        padded("does it last?", 24));
-  for (const Verdict v : failing) why += fmt::format("{}{}", why.empty() ? "" : "; ", words_of(v).words);
-  const std::string yes = fmt::format("yes: {}", words_of(verdict_of(s.shakedown)).words);
+  for (const Verdict v : failing) why += fmt::format("{}{}", why.empty() ? "" : "; ", verdict_text(v));
+  const std::string yes = fmt::format("yes: {}", verdict_text(verdict_of(s.shakedown)));
   return fmt::format("  {}{}\n", padded("does it last?", 24), why.empty() ? yes : "no: " + why);
 }
 

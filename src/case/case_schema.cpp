@@ -41,7 +41,7 @@ struct TypeSchema {
   }
   Json operator()(const bool*) const { return {{"type", "boolean"}}; }
   Json operator()(const std::string*) const { return {{"type", "string"}}; }
-  Json operator()(const ChoiceSlot&) const { return {{"type", "string"}, {"enum", words_of(option)}}; }
+  Json operator()(const ChoiceSlot&) const { return {{"type", "string"}, {"enum", choices_of(option)}}; }
   Json operator()(const RowsSlot&) const {
     if (option.form == RowForm::one_named) return named_schema();
     if (option.form == RowForm::named) return {{"type", "array"}, {"items", named_schema()}};
@@ -65,7 +65,7 @@ struct TypeSchema {
 
 std::string allowed(const Option& option) {
   return option.choices.empty() ? describe(option.range, option.dimension)
-                                : fmt::format("`{}`", fmt::join(words_of(option), "`, `"));
+                                : fmt::format("`{}`", fmt::join(choices_of(option), "`, `"));
 }
 
 /// A layer's modulus has no default: it must be given.
@@ -156,11 +156,11 @@ CaseKey key_of(const OptionTable& table, const Option& option, CaseSpec& spec) {
   out.doc = option.doc;
   out.preset = default_text(table, option, spec);
   out.allowed = option.choices.empty() ? describe(option.range, option.dimension)
-                                       : fmt::format("{}", fmt::join(words_of(option), ", "));
+                                       : fmt::format("{}", fmt::join(choices_of(option), ", "));
   const Slot slot = option.slot(spec, 0);
   if (std::holds_alternative<bool*>(slot)) out.values = {"true", "false"};
   if (std::holds_alternative<std::string*>(slot)) out.values = known_names(option.key);
-  if (!option.choices.empty()) out.values = words_of(option);
+  if (!option.choices.empty()) out.values = choices_of(option);
   if (std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot))
     out.units = units_of(option.dimension);
   return out;

@@ -73,7 +73,7 @@ Slot any_slot(const Option& option) {
   return option.slot(spec, 0);
 }
 
-std::vector<std::string> words_of(const Option& option) {
+std::vector<std::string> choices_of(const Option& option) {
   std::vector<std::string> out;
   for (const Choice& c : option.choices) out.emplace_back(c.word);
   return out;

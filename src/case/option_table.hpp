@@ -185,8 +185,8 @@ struct OptionTable {
   std::vector<std::vector<std::string_view>> rivals{};
 };
 
-/// The words of an option with choices, in the table's order.
-std::vector<std::string> words_of(const Option& option);
+/// The allowed words of an option with choices, in the table's order.
+std::vector<std::string> choices_of(const Option& option);
 
 /// All tables, in the order of the reference page and of a resolved case.
 const std::vector<OptionTable>& case_tables();

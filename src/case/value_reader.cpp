@@ -40,7 +40,7 @@ std::string wanted(const Option& option) {
     std::string operator()(const bool*) const { return "true or false"; }
     std::string operator()(const std::string*) const { return "a text in quotes"; }
     std::string operator()(const ChoiceSlot&) const {
-      return fmt::format("one of \"{}\"", fmt::join(words_of(option), "\", \""));
+      return fmt::format("one of \"{}\"", fmt::join(choices_of(option), "\", \""));
     }
     std::string operator()(const std::vector<double>*) const {
       return fmt::format("a list, e.g. {}", example_of(option));
@@ -112,7 +112,7 @@ class ValueReader {
     if (!value) return refuse_type(source_, w);
     for (const Choice& c : w.option.choices)
       if (c.word == *value) return target.set(c.value);
-    const std::string near = nearest_word(*value, words_of(w.option));
+    const std::string near = nearest_word(*value, choices_of(w.option));
     source_.complain(w.key, fmt::format("{} = \"{}\": must be {}", w.key, *value, wanted(w.option)),
                      near.empty() ? fmt::format("write {} = \"{}\"", w.option.key, w.option.choices.front().word)
                                   : fmt::format("did you mean \"{}\"?", near));

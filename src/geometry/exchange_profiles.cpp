@@ -44,7 +44,7 @@ std::optional<Vec2> point_of(const std::vector<std::string>& words) {
 }
 
 void add_point(NumberTable& table, std::string_view line, int number, const std::string& name) {
-  const std::vector<std::string> words = words_of(line);
+  const std::vector<std::string> words = split_words(line);
   const std::optional<Vec2> p = point_of(words);
   if (!p) refuse(fmt::format("'{}' is not two finite numbers", line), "remove or repair the point", name, number);
   table.rows.push_back(*p);
@@ -192,7 +192,7 @@ NumberTable parse_miniprof(std::string_view text, const std::string& name) {
       return;
     }
     if (line.front() == '"' || line.front() == '#') {
-      switched_off += line.front() == '"' && point_of(words_of(line.substr(1))) ? 1 : 0;
+      switched_off += line.front() == '"' && point_of(split_words(line.substr(1))) ? 1 : 0;
       return;
     }
     if (const std::size_t equals = line.find('='); header && equals != std::string_view::npos) {
@@ -204,7 +204,7 @@ NumberTable parse_miniprof(std::string_view text, const std::string& name) {
                "export the profile with the columns X and Y first", name, number);
       return;
     }
-    if (header && (keys || !point_of(words_of(line)))) return;
+    if (header && (keys || !point_of(split_words(line)))) return;
     header = false;
     add_point(table, line, number, name);
   });

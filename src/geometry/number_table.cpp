@@ -76,7 +76,7 @@ bool commas_are_decimal(const std::vector<Line>& lines) {
 
 }  // namespace
 
-std::vector<std::string> words_of(std::string_view line) {
+std::vector<std::string> split_words(std::string_view line) {
   std::vector<std::string> out;
   constexpr const char* separators = " \t\r\f\v;,";
   for (std::size_t begin = line.find_first_not_of(separators); begin != std::string_view::npos;) {
@@ -103,7 +103,7 @@ NumberTable parse_number_table(std::string_view all, const std::string& name) {
     const std::string where = fmt::format("{}:{}", name, line.number);
     std::string text = line.text;
     if (table.decimal_commas) std::replace(text.begin(), text.end(), ',', '.');
-    const std::vector<std::string> words = words_of(text);
+    const std::vector<std::string> words = split_words(text);
     double y = 0, z = 0;
     const auto read = [&](std::size_t column, double& value) {
       const std::optional<double> number = column < words.size() ? number_of(words[column]) : std::nullopt;

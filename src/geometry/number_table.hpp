@@ -19,7 +19,7 @@ struct NumberTable {
 };
 
 /// The words of a line between blanks, commas and semicolons.
-std::vector<std::string> words_of(std::string_view line);
+std::vector<std::string> split_words(std::string_view line);
 /// A whole word as a number; none if it is not one.
 std::optional<double> number_of(std::string_view word);
 

@@ -35,13 +35,13 @@ Json governing_json(const BodyShakedown& b) {
 Json body_json(const BodyShakedown& b) {
   Json out{{"body", b.body},
            {"factors", factors_json(b.factors)},
-           {"verdict", words_of(verdict_of(b.factors)).words},
+           {"verdict", verdict_text(verdict_of(b.factors))},
            {"governing", governing_json(b)}};
   for (const ZoneShakedown& z : b.zones)
     out["zones"].push_back({{"zone", z.zone},
                             {"depth_m", json_number(z.depth)},
                             {"factors", factors_json(z.factors)},
-                            {"verdict", words_of(verdict_of(z.factors)).words}});
+                            {"verdict", verdict_text(verdict_of(z.factors))}});
   out["notes"] = b.notes;
   return out;
 }
@@ -157,9 +157,9 @@ Json shakedown_json(const Summary& summary) {
   Json out;
   for (const ResultNumber& n : result_numbers())
     if (n.group == kShakedownGroup) out["factors"][n.key()] = json_number(n.value(summary));
-  out["verdict"] = words_of(verdict_of(summary.shakedown)).words;
+  out["verdict"] = verdict_text(verdict_of(summary.shakedown));
   out["fails_by"] = Json::array();
-  for (const Verdict v : fails_by(summary)) out["fails_by"].push_back(words_of(v).words);
+  for (const Verdict v : fails_by(summary)) out["fails_by"].push_back(verdict_text(v));
   out["governing"] = governing_json(*governing);
   for (const BodyShakedown& b : summary.shakedown.bodies) out["bodies"].push_back(body_json(b));
   return out;

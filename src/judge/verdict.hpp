@@ -1,5 +1,5 @@
 #pragma once
-// Verdict on rail, wheel or layer under repeated rolling, in words: one rule for files, tables, pages and studies.
+// Verdict on rail, wheel or layer under repeated rolling, as a text: one rule for files, tables, pages and studies.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -22,11 +22,11 @@ enum class Verdict {
   interface_shears
 };
 
-struct VerdictWords {
-  std::string_view words, means;
+struct VerdictRow {
+  std::string_view text, means;
   bool lasts;
 };
-inline constexpr std::array<VerdictWords, 8> kVerdicts{
+inline constexpr std::array<VerdictRow, 8> kVerdicts{
     {{"stays elastic", "it never yields", true},
      {"shakes down", "it yields in the first passages and then no more", true},
      {"shakes down in one track",
@@ -39,7 +39,9 @@ inline constexpr std::array<VerdictWords, 8> kVerdicts{
      {"brittle layer cracks", "its largest principal stress reaches its tensile strength", false},
      {"interface shears", "the tractions at a layer's lower side reach the strength of the bond", false}}};
 
-inline const VerdictWords& words_of(Verdict v) { return kVerdicts[static_cast<std::size_t>(v)]; }
+inline const VerdictRow& verdict_row(Verdict v) { return kVerdicts[static_cast<std::size_t>(v)]; }
+/// "shakes down in one track".
+inline std::string_view verdict_text(Verdict v) { return verdict_row(v).text; }
 
 /// The first of first_yield, wandering, single_track, upper and kinematic that is at least 1 decides, in this order. A
 /// single_track that was not computed (NaN) is passed over; another that is NaN means that nothing decides it: no
@@ -63,7 +65,7 @@ inline Verdict verdict_of(const ShakedownSummary& s) {
 /// All that ends it, the load factors first; empty where it lasts. What is NaN is not known and ends nothing.
 inline std::vector<Verdict> fails_by(Verdict by_factors, double share_of_tensile, double delamination) {
   std::vector<Verdict> out;
-  if (!words_of(by_factors).lasts) out.push_back(by_factors);
+  if (!verdict_row(by_factors).lasts) out.push_back(by_factors);
   if (share_of_tensile >= 1) out.push_back(Verdict::layer_cracks);
   if (delamination >= 1) out.push_back(Verdict::interface_shears);
   return out;

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view engine_words(AvailableIn engine) {
+std::string_view engine_word_of(AvailableIn engine) {
   return engine == AvailableIn::both_engines ? "" : engine == AvailableIn::finite_elements ? "fem" : "bem";
 }
 
@@ -56,7 +56,7 @@ Json number_json(const ResultNumber& n) {
           {"shown", n.shown},
           {"comparable", n.comparable},
           {"column", n.column ? Json(n.column_name()) : Json(nullptr)},
-          {"engine", n.engine == AvailableIn::both_engines ? Json(nullptr) : Json(engine_words(n.engine))},
+          {"engine", n.engine == AvailableIn::both_engines ? Json(nullptr) : Json(engine_word_of(n.engine))},
           {"doc", n.doc},
           {"round_off", round_off_json(n.round_off)},
           {"of_all_patches", n.of_all_patches}};
@@ -98,7 +98,7 @@ std::string numbers_markdown(std::string_view group) {
   for (const ResultNumber& n : result_numbers())
     if (n.group == group)
       out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", n.key(), n.unit.si(),
-                         n.column ? ticked(n.column_name()) : "", engine_words(n.engine), cell(n.name), cell(n.doc));
+                         n.column ? ticked(n.column_name()) : "", engine_word_of(n.engine), cell(n.name), cell(n.doc));
   return out;
 }
 
@@ -230,8 +230,8 @@ Json results_reference_json() {
   for (const ResidualNumber& n : residual_numbers())
     out["residual"].push_back({{"key", n.key()}, {"unit", unit_json(n.unit)}, {"doc", n.doc}});
   out["verdicts"] = Json::array();
-  for (const VerdictWords& v : kVerdicts)
-    out["verdicts"].push_back({{"words", v.words}, {"means", v.means}, {"lasts", v.lasts}});
+  for (const VerdictRow& v : kVerdicts)
+    out["verdicts"].push_back({{"words", v.text}, {"means", v.means}, {"lasts", v.lasts}});
   return out;
 }
 

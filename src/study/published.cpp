@@ -38,11 +38,11 @@ class Reader {
     return otherwise;
   }
   bool flag(const char* key) { return table_[key].value_or(false); }
-  std::vector<std::string> words(const char* key) { return words_of(table_.get(key)); }
+  std::vector<std::string> texts(const char* key) { return texts_of(table_.get(key)); }
   std::map<std::string, std::vector<std::string>> lists(const char* key) {
     std::map<std::string, std::vector<std::string>> out;
     if (const toml::table* t = table_[key].as_table())
-      for (const auto& [name, node] : *t) out[std::string(name.str())] = words_of(&node);
+      for (const auto& [name, node] : *t) out[std::string(name.str())] = texts_of(&node);
     return out;
   }
   void choice(const char* key, const std::string& value, const std::vector<std::string>& choices) {
@@ -53,7 +53,7 @@ class Reader {
   }
 
  private:
-  static std::vector<std::string> words_of(const toml::node* n) {
+  static std::vector<std::string> texts_of(const toml::node* n) {
     std::vector<std::string> out;
     if (!n || !n->is_array()) return out;
     for (const toml::node& item : *n->as_array()) {
@@ -109,7 +109,7 @@ Published parse_published(const std::string& text, const std::filesystem::path& 
     n.within = r.number("within", 0, n.bound.empty());
     n.factor = r.number("factor", 1);
     n.engines = r.flag("engines");
-    n.only = r.words("only");
+    n.only = r.texts("only");
     if (!n.bound.empty()) r.choice("bound", n.bound, {"at most", "at least"});
     out.numbers.push_back(std::move(n));
   }
@@ -128,7 +128,7 @@ Published parse_published(const std::string& text, const std::filesystem::path& 
     c.given = r.text("given");
     c.factor = r.number("factor", 1);
     c.limit = r.number("limit", 0);
-    c.groups = r.words("groups");
+    c.groups = r.texts("groups");
     c.where = r.lists("where");
     r.choice("kind", c.kind, {"rises", "falls", "falls_then_rises", "above", "below"});
     out.claims.push_back(std::move(c));

@@ -126,7 +126,7 @@ class StudyReader {
     if (f.kind == "trend" && f.x.empty())
       source_.complain_at(place_of(t), fmt::format("figure \"{}\" is a trend and has no x", f.id),
                           "name the key along its axis: x = \"layer.0.thickness\"");
-    f.groups = words(t, "groups");
+    f.groups = texts(t, "groups");
     for (const std::string& g : f.groups)
       if (!names_.contains(g))
         source_.complain_at(place_of(*t.get("groups")), fmt::format("figure \"{}\": there is no group \"{}\"", f.id, g),
@@ -363,7 +363,7 @@ class StudyReader {
     return written;
   }
 
-  std::vector<std::string> words(const toml::table& t, const char* key) {
+  std::vector<std::string> texts(const toml::table& t, const char* key) {
     std::vector<std::string> out;
     const toml::node* node = t.get(key);
     if (!node) return out;
@@ -380,7 +380,7 @@ class StudyReader {
   std::vector<Engine> engines_of(const toml::table& t, const std::vector<Engine>& otherwise) {
     if (!t.contains("engines")) return otherwise;
     std::vector<Engine> out;
-    for (const std::string& word : words(t, "engines"))
+    for (const std::string& word : texts(t, "engines"))
       if (const auto engine = engine_of(word))
         out.push_back(*engine);
       else

@@ -180,9 +180,9 @@ ReportGridCell verdict_cell(const CaseRow& e) {
   f.upper = e.number("shakedown_upper");
   f.kinematic = e.number("shakedown_kinematic");
   if (std::isnan(f.first_yield) && std::isnan(f.wandering)) return {};
-  ReportGridCell cell{std::string(words_of(verdict_of(f)).words), f.wandering, {}};
+  ReportGridCell cell{std::string(verdict_text(verdict_of(f))), f.wandering, {}};
   for (const Verdict v : fails_by(verdict_of(f), e.number("layers_share_of_tensile"), e.number("layers_delamination")))
-    cell.fails_by.emplace_back(words_of(v).words);
+    cell.fails_by.emplace_back(verdict_text(v));
   if (!cell.fails_by.empty()) cell.verdict = cell.fails_by.front();
   return cell;
 }

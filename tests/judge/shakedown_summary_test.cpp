@@ -137,7 +137,7 @@ TEST(SlidingMap, OfACircularContactMeetsTheNumbersWithAndWithoutFriction) {
 
 TEST(Verdict, TheFirstLevelThatBearsTheLoadDecides) {
   const auto words = [](double yield, double wandering, double track, double upper, double kinematic) {
-    return words_of(verdict_of(ShakedownFactors{yield, wandering, track, upper, kinematic})).words;
+    return verdict_text(verdict_of(ShakedownFactors{yield, wandering, track, upper, kinematic}));
   };
   EXPECT_EQ(words(1.0, 1.2, 1.3, 1.4, 1.5), "stays elastic");
   EXPECT_EQ(words(0.9, 1.0, 1.3, 1.4, 1.5), "shakes down");
