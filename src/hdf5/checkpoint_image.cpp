@@ -22,13 +22,22 @@ using Damage = CheckpointDamage;
 
 constexpr std::size_t kSlowestGrowth = std::size_t{64} << 10, kFastestGrowth = std::size_t{16} << 20;
 
-hid_t checked(hid_t id, const char* what) {
-  if (id < 0) throw Damage{fmt::format("HDF5 cannot {}", what)};
+/// Throws CheckpointDamage where HDF5 has failed in this step of its work.
+hid_t checked(hid_t id, const char* step) {
+  if (id < 0) throw Damage{fmt::format("HDF5 could not {}", step)};
+  return id;
+}
+/// The same of a part of a checkpoint that is read.
+hid_t readable(hid_t id, const char* part) {
+  if (id < 0) throw Damage{fmt::format("{} cannot be read", part)};
   return id;
 }
 
 struct Handle : Hdf5Handle {
-  Handle(hid_t id, Close close, const char* what) : Hdf5Handle(checked(id, what), close) {}
+  Handle(hid_t id, Close close, const char* step) : Hdf5Handle(checked(id, step), close) {}
+};
+struct PartHandle : Hdf5Handle {
+  PartHandle(hid_t id, Close close, const char* part) : Hdf5Handle(readable(id, part), close) {}
 };
 
 /// A file in memory only, that grows by so many bytes at a time.
@@ -116,19 +125,19 @@ class Reader {
   Reader(hid_t at, std::size_t bytes) : at_(at), bytes_(bytes) {}
 
   void text(const char* name, std::string& value) {
-    const Handle set = open_array(name);
-    const Handle type(H5Dget_type(set), H5Tclose, name), space(H5Dget_space(set), H5Sclose, name);
+    const PartHandle set = open_array(name);
+    const PartHandle type(H5Dget_type(set), H5Tclose, name), space(H5Dget_space(set), H5Sclose, name);
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
         H5Sget_simple_extent_type(space) != H5S_SCALAR || H5Tget_size(type) == 0 || H5Tget_size(type) > bytes_)
       throw Damage{fmt::format("{} is no text", name)};
     require_stored(set, name, H5Tget_size(type));
     std::string raw(H5Tget_size(type), '\0');
-    checked(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()), name);
+    readable(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()), name);
     value = raw.substr(0, raw.find('\0'));
   }
   template <class Array>
   void numbers(const char* name, Array& values) {
-    const Handle set = open_array(name);
+    const PartHandle set = open_array(name);
     values.resize(size_of(set, name, 1)[0]);
     read(set, name, values.data(), values.empty());
   }
@@ -150,7 +159,7 @@ class Reader {
   template <class Describe>
   void group(const std::string& name, Describe&& describe) {
     require_part_of_file(name.c_str());
-    Handle group(H5Gopen2(at_, name.c_str(), H5P_DEFAULT), H5Gclose, name.c_str());
+    PartHandle group(H5Gopen2(at_, name.c_str(), H5P_DEFAULT), H5Gclose, name.c_str());
     Reader inner(group, bytes_);
     describe(inner);
   }
@@ -171,13 +180,13 @@ class Reader {
     if (H5Dget_storage_size(set) != bytes || (bytes > 0 && H5Dget_offset(set) == HADDR_UNDEF))
       throw Damage{fmt::format("{} is not stored in one piece", name)};
   }
-  Handle open_array(const char* name) const {
+  PartHandle open_array(const char* name) const {
     require_part_of_file(name);
-    return Handle(H5Dopen2(at_, name, H5P_DEFAULT), H5Dclose, name);
+    return PartHandle(H5Dopen2(at_, name, H5P_DEFAULT), H5Dclose, name);
   }
   template <class T, class Visit>
   std::pair<std::vector<double>, std::size_t> table(const char* name, T& sample, Visit&& visit) {
-    const Handle set = open_array(name);
+    const PartHandle set = open_array(name);
     const std::vector<hsize_t> size = size_of(set, name, 2);
     std::size_t columns = 0;
     visit(sample, [&](const char*, auto&) { ++columns; });
@@ -197,17 +206,17 @@ class Reader {
     if constexpr (!std::is_floating_point_v<T>) {
       const double end = std::ldexp(1.0, std::numeric_limits<T>::digits), begin = std::is_signed_v<T> ? -end : 0.0;
       if (!(value >= begin && value < end && value == std::floor(value)))
-        throw Damage{fmt::format("{} cannot be {}", name, value)};
+        throw Damage{fmt::format("{} has the value {}, which it cannot have", name, value)};
     }
     return static_cast<T>(value);
   }
   std::vector<hsize_t> size_of(hid_t set, const char* name, int dimensions) const {
-    const Handle space(H5Dget_space(set), H5Sclose, name), type(H5Dget_type(set), H5Tclose, name);
+    const PartHandle space(H5Dget_space(set), H5Sclose, name), type(H5Dget_type(set), H5Tclose, name);
     std::vector<hsize_t> size(dimensions);
     if (H5Sget_simple_extent_ndims(space) != dimensions)
       throw Damage{fmt::format("{} is no array of {} dimensions", name, dimensions)};
     if (H5Tequal(type, H5T_IEEE_F64LE) <= 0) throw Damage{fmt::format("{} is no array of numbers of 8 bytes", name)};
-    checked(H5Sget_simple_extent_dims(space, size.data(), nullptr), name);
+    readable(H5Sget_simple_extent_dims(space, size.data(), nullptr), name);
     hsize_t most = bytes_ / sizeof(double);
     for (const hsize_t n : size) {
       if (n > most) throw Damage{fmt::format("{} is longer than the file", name)};
@@ -217,7 +226,7 @@ class Reader {
     return size;
   }
   static void read(hid_t set, const char* name, double* values, bool empty) {
-    if (!empty) checked(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+    if (!empty) readable(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
   }
   hid_t at_;
   std::size_t bytes_;
@@ -454,19 +463,20 @@ std::string checkpoint_image(const CheckpointOrigin& origin, const RunState& run
   Writer writer(file);
   CheckpointOrigin from = origin;
   describe(writer, from, const_cast<RunState&>(run));  // a Writer changes nothing
-  checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "finish a file");
+  checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "finish a file in memory");
   const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-  checked(size, "finish a file");
+  checked(size, "finish a file in memory");
   std::string bytes(room_before + static_cast<std::size_t>(size), '\0');
-  checked(H5Fget_file_image(file, bytes.data() + room_before, static_cast<std::size_t>(size)), "finish a file");
+  checked(H5Fget_file_image(file, bytes.data() + room_before, static_cast<std::size_t>(size)),
+          "finish a file in memory");
   return bytes;
 }
 
 Checkpoint checkpoint_of_image(std::string_view image) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Handle access = memory_access(kSlowestGrowth);
-  checked(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "read it");  // copied
-  Handle opened(H5Fopen("checkpoint", H5F_ACC_RDONLY, access), H5Fclose, "read it");
+  checked(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "open it");  // copied
+  Handle opened(H5Fopen("checkpoint", H5F_ACC_RDONLY, access), H5Fclose, "open it");
   Checkpoint checkpoint;
   Reader reader(opened, image.size());
   describe(reader, checkpoint.origin, checkpoint.run);

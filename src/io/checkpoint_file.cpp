@@ -73,18 +73,25 @@ std::string read_bytes(const fs::path& file) {
   return std::move(bytes).str();
 }
 
-}  // namespace
-
-std::string sealed_checkpoint(std::string_view image) { return header_of(image).append(image); }
-
-std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run) {
+/// `name`: of the file, in the message.
+std::string bytes_for(const std::string& name, const CheckpointOrigin& origin, const RunState& run) {
   try {
     std::string bytes = checkpoint_image(origin, run, kHeader);
     header_of(std::string_view(bytes).substr(kHeader)).copy(bytes.data(), kHeader);
     return bytes;
   } catch (const Damage& d) {
-    throw EnvironmentError(fmt::format("cannot make a checkpoint: {}", d.what));
+    throw EnvironmentError(
+        fmt::format("cannot make {}: {}", name, d.what),
+        "free memory; `railstrata run --resume` goes on from the checkpoint before it, if there is one");
   }
+}
+
+}  // namespace
+
+std::string sealed_checkpoint(std::string_view image) { return header_of(image).append(image); }
+
+std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run) {
+  return bytes_for("a checkpoint", origin, run);
 }
 
 Checkpoint checkpoint_of(std::string_view bytes, const fs::path& file) {
@@ -101,7 +108,8 @@ fs::path previous_checkpoint_file(const fs::path& folder) { return folder / "che
 
 void write_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, const RunState& run) {
   const GivesMemoryBack at_the_end;
-  write_whole_file(checkpoint_file(folder), checkpoint_bytes(origin, run), previous_checkpoint_file(folder));
+  const fs::path file = checkpoint_file(folder);
+  write_whole_file(file, bytes_for(file.string(), origin, run), previous_checkpoint_file(folder));
 }
 
 FoundCheckpoint read_checkpoint(const fs::path& folder, const std::string& case_sha256) {

@@ -12,7 +12,8 @@ void write_force_table(const std::filesystem::path& file, const ForceTable& tabl
   check(table);
   const std::string image = table_image(table, remarks);
   if (image.empty())
-    throw EnvironmentError(fmt::format("{}: HDF5 cannot make the table", file.string()), "free memory and try again");
+    throw EnvironmentError(fmt::format("cannot make {}: HDF5 could not hold the table in memory", file.string()),
+                           "free memory and start the command again");
   write_whole_file(file, image);
 }
 
