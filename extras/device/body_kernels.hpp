@@ -1,5 +1,5 @@
 #pragma once
-// What a step does to the forces and displacements of whole lines: ties, added mass, the ends of the rail, the bore.
+// Kernels of a step for the forces and displacements of whole lines: ties, added mass, the ends of the rail, the bore.
 #include "core/rotation.hpp"
 #include "core/sweep_kind.hpp"
 #include "device/memory.hpp"
@@ -22,7 +22,7 @@ RAILSTRATA_POINTWISE Vec3 gather(const View<const double>& values, std::ptrdiff_
   return {values[x], values[x + stride], values[x + 2 * stride]};
 }
 
-/// What an index stands for where it counts components, then lanes of pieces.
+/// Component, piece and station behind an index that counts components, then lanes of pieces.
 struct Place {
   int component, record, station;
   bool held;  ///< the lane has a station
@@ -91,7 +91,7 @@ struct GatherTies {
   }
 };
 
-/// What the slaves' offsets hand to the body's rotation [N m], one number a lane; then the slaves have no forces.
+/// Moments of the slaves' offsets on the body's rotation [N m], one number a lane; clears the slaves' forces.
 template <SweepKind kind>
 struct ClearTies {
   TieTables tables;
@@ -213,7 +213,7 @@ struct AbsorbAtEnds {
   }
 };
 
-/// What holds the rail beyond its ends.
+/// Support of the rail beyond its ends.
 struct HoldEnds {
   View<const EndLoadRecord> loads;
   View<double> f;
@@ -228,7 +228,7 @@ struct EndWork {
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const { work[i] = loads[i].force * u[loads[i].index]; }
 };
 
-/// What the bore's nodes give the axle, by node: force x, y, z and moment, the wheel's frame.
+/// Loads of the bore's nodes on the axle, by node: force x, y, z and moment, the wheel's frame.
 struct BoreForces {
   View<const BoreRecord> bore;
   View<const double> f;

@@ -9,7 +9,7 @@
 
 namespace railstrata::device {
 
-/// Of elements whose arithmetic is in Real.
+/// Arrays of the elements whose arithmetic is in Real.
 template <class Real>
 struct ElementArrays {
   DeviceArray<HexReference<Real>> references;

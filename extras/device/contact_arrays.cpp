@@ -52,7 +52,7 @@ int nodes_across(double rail_facet, double wheel_facet) {
   return static_cast<int>(std::ceil(2 * mortar_law::kFarPoint * rail_facet / wheel_facet)) + 3;
 }
 
-// Of the rail's stations near its finest, where a contact can be.
+// Largest distance of the rail's stations where a contact can be: near its finest.
 double contact_facet(const std::vector<double>& at) { return 1.001 * finest(at); }
 
 }  // namespace

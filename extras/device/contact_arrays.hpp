@@ -26,7 +26,7 @@ class ContactArrays {
   ContactArrays(Device& device, const RollingSystem& system, double dt);
 
   const ContactTables& tables() const { return tables_; }
-  /// What steps take over from one another.
+  /// Copies to and from a state what each step takes over from the one before.
   void load(const RestartState& state);
   void store(RestartState& state) const;
 

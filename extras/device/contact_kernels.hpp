@@ -29,7 +29,7 @@ struct RowGroup {
   RAILSTRATA_POINTWISE int count(int first, int end) const { return first < end ? (end - 1 - first) / apart + 1 : 0; }
 };
 
-/// What the kernels that work on rows see.
+/// Arguments of the kernels that work on rows.
 struct RowScope {
   ContactTables contact;
   View<StepState> now;
@@ -77,7 +77,7 @@ struct RowScope {
     return contact.enforcement.law.film > 0 ? contact.starts[slot] : row_start(traction(slot));
   }
 
-  /// Of values by slot, in kRowParts parts: of one shape whatever the number of threads. use(result) by one thread.
+  /// Joins values by slot in kRowParts parts, the same parts for any number of threads. One thread calls use(result).
   template <class Group, class Join, class Use>
   RAILSTRATA_POINTWISE void fold(const Group& group, const View<double>& values, const Join& join,
                                  const Use& use) const {
@@ -126,7 +126,8 @@ struct TestRows {
   }
 };
 
-/// What the search and TestRows have seen; the last step's tractions act on the free velocities: a group of threads.
+/// Takes over the findings of the search and of TestRows, and applies the last step's tractions to the free velocities;
+/// by a group of threads.
 struct PushRows {
   RowScope scope;
   template <class Group>

@@ -57,25 +57,25 @@ struct SearchLimits {
   double reach;             ///< rad, of the band before the axle
 };
 
-/// What the search has found at the slots.
+/// Results of the search at the slots.
 struct FoundNodes {
   View<int> near, at_edge;
 };
 
-/// What is kept from step to step.
+/// State that is kept from step to step.
 struct KeptContact {
   View<NodeTraction> tractions;  ///< [column * stations + station]
   View<Tangential> corrections;  ///< of the rail's facets, [(station * columns + column) * 4 + Gauss point]
   View<int> active;              ///< of the rail's facets: a chosen node is their corner
 };
 
-/// Of the nodes of a surface in a step: velocities before and after it [m/s], forces [N], answers to an impulse [1/kg].
+/// Nodes of a surface in a step: velocities before and after it [m/s], forces [N], answers to an impulse [1/kg].
 struct SurfaceNodes {
   View<Vec3> before, after, force;
   View<double> answer;
 };
 
-/// What rows are summed of: [of kRowNumbers][slot], [of kRowNumbers][part].
+/// Terms of the sums over rows: [of kRowNumbers][slot], [of kRowNumbers][part].
 struct RowTotals {
   View<double> numbers, parts;
 };
@@ -108,8 +108,8 @@ struct ContactTables {
   }
 };
 
-/// What rows leave: force x, y, z, losses in friction and normal, whether they carry; then what the largest is wanted
-/// of: penetration, pressure.
+/// Numbers of a row. Summed: force x, y, z, losses in friction and normal, whether it carries; then those whose
+/// largest value is wanted: penetration, pressure.
 inline constexpr int kRowSums = 6, kRowNumbers = 8;
 inline constexpr int kRowParts = 64;  ///< that the rows are summed in
 

@@ -44,7 +44,7 @@ double step_bytes(const RollingSystem& sys) {
   return out;
 }
 
-// Of a usual step; the same whatever the mesh but for the levels of ties and of sums.
+// Number of launches of a usual step: the mesh changes it only by the levels of ties and of sums.
 int launches(const RollingSystem& sys) {
   int out = 24;
   for (const Body& b : sys.bodies) out += b.ties.lines().empty() ? 0 : 6;

@@ -1,5 +1,5 @@
 #pragma once
-// What a rolling would need of a card, counted without one: the bytes of every array that it would make there, and the
+// Needs of a rolling on a card, counted without one: the bytes of every array that it would make there, and the
 // time of a step by a model of it, which is not measured:
 //
 //   T = e B/b + n l + c p

@@ -13,8 +13,8 @@ void require_at_hand();
 /// Opens run.device; null for the processor, and for a case that does not roll. Throws as require_at_hand.
 std::unique_ptr<Device> device_of(const CaseSpec& spec);
 
-/// What puts the fields of a rolling on a device, which must live longer; empty without one. Throws CaseError for what
-/// a device cannot take.
+/// Function that puts the fields of a rolling on a device, which must live longer; empty without one. Throws CaseError
+/// for what a device cannot take.
 EngineOf engine_on(Device* device);
 
 }  // namespace railstrata::device

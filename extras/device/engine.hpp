@@ -7,7 +7,7 @@
 
 namespace railstrata::device {
 
-/// What a device cannot take of a system, in words for its user; empty: nothing. `local_steps`: of the step's plan.
+/// Part of a system that a device cannot take, as a text for the user; empty: none. `local_steps`: of the step's plan.
 std::string not_on_a_device(const RollingSystem& system, bool local_steps);
 
 class Engine : public StepEngine {
@@ -40,7 +40,7 @@ class Engine : public StepEngine {
   struct TreeSums {
     DeviceArray<double> even, odd;
   };
-  /// What a step does besides.
+  /// Optional work of a step.
   struct StepKind {
     bool searches = false;  ///< the contact anew
     bool measured = false;  ///< the sums of its updates

@@ -43,7 +43,7 @@
   X(NodeForces<kind, Real, false, false>)           \
   X(NodeForces<kind, Real, true, false>)            \
   X(NodeForces<kind, Real, true, true>)
-/// Of one group of threads.
+/// Kernels that run as one group of threads.
 #define RAILSTRATA_EVERY_GROUP_KERNEL(X) \
   X(BeginStep)                           \
   X(PushRows)                            \

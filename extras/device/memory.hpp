@@ -44,13 +44,14 @@ class Device {
   virtual void download(void* to, const void* from, std::size_t bytes) = 0;
   /// Waits for everything that was launched; throws EnvironmentError if some of it failed.
   virtual void finish() = 0;
-  /// Of what `launches` launches, and nothing else, each time in the same way; it may call it now or with every start.
+  /// Records the kernels that `launches` launches; it launches the same ones in every call and does nothing else. It
+  /// may be called now or with every start.
   virtual std::unique_ptr<Recording> record(const std::function<void()>& launches) = 0;
   /// Null for a card.
   virtual EmulatedDevice* emulated() { return nullptr; }
 };
 
-/// What a kernel sees of an array. Made from arrays of a device alone, so that no kernel has a pointer of the host.
+/// An array as a kernel sees it. Made from arrays of a device alone, so that no kernel has a pointer of the host.
 template <class T>
 class View {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// What kernels read of a body's mesh: a record for every quadrilateral and for every section node, and the pieces of
+// A body's mesh as kernels read it: a record for every quadrilateral and for every section node, and the pieces of
 // work that threads are dealt. Indices into arrays of the same body.
 #include <cstddef>
 

@@ -13,7 +13,7 @@ struct RailDisplacement {
   }
 };
 
-/// Of the wheel's, in its own axes.
+/// Displacement of the wheel's nodes, in its own axes.
 struct WheelDisplacement {
   const SurfaceView& surface;
   const View<const double>& u;
@@ -24,7 +24,7 @@ struct WheelDisplacement {
   }
 };
 
-/// What a kernel of the search sees.
+/// Arguments of the kernels of the search.
 struct SearchScope {
   ContactTables contact;
   View<const StepState> now;
@@ -112,7 +112,7 @@ struct UpdateHits {
   }
 };
 
-/// What is left of an impulse at a node where added mass begins (MassScaling::share).
+/// Remaining share of an impulse at a node where added mass begins (MassScaling::share).
 RAILSTRATA_POINTWISE double share_of(const SurfaceChains& chains, int column, int station) {
   const int chain = chains.at[column];
   return chain < 0 ? 1.0 : chains.tables.response[chains.tables.chains[chain].factor + station];

@@ -6,7 +6,7 @@
 
 namespace railstrata::device {
 
-/// What stays as it is while a wheel rolls.
+/// Constants of a rolling.
 struct RollingLaw {
   AxleLaw axle;
   double side_force = 0;                   ///< N

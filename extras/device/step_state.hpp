@@ -1,13 +1,13 @@
 #pragma once
-// What the kernels of a step share: the axle's motion and all that is made of it. One of them lives on the device; a
-// thread of one kernel writes it, between the others.
+// State that the kernels of a step share: the axle's motion and all that is computed from it. There is one on the
+// device; a thread of one kernel writes it, between the others.
 #include "device/memory.hpp"
 #include "fem/axle_law.hpp"
 #include "fem/contact_law.hpp"
 
 namespace railstrata::device {
 
-/// What a device has seen that it cannot go on with.
+/// Faults that stop a device's steps.
 enum class Fault : int {
   none = 0,
   patch_too_large,  ///< a row touches more wheel nodes than there is room for
@@ -16,7 +16,7 @@ enum class Fault : int {
   window_too_large
 };
 
-/// Of the contact in a step.
+/// Sums over the contact in a step.
 struct ContactSums {
   ContactForces forces;
   ContactLosses losses;
@@ -52,7 +52,7 @@ struct StepState {
     else
       return rail;
   }
-  /// Of a body's offsets against its frame.
+  /// Rotation of a body's offsets against its frame.
   template <SweepKind kind>
   RAILSTRATA_POINTWISE Rotation<double> turn_of_body() const {
     if constexpr (kind == SweepKind::revolve)

@@ -98,7 +98,7 @@ class PlasticElements {
     std::vector<IncompatibleModes<double>> modes;  ///< by hourglass class; those that occur
   };
   const Quad& quad(const Place& p) const { return quads_[p.kind]; }
-  /// Of a candidate.
+  /// The quadrilateral of a candidate.
   const Quad& quad_at(int tile, int quad) const { return quads_[candidates_[tile_quads_[tile][quad]].kind]; }
   /// Scale of the elements that the hourglass stiffness of a class was made for.
   const SweepScale& scale(int block, int hourglass_class) const { return scales_[block][hourglass_class]; }

@@ -1,5 +1,5 @@
 #pragma once
-// What has happened to the elements of a body that may yield (body/plastic_elements.hpp): a slot of numbers for each
+// History of the elements of a body that may yield (body/plastic_elements.hpp): a slot of numbers for each
 // place that is hot, in the order in which the places became hot.
 #include <vector>
 

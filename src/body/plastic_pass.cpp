@@ -88,7 +88,7 @@ struct PassScope {
   PlasticLook look;
 };
 
-// What the points of one pack of elements work on.
+// Data for the points of one pack of elements.
 struct PackWork {
   const PlasticElements::Quad& quad;
   const IncompatibleModes<double>& modes;

@@ -14,7 +14,7 @@ namespace {
 using Entries = PlasticEntries;
 using HotPlace = PlasticElements::Place;
 
-/// Of hot places.
+/// The quadrilaterals of hot places.
 std::vector<PlasticSection::Quad> quads_of(const Body& body, const PlasticHistory& history) {
   std::vector<PlasticSection::Quad> out;
   for (int slot = 0; slot < body.plastic.hot_places(history); ++slot) {

@@ -26,7 +26,7 @@ NodesOfBlocks line_nodes(const RollingBody& b) {
   return chosen_nodes(wanted);
 }
 
-// What stands on the axle.
+// The nodes on the axle.
 NodesOfBlocks bore_nodes(const RollingBody& b, const NodesOfBlocks& lines) {
   std::vector<std::vector<char>> wanted = no_nodes(b);
   if (b.turns())
@@ -198,7 +198,7 @@ double* RankExchange::moment_pieces(const Stretch& s, const Ties& ties, int line
   return parts_[s.body].moments.data() + ties.first_piece(static_cast<std::size_t>(line));
 }
 
-// Of the slaves in a rank's stretches, whose forces come from its elements alone.
+// Moments of the slaves in a rank's stretches, whose forces come from its elements alone.
 void RankExchange::own_moments(const RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift) {
   for (const Stretch& s : stretches_) {
     if (s.owner != ranks_.rank) continue;

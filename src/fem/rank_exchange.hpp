@@ -1,5 +1,5 @@
 #pragma once
-// What the ranks of one run give to one another (core/ranks.hpp).
+// Data that the ranks of one run exchange (core/ranks.hpp).
 //
 // Every rank has both bodies whole in its memory. Each evaluates the elements of its own tiles (body/tile_cut.hpp) and
 // updates the nodes within them whose forces come from elements alone: that is nearly all of the work. Lines of nodes

@@ -70,7 +70,7 @@ std::vector<ResultColumn> columns_for(const std::vector<CollectiveRow>& rows) {
   return out;
 }
 
-/// Of a row that is solved, from the rail's axis, m.
+/// Lateral position of the contact of a solved row, from the rail's axis, m.
 double contact_y(const CollectiveRow& row) { return model_to_rail(row.track, row.patches.front().contact.point).y; }
 
 std::string deciding_zone(const CollectiveRow& row) {

@@ -32,7 +32,7 @@ struct PointLists {
   Columns<PassPoint> zone, of_pass, stress, plastic, accumulated;
 };
 PointLists point_lists(PointColumns which);
-/// What their numbers mean.
+/// Meaning of their numbers.
 inline constexpr const char* kPointRemark =
     "class: 0 elastic shakedown, 1 plastic shakedown, 2 ratchetting, 3 transient. plastic_xy ...: tensor shears; "
     "plastic_strain_accumulated: accumulated over all passes.";

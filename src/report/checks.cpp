@@ -25,7 +25,8 @@ bool is_numerical(const CaseOption& o) {
   return keys.contains(o.table.substr(0, o.table.find('.')) + "." + o.key);
 }
 
-/// What an option is compared by: a profile file by its content, for two files may have one name, and one file two.
+/// The text by which an option is compared: of a profile file its content, for two files may have one name, and one
+/// file two.
 std::string meaning(const ReportRun& run, const CaseOption& o) {
   const auto file = o.table == "geometry" ? run.profile_sha256.find(o.key) : run.profile_sha256.end();
   return file == run.profile_sha256.end() ? run.option(o.table, o.key) : file->second;

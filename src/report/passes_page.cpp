@@ -32,7 +32,7 @@ Json columns(const CsvTable& table, std::size_t step = 1) {
   return out;
 }
 
-/// Of many passes every so many, as a chart shows them.
+/// Columns of a table by passes; of many passes every so many, as a chart shows them.
 Json passes_columns(const CsvTable& table) { return columns(table, 1 + table.rows() / kMostPasses); }
 
 Json columns_if_there(const fs::path& file) { return fs::exists(file) ? columns(read_csv(file)) : Json(nullptr); }

@@ -311,7 +311,7 @@ Json all_columns(const CsvTable& table) {
   return out;
 }
 
-/// Of the rail's section when the wheel has gone.
+/// Residual state of the rail's section, after the wheel.
 Json residual(const ReportRun& run) {
   const auto found = run.sections.find("residual");
   return found == run.sections.end() ? Json(nullptr) : all_columns(found->second);
@@ -361,7 +361,7 @@ Json geometry(const ReportRun& run) {
   return out;
 }
 
-/// Of many runs no slices: a page of megabytes that nobody looks through.
+/// One run. A page of many runs has no slices, which would take megabytes.
 Json run_json(const ReportRun& run, bool with_slices) {
   Json options = Json::array();
   for (const CaseOption& o : run.options) options.push_back({o.table, o.key, without_folders(o.value)});

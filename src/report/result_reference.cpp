@@ -83,7 +83,7 @@ Json check_json(const CheckRow& c) {
 // ---- for people
 std::string ticked(const std::string& text) { return text.empty() ? text : "`" + text + "`"; }
 
-/// Of a cell of a table: a bar would end it.
+/// Text of a table's cell: a bar would end it.
 std::string cell(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -14,7 +14,7 @@
 namespace railstrata {
 namespace {
 
-/// What the log says went wrong: its first error, else its last line.
+/// Reason of a failure by the log: its first error, else its last line.
 std::string reason_of(const std::string& log, int status) {
   std::istringstream lines(log);
   std::string last;

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a key is called on an axis.
+/// Name of a key on an axis.
 std::string key_name(const std::string& key) {
   static const std::map<std::string, std::string> names{{"layer.0.thickness", "thickness h"},
                                                         {"layer.0.young_ratio", "E₁/E₀"},

@@ -193,7 +193,7 @@ class Pool {
     for (const Running& r : running_) ((*r.at_work).*ask)();
   }
 
-  /// What a later call cannot go on from.
+  /// Removes the folder of a case that a later call cannot go on from.
   void discard(const Running& r) {
     std::error_code error;
     if (!has_checkpoint(r.folder)) fs::remove_all(r.folder, error);

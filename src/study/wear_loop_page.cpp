@@ -114,7 +114,7 @@ ReportChart area_chart(const WearLoopHistory& history) {
   return out;
 }
 
-/// Of the loads of a step, NaN where it has none.
+/// Largest value over the loads of a step; NaN where it has none.
 double largest(const WearLoopHistory& history, int step, double WearLoad::*value) {
   double out = std::numeric_limits<double>::quiet_NaN();
   for (const WearLoad& load : history.contacts)

@@ -1,5 +1,5 @@
 #pragma once
-// What every device must do, the emulated one and the card.
+// Checks that every device must pass, the emulated one and the card.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline EngineOf on(Device& device) {
   };
 }
 
-// Of all nodes; lines are padded with numbers that mean nothing.
+// Over all nodes; lines are padded with numbers that mean nothing.
 inline double largest_difference(const Body& body, const Field& a, const Field& b) {
   double out = 0;
   for (const BlockLayout& l : body.layout.blocks)

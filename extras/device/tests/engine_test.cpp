@@ -151,7 +151,7 @@ TEST(SlowEngine, AWholeRunHasTheHistoryAndSamplesOfTheProcessor) {
   EXPECT_LT(worst, 1e-9 * scale);
 }
 
-// What `check` says is what an engine makes there, array for array.
+// The bytes that `check` reports are those that an engine allocates there, array for array.
 TEST(Engine, CountsWhatACardWouldNeed) {
   for (const CaseSpec& spec : {small_case(), layered_case(ArithmeticPrecision::single_precision)}) {
     const RollingSystem system = small_system(spec);

@@ -24,7 +24,7 @@ Overrides layered(Overrides more) {
   return more;
 }
 
-// What is set together does not hide one another.
+// Options set together; none of them hides another one.
 const std::vector<Overrides>& taken() {
   static const std::vector<Overrides> sets{
       {"geometry.yaw=5 mrad", "geometry.rail_profile=arc:R=200 mm", "geometry.block_width=50 mm",

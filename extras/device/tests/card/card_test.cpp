@@ -1,4 +1,4 @@
-// What needs a card. Without one these tests are skipped and say why; the same checks run on the emulated device in
+// Tests that need a card. Without one they are skipped with the reason; the same checks run on the emulated device in
 // extras/device/tests/engine_test.cpp.
 #include "device/card.hpp"
 
