@@ -63,7 +63,7 @@ TangentialState::TangentialState(const InfluenceOperator& influence, const Patch
       bound(asked.traction_bound.data()),
       creepage{asked.x.creepage, asked.y.creepage} {
   if (!VaryingBound::needed(problem)) return;
-  if (problem.falling.falls())
+  if (problem.falling.falls() || problem.third_body.hardening < 0)
     VaryingBound::require_unique_slip(problem, L.step_length(), L.largest(problem.traction_bound));
   varying.emplace(grid, problem, given);
   carried = varying->at_rest();

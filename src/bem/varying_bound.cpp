@@ -33,10 +33,22 @@ template <class Steepness>
   constexpr double kFiner = 1.02, kLargest = 1;  // m
   FallingFriction law = problem.falling;
   while (!(steepness(law) < 1) && law.memory_distance < kLargest) law.memory_distance *= kFiner;
-  throw CaseError(fmt::format("friction falls too soon with slip: below a memory distance of {:.3g} um {} here",
-                              1e6 * law.memory_distance, several_answers(problem)),
-                  "raise friction.memory_distance, friction.half_velocity or friction.kinetic_coefficient",
+  const bool film = problem.third_body.thickness > 0;
+  throw CaseError(fmt::format("friction falls too soon with slip: below a memory distance of {:.3g} um {} here{}",
+                              1e6 * law.memory_distance, several_answers(problem),
+                              film ? ", since the film springs back as friction falls" : ""),
+                  film ? "raise friction.memory_distance, friction.half_velocity or friction.kinetic_coefficient, or "
+                         "take a stiffer film"
+                       : "raise friction.memory_distance, friction.half_velocity or friction.kinetic_coefficient",
                   "friction.memory_distance");
+}
+
+void require_unique_film(const TangentialProblem& problem, double step, double largest) {
+  const double softening = -problem.third_body.hardening;
+  if (!problem.third_body.yields() || softening * step * largest < 1) return;
+  throw CaseError(fmt::format("the film softens too fast: beyond {:.3g} MPa/mm {} here", -1e-9 / (step * largest),
+                              several_answers(problem)),
+                  "take a slower softening, a stiffer film or smaller cells", "third_body.hardening");
 }
 
 /// The part of a first cell's step that lies inside the patch: the edge is S ahead of the empty cell, with lambda =
@@ -60,20 +72,19 @@ VaryingBound::VaryingBound(const PatchGrid& grid, const TangentialProblem& probl
       change_(grid.size()) {
   if (problem.third_body.yields()) {
     plastic_.assign(grid.size(), 0.0);
-    slides_.assign(grid.size(), 0);
+    yields_.assign(grid.size(), 0);
+    taken_over_.assign(grid.size(), 0);
   }
   if (problem.falling.remembers()) lost_ = kept_ = Plane(grid.size(), 0.0);
   follow();
 }
 
 void VaryingBound::require_unique_slip(const TangentialProblem& problem, double step, double largest) {
+  require_unique_film(problem, step, largest);
   if (!problem.falling.falls() || problem.traction_bound.empty()) return;
   if (problem.kind == RollingKind::shift)
     throw CaseError("friction that falls with slip velocity has no meaning in a shift, whose slip has no velocity",
                     "let it roll, or take friction.law = \"coulomb\"", "friction.law");
-  if (problem.third_body.thickness > 0)
-    throw CaseError("friction that falls with slip has no steady answer on an elastic third-body layer: it would jump",
-                    "leave out third_body.thickness, or take friction.law = \"coulomb\"", "third_body.thickness");
   const double bound = *std::max_element(problem.traction_bound.begin(), problem.traction_bound.end()),
                reach = bound * problem.speed * largest;
   const auto steepness = [&](const FallingFriction& law) { return reach * steepest_fall(law, step / problem.speed); };
@@ -88,47 +99,47 @@ double VaryingBound::before(const Plane& now, const Plane& history, int i, std::
   return i + 1 < grid_.nx ? now[k + static_cast<std::size_t>(grid_.ny)] : 0.0;
 }
 
-void VaryingBound::follow_friction(int i, std::size_t k, double length) {
-  const double slip = std::max(0.0, along_[k]), bound = problem_.traction_bound[k], V = problem_.speed;
+FilmStep VaryingBound::follow_film(int i, std::size_t k, double length) {
+  const double at_rest = rest_[k], plastic = before(plastic_, problem_.plastic_before, i, k);
+  const FilmStep film = yield_or_slide(problem_.third_body, at_rest, plastic, std::max(0.0, along_[k]) * length);
+  rest_[k] = yield_or_slide(problem_.third_body, at_rest, plastic, 0).bound;
+  plastic_[k] = problem_.traction_bound[k] > 0 ? film.plastic : plastic;
+  yields_[k] = !film.slides;
+  taken_over_[k] = film.slides && film.plastic > plastic;
+  return {film.bound, film.by_slip, film.plastic - plastic, film.slides};
+}
+
+void VaryingBound::follow_cell(int i, std::size_t k, double length, double inside) {
+  const double bound = problem_.traction_bound[k], V = problem_.speed, time = inside / V,
+               lost = lost_.empty() ? 0.0 : before(lost_, problem_.lost_before, i, k);
   const FallingFriction& law = problem_.falling;
-  const double lost = lost_.empty() ? 0.0 : before(lost_, problem_.lost_before, i, k), time = length / V;
-  const RememberedShare now = remembered_share(law, lost, {slip * V}, time);
-  rest_[k] = remembered_share(law, lost, {0}, time).share.value * bound;
-  wanted_[k] = now.share.value * bound;
-  by_slip_[k] = slip > 0 ? now.share.by_slip_velocity * bound * V : 0.0;
+  const RememberedShare at_rest = remembered_share(law, lost, {0}, time);
+  rest_[k] = at_rest.share.value * bound;
+  const FilmStep film = plastic_.empty() ? FilmStep{rest_[k], 0, 0, true} : follow_film(i, k, length);
+  const double slip = film.slides ? std::max(0.0, along_[k] - film.plastic / length) : 0.0;
+  const RememberedShare now = slip > 0 ? remembered_share(law, lost, {slip * V}, time) : at_rest;
+  wanted_[k] = film.slides ? now.share.value * bound : film.bound;
+  by_slip_[k] = film.slides ? (slip > 0 ? now.share.by_slip_velocity * bound * V : 0.0) : film.by_slip * length;
   if (lost_.empty()) return;
   lost_[k] = bound > 0 ? now.lost() : 0.0;
   kept_[k] = now.by_lost_before;
 }
 
-void VaryingBound::follow_film(int i, std::size_t k, double length) {
-  const double slip = std::max(0.0, along_[k]), bound = problem_.traction_bound[k],
-               plastic = before(plastic_, problem_.plastic_before, i, k);
-  const FilmStep film = yield_or_slide(problem_.third_body, bound, plastic, slip * length);
-  rest_[k] = yield_or_slide(problem_.third_body, bound, plastic, 0).bound;
-  wanted_[k] = film.bound;
-  by_slip_[k] = film.by_slip * length;
-  plastic_[k] = bound > 0 ? film.plastic : plastic;
-  slides_[k] = film.by_slip == 0 && film.plastic > plastic;
-}
-
 void VaryingBound::follow() {
   const double step = step_length(grid_, problem_);
+  const bool film = problem_.third_body.thickness > 0;  // weights of first cells then are shares of the step
   for (int i = grid_.nx - 1; i >= 0; --i)
     for (int j = 0; j < grid_.ny; ++j) {
       const std::size_t k = grid_.index(i, j);
       const double length = given_.first_step.empty() ? step : given_.first_step[k];
-      if (plastic_.empty())
-        follow_friction(i, k, inside_of_patch(length, step));
-      else
-        follow_film(i, k, length);
+      follow_cell(i, k, length, film ? length : inside_of_patch(length, step));
     }
 }
 
 void VaryingBound::change() {
   for (std::size_t k = 0; k < change_.size(); ++k) change_[k] = by_slip_[k] * along_[k];
   if (problem_.kind != RollingKind::steady) return;
-  if (problem_.third_body.hardening > 0) change_of_film();
+  if (problem_.third_body.hardening != 0) change_of_film();
   if (!lost_.empty()) change_of_memory();
 }
 
@@ -137,8 +148,8 @@ void VaryingBound::change_of_film() {
     double ahead = 0;
     for (int i = grid_.nx - 1; i >= 0; --i) {
       const std::size_t k = grid_.index(i, j);
-      if (slides_[k]) ahead = 0;
-      if (by_slip_[k] > 0 && along_[k] != 0) ahead = change_[k] += ahead;
+      if (taken_over_[k]) ahead = 0;
+      if (yields_[k] && by_slip_[k] != 0 && along_[k] != 0) ahead = change_[k] += ahead;
     }
   }
 }
@@ -149,7 +160,9 @@ void VaryingBound::change_of_memory() {
     for (int i = grid_.nx - 1; i >= 0; --i) {
       const std::size_t k = grid_.index(i, j);
       const double bound = problem_.traction_bound[k];
-      change_[k] += kept_[k] * ahead * bound;
+      ahead *= kept_[k];
+      if (!yields_.empty() && yields_[k]) continue;
+      change_[k] += ahead * bound;
       ahead = bound > 0 ? change_[k] / bound : 0.0;
     }
   }

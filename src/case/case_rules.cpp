@@ -79,10 +79,32 @@ void check_friction_law(const CaseSpec& spec, CaseSource& source) {
                     "friction falls with slip: exchange the two");
 }
 
+void check_softening(const ThirdBodySpec& t, CaseSource& source) {
+  if (t.thickness && t.shear_modulus && t.hardening < 0 && !(-t.hardening < *t.shear_modulus / *t.thickness))
+    source.complain("third_body.hardening",
+                    fmt::format("third_body.hardening = {}: must be above -shear_modulus / thickness = {}",
+                                format_quantity(t.hardening, dimension::kPressureGradient),
+                                format_quantity(-*t.shear_modulus / *t.thickness, dimension::kPressureGradient)),
+                    "a film that softens faster springs back and slips all at once: take a slower softening");
+  if (t.hardening < 0 && !t.residual_shear)
+    source.complain("third_body.hardening", "a film that softens needs third_body.residual_shear",
+                    "give the strength that much shear leaves, e.g. a tenth of yield_shear");
+  if (t.residual_shear && !(t.hardening < 0))
+    source.complain("third_body.residual_shear",
+                    "third_body.residual_shear has no meaning for a film that does not soften",
+                    "take it out, or give a third_body.hardening below 0");
+  if (t.residual_shear && t.yield_shear && *t.residual_shear > *t.yield_shear)
+    source.complain("third_body.residual_shear",
+                    fmt::format("third_body.residual_shear = {}: must be at most third_body.yield_shear = {}",
+                                format_quantity(*t.residual_shear, dimension::kPressure),
+                                format_quantity(*t.yield_shear, dimension::kPressure)),
+                    "softening ends below the strength it begins with: exchange the two");
+}
+
 void check_third_body(const CaseSpec& spec, CaseSource& source) {
   const ThirdBodySpec& t = spec.third_body;
   if (!source.sound({"third_body.thickness", "third_body.shear_modulus", "third_body.yield_shear",
-                     "third_body.hardening", "friction.law"}))
+                     "third_body.hardening", "third_body.residual_shear", "friction.law", "friction.memory_distance"}))
     return;
   const auto needs = [&](const char* key, bool given, const char* other, bool other_given, const char* remedy) {
     if (given && !other_given) source.complain(key, fmt::format("{} needs {}", key, other), remedy);
@@ -93,7 +115,7 @@ void check_third_body(const CaseSpec& spec, CaseSource& source) {
         "give the film's thickness, e.g. \"20 µm\"");
   needs("third_body.yield_shear", t.yield_shear.has_value(), "third_body.thickness", t.thickness.has_value(),
         "give the film's thickness, e.g. \"20 µm\"");
-  needs("third_body.hardening", t.hardening > 0, "third_body.yield_shear", t.yield_shear.has_value(),
+  needs("third_body.hardening", t.hardening != 0, "third_body.yield_shear", t.yield_shear.has_value(),
         "give the stress at which the film begins to yield");
   if (t.thickness && t.shear_modulus && t.hardening > *t.shear_modulus / *t.thickness)
     source.complain("third_body.hardening",
@@ -101,10 +123,11 @@ void check_third_body(const CaseSpec& spec, CaseSource& source) {
                                 format_quantity(t.hardening, dimension::kPressureGradient),
                                 format_quantity(*t.shear_modulus / *t.thickness, dimension::kPressureGradient)),
                     "a film that yields is softer than an elastic one: lower the hardening");
-  if (t.thickness && spec.friction.law != FrictionForm::coulomb)
+  check_softening(t, source);
+  if (t.thickness && spec.friction.law != FrictionForm::coulomb && !(spec.friction.memory_distance > 0))
     source.complain("third_body.thickness",
-                    "a third-body layer under friction that falls with slip has no steady state: it would jump",
-                    "take friction.law = \"coulomb\", or leave out third_body");
+                    "a third-body layer under friction that falls with slip at once has no steady state: it would jump",
+                    "give friction.memory_distance, e.g. \"14 um\", or take friction.law = \"coulomb\"");
 }
 
 void check_curve(const GeometrySpec& g, CaseSource& source) {

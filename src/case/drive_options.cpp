@@ -56,6 +56,7 @@ bool remembers(const CaseSpec& spec, std::size_t index) {
 }
 
 bool has_film(const CaseSpec& spec, std::size_t) { return spec.third_body.thickness.has_value(); }
+bool softens(const CaseSpec& spec, std::size_t) { return spec.third_body.hardening < 0; }
 
 }  // namespace
 
@@ -154,9 +155,12 @@ OptionTable third_body_table() {
            option("yield_shear", at<&C::third_body, &Film::yield_shear>,
                   "Shear stress at which the film yields; none: it is elastic", kPressure, above(0, 1e11)),
            option("hardening", at<&C::third_body, &Film::hardening>,
-                  "Rise of yield_shear by plastic shear displacement", kPressureGradient, {0, 1e15})
-               .where(has_film)
-               .with_remedy("a film that softens shears in one place and has no steady state: take 0")}};
+                  "Rise of yield_shear by plastic shear displacement; below 0 the film softens (half-spaces)",
+                  kPressureGradient, {-1e15, 1e15})
+               .where(has_film),
+           option("residual_shear", at<&C::third_body, &Film::residual_shear>,
+                  "A film that softens: its yield_shear after much shear", kPressure, above(0, 1e11))
+               .where(softens)}};
 }
 
 }  // namespace railstrata

@@ -45,8 +45,9 @@ struct FrictionSpec {
 /// A layer of wear debris, sand, … between wheel and rail; none without a thickness.
 struct ThirdBodySpec {
   std::optional<double> thickness, shear_modulus;
-  std::optional<double> yield_shear;  ///< Pa; none: elastic
-  double hardening = 0;               ///< Pa/m, by plastic shear
+  std::optional<double> yield_shear;     ///< Pa; none: elastic
+  double hardening = 0;                  ///< Pa/m, by plastic shear; < 0: it softens
+  std::optional<double> residual_shear;  ///< Pa, what softening leaves
 };
 
 }  // namespace railstrata

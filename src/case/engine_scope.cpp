@@ -37,6 +37,8 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
                    "finite elements chatter on a law that follows slip at once",
                    "give friction.memory_distance, 10 to 50 um for a wheel on a rail, or solve the case with "
                    "`railstrata bem`"});
+  beyond(spec.third_body.hardening < 0, "third_body.hardening", "a film that softens",
+         "a step would have several answers, and the film shears in one place");
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
   beyond(std::abs(d.creepage.value_or(0)) > kLargestRunCreepage, "drive.creepage", "so large a creepage",
          largest.c_str());

@@ -148,7 +148,7 @@ FallingFriction falling_friction(const CaseSpec& spec) {
 ThirdBody third_body(const CaseSpec& spec) {
   const ThirdBodySpec& t = spec.third_body;
   if (!t.thickness) return {};
-  return {*t.thickness, t.shear_modulus.value(), t.yield_shear.value_or(0), t.hardening};
+  return {*t.thickness, t.shear_modulus.value(), t.yield_shear.value_or(0), t.hardening, t.residual_shear.value_or(0)};
 }
 
 double static_load(const CaseSpec& spec) {
