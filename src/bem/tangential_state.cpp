@@ -40,11 +40,12 @@ void SlipOperator::traction_of(const Plane& displacement, double* out) {
   ++products_;
 }
 
-double SlipOperator::largest(const Plane& traction_bound) const {
+double SlipOperator::largest(const Plane& traction_bound, double film) const {
   // Steady: over L of one cell, across, square cells, that of lateral traction in waves along x of nearly two cells:
-  // 1.9 for Poisson's ratio 0, 2.1 for 0.3, 2.25 for 0.5; strips of a line contact 1.415.
+  // 1.9 for Poisson's ratio 0, 2.1 for 0.3, 2.25 for 0.5; strips of a line contact 1.415. A film's part
+  // of L takes from a cell and the one ahead of it alone: row after row, so that it counts once.
   const double largest = grid_.line ? 1.42 : 2.25;
-  return (steady_ ? largest * (influence_.of_one_cell(0).yy - influence_.of_one_cell(1).yy)
+  return (steady_ ? largest * (influence_.of_one_cell(0).yy - influence_.of_one_cell(1).yy - film) + film
                   : largest_tangential_influence(influence_, traction_bound)) /
          step_;
 }
@@ -64,7 +65,8 @@ TangentialState::TangentialState(const InfluenceOperator& influence, const Patch
       creepage{asked.x.creepage, asked.y.creepage} {
   if (!VaryingBound::needed(problem)) return;
   if (problem.falling.falls() || problem.third_body.hardening < 0)
-    VaryingBound::require_unique_slip(problem, L.step_length(), L.largest(problem.traction_bound));
+    VaryingBound::require_unique_slip(problem, L.step_length(),
+                                      L.largest(problem.traction_bound, problem.third_body.flexibility()));
   varying.emplace(grid, problem, given);
   carried = varying->at_rest();
   bound = carried.data();

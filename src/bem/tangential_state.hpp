@@ -39,8 +39,9 @@ class SlipOperator {
   double step_length() const { return step_; }  ///< m
   double self() const { return self_; }         ///< 1/Pa, L of one cell on itself
   int products() const { return products_; }    ///< with the influence and its preconditioner, so far
-  /// Largest eigenvalue of L's symmetric part, 1/Pa.
-  double largest(const Plane& traction_bound) const;
+  /// How much slip a traction takes away at most, 1/Pa: the largest eigenvalue of L's symmetric part, of a film [m/Pa]
+  /// its own part.
+  double largest(const Plane& traction_bound, double film) const;
 
  private:
   void extrapolate_at_leading_cells();
