@@ -79,6 +79,11 @@ struct ReportOptions {
   bool reference = true;  ///< --no-reference: without the half-space solution beside a single result
   bool what_if = false;   ///< --what-if: with the explorer on the case
 };
+struct ValidateOptions {
+  std::vector<std::string> sets;
+  bool all = false;            ///< --all
+  std::filesystem::path docs;  ///< --docs; empty: none
+};
 struct ExportOptions {
   std::string to;         ///< --to: the word of a program
   bool friction = false;  ///< --friction: in the deck's contact
@@ -115,6 +120,7 @@ struct CommandOptions : CommonOptions {
   MaterialOptions material;
   PassesOptions passes;
   ReportOptions report;
+  ValidateOptions validate;
   ExportOptions export_to;
   SchemaOptions schema;
 };
@@ -146,6 +152,7 @@ extern const Command kCollectiveCommand;
 extern const Command kWearLoopCommand;
 extern const Command kStudyCommand;
 extern const Command kReportCommand;
+extern const Command kValidateCommand;
 extern const Command kExploreCommand;
 extern const Command kExportCommand;
 extern const Command kSchemaCommand;

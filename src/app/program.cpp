@@ -35,9 +35,9 @@ namespace {
 constexpr const Command* kCommands[] = {&kDemoCommand,    &kCheckCommand,      &kMeshCommand,       &kRunCommand,
                                         &kBemCommand,     &kShakedownCommand,  &kMaterialCommand,   &kPassesCommand,
                                         &kCompareCommand, &kCreepCurveCommand, &kCreepTableCommand, &kUsetabCommand,
-                                        &kSweepCommand,   &kCollectiveCommand, &kWearLoopCommand,   &kStudyCommand,
-                                        &kReportCommand,  &kExploreCommand,    &kExportCommand,     &kSchemaCommand,
-                                        &kInfoCommand,    &kCompletionCommand, &kManualCommand};
+                                        &kSweepCommand,   &kValidateCommand,   &kCollectiveCommand, &kWearLoopCommand,
+                                        &kStudyCommand,   &kReportCommand,     &kExploreCommand,    &kExportCommand,
+                                        &kSchemaCommand,  &kInfoCommand,       &kCompletionCommand, &kManualCommand};
 
 std::vector<std::string> command_names() {
   std::vector<std::string> names;

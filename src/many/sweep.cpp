@@ -34,14 +34,14 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
 
 }  // namespace
 
-std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
-                                  const std::vector<Axis>& keys) {
+std::vector<SweepCase> plan_rows(const LoadedCase& base, const std::vector<std::string>& overrides,
+                                 const std::vector<std::string>& keys, std::vector<std::vector<std::string>> rows) {
   std::vector<SweepCase> cases;
   std::optional<CaseError> first_error;
   bool any = false;
-  for (std::vector<std::string>& values : combinations(keys)) {
+  for (std::vector<std::string>& values : rows) {
     std::vector<std::string> all = overrides;
-    for (std::size_t k = 0; k < keys.size(); ++k) all.push_back(keys[k].key + "=" + values[k]);
+    for (std::size_t k = 0; k < keys.size(); ++k) all.push_back(keys[k] + "=" + values[k]);
     cases.push_back({std::move(values), {}, nullptr, {}, false});
     try {
       cases.back().loaded = parse_case(base.source_text, base.file, all);
@@ -53,6 +53,13 @@ std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std:
   }
   if (!any) throw CaseError(*first_error);
   return cases;
+}
+
+std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
+                                  const std::vector<Axis>& axes) {
+  std::vector<std::string> keys;
+  for (const Axis& axis : axes) keys.push_back(axis.key);
+  return plan_rows(base, overrides, keys, combinations(axes));
 }
 
 void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options) {

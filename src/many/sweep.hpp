@@ -25,8 +25,12 @@ struct SweepCase {
   bool done = false;
 };
 
-/// The cases of all combinations, in their order. One whose values are refused carries the fault; if all are, the first
-/// one's CaseError is thrown: a key that does not exist, most likely. Throws CaseError for a key without values.
+/// The cases of all rows of values, one per key, in their order. One whose values are refused carries the fault; if all
+/// are, the first one's CaseError is thrown: a key that does not exist, most likely. Throws CaseError for a key without
+/// values.
+std::vector<SweepCase> plan_rows(const LoadedCase& base, const std::vector<std::string>& overrides,
+                                 const std::vector<std::string>& keys, std::vector<std::vector<std::string>> rows);
+/// The same of all combinations.
 std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
                                   const std::vector<Axis>& keys);
 

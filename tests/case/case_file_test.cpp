@@ -285,9 +285,13 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "         ^\n    remedy: give the stress at which the film begins to yield"},
       {"[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"0.1 GPa\"\nyield_shear = \"0.2 GPa\"\nhardening = "
        "\"-1 MPa/mm\"\n",
-       "a.toml:5:13: third_body.hardening = \"-1 MPa/mm\": must be between 0 MPa/mm and 1000000 MPa/mm\n    5 | "
-       "hardening = \"-1 MPa/mm\"\n      |             ^\n    remedy: a film that softens shears in one place and has "
-       "no steady state: take 0"},
+       "a.toml:5:13: a film that softens needs third_body.residual_shear\n    5 | hardening = \"-1 MPa/mm\"\n      |  "
+       "           ^\n    remedy: give the strength that much shear leaves, e.g. a tenth of yield_shear"},
+      {"[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"0.1 GPa\"\nyield_shear = \"0.2 GPa\"\nhardening = "
+       "\"-6 GPa/mm\"\nresidual_shear = \"20 MPa\"\n",
+       "a.toml:5:13: third_body.hardening = -6000 MPa/mm: must be above -shear_modulus / thickness = -5000 MPa/mm\n    "
+       "5 | hardening = \"-6 GPa/mm\"\n      |             ^\n    remedy: a film that softens faster springs back and "
+       "slips all at once: take a slower softening"},
       {"[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"0.1 GPa\"\nyield_shear = \"0.2 GPa\"\nhardening = "
        "\"6 GPa/mm\"\n",
        "a.toml:5:13: third_body.hardening = 6000 MPa/mm: must be at most shear_modulus / thickness = 5000 MPa/mm\n    "

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+
+#include "app/commands.hpp"
+#include "app/common_options.hpp"
+#include "app/control.hpp"
+#include "app/option_values.hpp"
+#include "app/shipped_files.hpp"
+#include "io/output_folder.hpp"
+#include "record/output_file.hpp"
+#include "validate/validation_page.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kShipped = "cases/validation";
+
+/// A folder, or the name of a shipped set.
+fs::path folder_of(const std::string& name) {
+  if (fs::exists(fs::path(name) / "validation.toml")) return name;
+  const fs::path shipped = shipped_folder() / kShipped / name;
+  if (fs::exists(shipped / "validation.toml")) return shipped;
+  std::string known;
+  for (const fs::path& folder : validation_folders(shipped_folder() / kShipped))
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", folder.filename().string());
+  throw CaseError(fmt::format("{}: neither a folder with validation.toml nor a set that comes with the program", name),
+                  fmt::format("one of: {}; or a folder of your own", known));
+}
+
+std::vector<fs::path> folders_of(const ValidateOptions& options) {
+  std::vector<fs::path> out;
+  for (const std::string& name : options.sets) out.push_back(folder_of(name));
+  if (options.all)
+    for (const fs::path& folder : validation_folders(shipped_folder() / kShipped)) out.push_back(folder);
+  return out;
+}
+
+void print_sets() {
+  for (const fs::path& folder : validation_folders(shipped_folder() / kShipped)) {
+    const ValidationSet set = load_validation(folder);
+    fmt::print("{:<22} {} ({})\n", set.name, set.title, set.reference);
+  }
+}
+
+void print_verdict(const Validation& v) {
+  for (const Comparison& c : v.comparisons)
+    fmt::print("{:<22} {:<22} {:<14} {:>9.3g} (bar {:.3g}{})  {}\n", v.set->name, c.column->title, c.series->name,
+               c.difference, c.column->bar, c.column->relative ? " of the data" : "",
+               c.series->judged ? agreement_text(c.agreement) : "not judged");
+  for (const std::string& fault : v.faults) fmt::print("  {}\n", fault);
+}
+
+Validation validate_set(const ValidationSet& set, const fs::path& out, const CommandOptions& options) {
+  InfluenceCache cache;
+  BemOptions bem;
+  bem.cell = cell_size(options.cell.empty() ? set.cell : options.cell);
+  bem.cache = &cache;
+  Validation result = validate(set, bem, &control_by_signals());
+  fs::create_directories(out / set.name);
+  write_validation(out / set.name, table_origin(set.loaded), result);
+  return result;
+}
+
+ExitCode command_validate(const CommandOptions& options) {
+  const std::vector<fs::path> folders = folders_of(options.validate);
+  if (folders.empty()) {
+    print_sets();
+    return ExitCode::ok;
+  }
+  std::vector<ValidationSet> sets;
+  for (const fs::path& folder : folders) sets.push_back(load_validation(folder));
+  const fs::path out = options.out.empty() ? fs::path("results/validate") : options.out;
+  const FolderHold hold = prepare_output_folder(out, options.force);
+  std::vector<Validation> all;
+  for (const ValidationSet& set : sets) {
+    control().progress("validate", static_cast<double>(all.size()) / static_cast<double>(sets.size()));
+    all.push_back(validate_set(set, out, options));
+    if (control().stop) return ExitCode::interrupted;
+    control().progress("");
+    print_verdict(all.back());
+  }
+  write_whole_file(out / "report.html", validations_page(all));
+  if (!options.validate.docs.empty()) write_validation_docs(options.validate.docs, all);
+  spdlog::info("everything on one page: {}", (out / "report.html").string());
+  const bool agrees =
+      std::all_of(all.begin(), all.end(), [](const Validation& v) { return v.agreement <= Agreement::within_bar; });
+  return agrees ? ExitCode::ok : ExitCode::failed_checks;
+}
+
+void declare_validate(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("sets", options.validate.sets, "Names of shipped sets, or folders with validation.toml; none: a list");
+  sub.add_flag("--all", options.validate.all, "Every set that comes with the program");
+  sub.add_option("--docs", options.validate.docs, "Also write validation.md and its pictures into this folder");
+  add_output(sub, options, "results/validate");
+  add_cell(sub, options);
+}
+
+}  // namespace
+
+const Command kValidateCommand{"validate", "Answers held against measurements, other programs and closed forms",
+                               "Examples:\n  railstrata validate\n  railstrata validate locomotive\n  railstrata "
+                               "validate my_rig --out results/my_rig\n"
+                               "  railstrata validate --all\n",
+                               declare_validate, command_validate};
+
+}  // namespace railstrata

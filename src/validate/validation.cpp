@@ -1,0 +1,105 @@
+#include "validate/validation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "many/sweep.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::vector<std::string>> rows_of(const ValidationSet& set) {
+  std::vector<std::vector<std::string>> rows(set.data.rows());
+  for (const VariedColumn& v : set.varied) {
+    const std::vector<double> values = set.data.column(v.column, v.factor);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].push_back(fmt::format("{}{}{}{}", v.before, values[i], v.unit.empty() ? "" : " ", v.unit));
+  }
+  return rows;
+}
+
+/// Each row's measure of the column's bar: absolute, or over the data.
+double measure(const ComparedColumn& c, const ComparedPoint& p, double absolute) {
+  return c.relative ? absolute / std::abs(p.data) : absolute;
+}
+
+template <class Absolute>
+double of_all(const Comparison& comparison, Absolute&& absolute) {
+  double squares = 0, largest = 0;
+  for (const ComparedPoint& p : comparison.points) {
+    const double m = measure(*comparison.column, p, absolute(p));
+    if (!std::isfinite(m)) return kUnknown;
+    squares += m * m;
+    largest = std::max(largest, m);
+  }
+  return comparison.column->by == DifferenceBy::largest
+             ? largest
+             : std::sqrt(squares / static_cast<double>(comparison.points.size()));
+}
+
+Agreement agreement_of(const Comparison& c) {
+  if (!std::isfinite(c.difference)) return Agreement::unsolved;
+  if (c.difference <= c.scatter) return Agreement::within_scatter;
+  return c.difference <= c.column->bar ? Agreement::within_bar : Agreement::outside;
+}
+
+Comparison compare(const ValidationSet& set, const ValidationSeries& series, const ComparedColumn& column,
+                   const std::vector<SweepCase>& cases) {
+  const std::vector<double> none(set.data.rows(), kUnknown),
+      data = set.data.column(column.column),
+      at = set.varied.empty() ? none : set.data.column(set.varied.front().column),
+      deviation = column.deviation.empty() ? none : set.data.column(column.deviation);
+  Comparison out{.column = &column, .series = &series, .points = {}};
+  for (std::size_t i = 0; i < data.size(); ++i)
+    out.points.push_back(
+        {at[i], data[i], deviation[i], column.factor * column_value(*column.result, cases[i].summary)});
+  out.difference = of_all(out, [](const ComparedPoint& p) { return std::abs(p.ours - p.data); });
+  out.scatter = of_all(out, [](const ComparedPoint& p) { return p.deviation; });
+  out.agreement = agreement_of(out);
+  return out;
+}
+
+}  // namespace
+
+const char* agreement_text(Agreement a) {
+  switch (a) {
+    case Agreement::within_scatter:
+      return "within the scatter";
+    case Agreement::within_bar:
+      return "within the bar";
+    case Agreement::outside:
+      return "outside";
+    case Agreement::unsolved:
+      break;
+  }
+  return "not solved";
+}
+
+Validation validate(const ValidationSet& set, const BemOptions& options, const Control* control) {
+  std::vector<std::string> keys;
+  for (const VariedColumn& v : set.varied) keys.push_back(v.key);
+  Validation out{.set = &set, .comparisons = {}, .faults = {}, .agreement = Agreement::within_scatter};
+  for (const ValidationSeries& series : set.series) {
+    std::vector<SweepCase> cases = plan_rows(set.loaded, series.overrides, keys, rows_of(set));
+    SweepOptions sweep;
+    sweep.bem = options;
+    sweep.control = control;
+    run_sweep(cases, sweep);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      if (!cases[i].fault.empty())
+        out.faults.push_back(
+            fmt::format("{}row {}: {}", series.name.empty() ? "" : series.name + ", ", i + 1, cases[i].fault));
+    for (const ComparedColumn& column : set.compared) {
+      out.comparisons.push_back(compare(set, series, column, cases));
+      if (series.judged) out.agreement = std::max(out.agreement, out.comparisons.back().agreement);
+    }
+  }
+  return out;
+}
+
+}  // namespace railstrata

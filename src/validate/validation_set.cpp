@@ -1,0 +1,120 @@
+#include "validate/validation_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "case/text_file.hpp"
+#include "case/toml_reader.hpp"
+#include "many/axis.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExample = "docs/validate.md lists the keys; cases/validation has examples";
+
+bool has_column(const CsvTable& data, const std::string& name) {
+  return std::any_of(data.columns.begin(), data.columns.end(), [&](const CsvColumn& c) { return c.name == name; });
+}
+
+/// Reads the tables of one file beside its data.
+class SetReader {
+ public:
+  SetReader(CaseSource& source, const CsvTable& data) : source_(source), data_(data) {}
+
+  VariedColumn varied(const toml::table& t) {
+    TomlReader r(source_, t, {"column", "key", "before", "unit", "factor"}, kExample);
+    const std::string column = column_at(t, "column", r.text("column", true));
+    return {column, axis_key(r.text("key", true)), r.text("before"), r.text("unit"), r.number("factor", 1)};
+  }
+
+  ValidationSeries series(const toml::table& t) {
+    TomlReader r(source_, t, {"name", "set", "judged"}, kExample);
+    const toml::node* judged = t.get("judged");
+    return {r.text("name", true), r.texts("set"), judged == nullptr || r.flag("judged")};
+  }
+
+  ComparedColumn compared(const toml::table& t) {
+    TomlReader r(source_, t, {"column", "title", "unit", "result", "factor", "deviation", "by", "relative", "bar"},
+                 kExample);
+    ComparedColumn out;
+    out.column = column_at(t, "column", r.text("column", true));
+    out.title = t.contains("title") ? r.text("title") : out.column;
+    out.unit = r.text("unit");
+    const std::string result = r.text("result", true);
+    out.result = find_column(result);
+    if (!out.result && !result.empty())
+      source_.complain_at(place_of(*t.get("result")), fmt::format("result = \"{}\" is no column of a result", result),
+                          "take a name of the head of sweep.csv, e.g. \"p_max_MPa\"");
+    out.factor = r.number("factor", 1);
+    if (t.contains("deviation")) out.deviation = column_at(t, "deviation", r.text("deviation"));
+    const std::string by = t.contains("by") ? r.text("by") : "largest";
+    r.choice("by", by, {"rms", "largest"});
+    out.by = by == "rms" ? DifferenceBy::rms : DifferenceBy::largest;
+    out.relative = r.flag("relative");
+    out.bar = r.number("bar", 0, true);
+    return out;
+  }
+
+ private:
+  std::string column_at(const toml::table& t, const char* key, const std::string& name) {
+    if (!name.empty() && !has_column(data_, name))
+      source_.complain_at(place_of(*t.get(key)),
+                          fmt::format("{} = \"{}\" is no column of {}", key, name, data_.file.filename().string()),
+                          "the first line without \"#\" names its columns");
+    return name;
+  }
+  CaseSource& source_;
+  const CsvTable& data_;
+};
+
+std::string file_name(TomlReader& reader, const toml::table& t, const char* key, const char* otherwise) {
+  return t.contains(key) ? reader.text(key) : otherwise;
+}
+
+}  // namespace
+
+ValidationSet load_validation(const fs::path& folder) {
+  const fs::path file = folder / "validation.toml";
+  CaseSource source(file, read_text_file(file, "a validation set is a folder with validation.toml; docs/validate.md"));
+  const toml::table document = toml_document(source);
+  TomlReader top(source, document,
+                 {"title", "source", "reference", "uncertainty", "fitted", "note", "case", "data", "cell", "vary",
+                  "series", "compare"},
+                 kExample);
+  ValidationSet out;
+  out.name = fs::absolute(folder).lexically_normal().filename().string();
+  out.title = top.text("title", true);
+  out.source = top.text("source", true);
+  out.uncertainty = top.text("uncertainty", true);
+  out.fitted = top.text("fitted", true);
+  out.note = top.text("note");
+  out.reference = top.text("reference", true);
+  out.cell = top.text("cell");
+  top.choice("reference", out.reference, {"measured", "computed", "closed form"});
+  out.data = read_csv(folder / file_name(top, document, "data", "data.csv"));
+  out.loaded = load_case(folder / file_name(top, document, "case", "case.toml"));
+  SetReader reader(source, out.data);
+  for (const toml::table* t : tables(document, "vary")) out.varied.push_back(reader.varied(*t));
+  for (const toml::table* t : tables(document, "series")) out.series.push_back(reader.series(*t));
+  for (const toml::table* t : tables(document, "compare")) out.compared.push_back(reader.compared(*t));
+  if (out.compared.empty())
+    source.complain_at({1, 1}, "nothing is compared", "add a [[compare]] with column, result and bar");
+  source.finish();
+  if (out.series.empty()) out.series.emplace_back();
+  if (!out.varied.empty()) out.x_title = out.varied.front().column;
+  return out;
+}
+
+std::vector<fs::path> validation_folders(const fs::path& root) {
+  std::vector<fs::path> out;
+  if (!fs::is_directory(root)) return out;
+  for (const auto& entry : fs::directory_iterator(root))
+    if (fs::exists(entry.path() / "validation.toml")) out.push_back(entry.path());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace railstrata

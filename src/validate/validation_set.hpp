@@ -1,0 +1,59 @@
+#pragma once
+// A validation set: numbers of others, the case that they belong to, and how near an answer has to come.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "case/case_file.hpp"
+#include "many/result_columns.hpp"
+#include "record/csv.hpp"
+
+namespace railstrata {
+
+/// A column of the data that gives a key of the case: factor * number between two texts, "arc:R=" and "mm".
+struct VariedColumn {
+  std::string column, key, before, unit;
+  double factor = 1;
+};
+
+/// The same data under other values of the case.
+struct ValidationSeries {
+  std::string name;
+  std::vector<std::string> overrides;  ///< "key=value"
+  bool judged = true;                  ///< false: shown beside the others, no part of the verdict
+};
+
+/// How the difference of all rows is made one number.
+enum class DifferenceBy { rms, largest };
+
+/// A column of the data against factor * a number of the result.
+struct ComparedColumn {
+  std::string column, title, unit;
+  const ResultColumn* result = nullptr;
+  double factor = 1;
+  std::string deviation;  ///< column with the standard deviation of the data; empty: none is known
+  DifferenceBy by = DifferenceBy::largest;
+  bool relative = false;  ///< the difference over the data
+  double bar = 0;         ///< in the unit of the data, or relative
+};
+
+struct ValidationSet {
+  std::string name;  ///< of its folder
+  std::string title, source, uncertainty, fitted, note;
+  std::string reference;  ///< "measured", "computed", "closed form"
+  std::string cell;       ///< of the half-space engine; empty: its default
+  LoadedCase loaded;
+  CsvTable data;
+  std::vector<VariedColumn> varied;
+  std::vector<ValidationSeries> series;  ///< one without a name if the file has none
+  std::vector<ComparedColumn> compared;
+  std::string x_title;  ///< of the first varied column
+};
+
+/// Reads validation.toml, data.csv and the case of a folder. Throws CaseError with every mistake, each at its place.
+ValidationSet load_validation(const std::filesystem::path& folder);
+
+/// The folders in `root` that hold a validation.toml, by name.
+std::vector<std::filesystem::path> validation_folders(const std::filesystem::path& root);
+
+}  // namespace railstrata
