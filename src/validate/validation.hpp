@@ -10,6 +10,7 @@
 namespace railstrata {
 
 enum class Agreement {
+  not_judged,      ///< shown alone
   within_scatter,  ///< no further from the data than they scatter
   within_bar,
   outside,
