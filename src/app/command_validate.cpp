@@ -48,8 +48,7 @@ void print_sets() {
 void print_verdict(const Validation& v) {
   for (const Comparison& c : v.comparisons)
     fmt::print("{:<22} {:<22} {:<14} {:>9.3g} (bar {:.3g}{})  {}\n", v.set->name, c.column->title, c.series->name,
-               c.difference, c.column->bar, c.column->relative ? " of the data" : "",
-               c.series->judged ? agreement_text(c.agreement) : "not judged");
+               c.difference, c.column->bar, c.column->relative ? " of the data" : "", agreement_text(c.agreement));
   for (const std::string& fault : v.faults) fmt::print("  {}\n", fault);
 }
 

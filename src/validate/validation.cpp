@@ -60,7 +60,7 @@ Comparison compare(const ValidationSet& set, const ValidationSeries& series, con
         {at[i], data[i], deviation[i], column.factor * column_value(*column.result, cases[i].summary)});
   out.difference = of_all(out, [](const ComparedPoint& p) { return std::abs(p.ours - p.data); });
   out.scatter = of_all(out, [](const ComparedPoint& p) { return p.deviation; });
-  out.agreement = agreement_of(out);
+  out.agreement = series.judged ? agreement_of(out) : Agreement::not_judged;
   return out;
 }
 
@@ -68,6 +68,8 @@ Comparison compare(const ValidationSet& set, const ValidationSeries& series, con
 
 const char* agreement_text(Agreement a) {
   switch (a) {
+    case Agreement::not_judged:
+      return "not judged";
     case Agreement::within_scatter:
       return "within the scatter";
     case Agreement::within_bar:
@@ -83,7 +85,7 @@ const char* agreement_text(Agreement a) {
 Validation validate(const ValidationSet& set, const BemOptions& options, const Control* control) {
   std::vector<std::string> keys;
   for (const VariedColumn& v : set.varied) keys.push_back(v.key);
-  Validation out{.set = &set, .comparisons = {}, .faults = {}, .agreement = Agreement::within_scatter};
+  Validation out{.set = &set, .comparisons = {}, .faults = {}, .agreement = Agreement::not_judged};
   for (const ValidationSeries& series : set.series) {
     std::vector<SweepCase> cases = plan_rows(set.loaded, series.overrides, keys, rows_of(set));
     SweepOptions sweep;
@@ -96,7 +98,7 @@ Validation validate(const ValidationSet& set, const BemOptions& options, const C
             fmt::format("{}row {}: {}", series.name.empty() ? "" : series.name + ", ", i + 1, cases[i].fault));
     for (const ComparedColumn& column : set.compared) {
       out.comparisons.push_back(compare(set, series, column, cases));
-      if (series.judged) out.agreement = std::max(out.agreement, out.comparisons.back().agreement);
+      out.agreement = std::max(out.agreement, out.comparisons.back().agreement);
     }
   }
   return out;

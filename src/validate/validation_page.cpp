@@ -98,9 +98,7 @@ ReportTable verdicts_of(const std::vector<Validation>& all) {
       {"of", [](const VerdictLine& l) { return l.comparison->column->by == DifferenceBy::rms ? "rms" : "largest"; }},
       {"scatter", [](const VerdictLine& l) { return measured_text(*l.comparison->column, l.comparison->scatter); }},
       {"bar", [](const VerdictLine& l) { return measured_text(*l.comparison->column, l.comparison->column->bar); }},
-      {"verdict", [](const VerdictLine& l) {
-         return l.comparison->series->judged ? agreement_text(l.comparison->agreement) : "not judged";
-       }}};
+      {"verdict", [](const VerdictLine& l) { return agreement_text(l.comparison->agreement); }}};
   ReportTable table{.id = "verdicts",
                     .title = "Answers against numbers of others",
                     .note =
@@ -170,7 +168,7 @@ std::string section_of(const Validation& v) {
     out += fmt::format("| {} | {} | {} | {} ({}) | {} | {} | {} |\n", c.column->title, c.series->name, c.points.size(),
                        measured_text(*c.column, c.difference), c.column->by == DifferenceBy::rms ? "rms" : "largest",
                        measured_text(*c.column, c.scatter), measured_text(*c.column, c.column->bar),
-                       c.series->judged ? agreement_text(c.agreement) : "not judged");
+                       agreement_text(c.agreement));
   return out + "\n";
 }
 

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""`validate` from outside: shipped sets, a set of one's own, mistakes in one. usage: validate_test.py BINARY SOURCE_DIR"""
+import csv
+import pathlib
+import shutil
+import sys
+
+from outside import FromOutside, main, railstrata
+
+SOURCE = pathlib.Path(sys.argv[2]).resolve()
+SETS = sorted(f.parent for f in SOURCE.glob("cases/validation/*/validation.toml"))
+OWN = """title = "My disc"
+source = "my bench"
+reference = "measured"
+uncertainty = "not known"
+fitted = "nothing"
+cell = "0.4 mm"
+[[vary]]
+column = "load_kN"
+key = "load"
+unit = "kN"
+[[compare]]
+column = "p_MPa"
+title = "largest pressure"
+result = "p_max_MPa"
+relative = true
+bar = 0.02
+"""
+
+
+class Validate(FromOutside):
+    def own(self, text=OWN, data="load_kN,p_MPa\n20,653.2\n40,823.0\n"):
+        folder = self.folder / "my disc"
+        folder.mkdir(exist_ok=True)
+        shutil.copy(SOURCE / "cases/validation/hertz/case.toml", folder)
+        (folder / "validation.toml").write_text(text, encoding="utf-8")
+        (folder / "data.csv").write_text(data, encoding="utf-8")
+        return folder
+
+    def validate(self, *words, expected=0):
+        rc, out, err = railstrata("validate", *words, "--out", self.folder / "out", "--force")
+        self.assertEqual(rc, expected, out + err)
+        return out, err
+
+    def test_every_shipped_set_is_within_its_bar(self):
+        out, _ = self.validate("--all")
+        for folder in SETS:
+            self.assertIn(folder.name, out)
+            self.assertTrue((self.folder / "out" / folder.name / "report.html").exists())
+        self.assertNotIn("outside", out)
+        self.assertNotIn("not solved", out)
+        self.assertIn("<title>", (self.folder / "out/report.html").read_text(encoding="utf-8"))
+
+    def test_the_page_of_the_documentation_has_every_set(self):
+        page = (SOURCE / "docs/validation.md").read_text(encoding="utf-8")
+        for folder in SETS:
+            self.assertIn(f"`railstrata validate {folder.name}`", page)
+
+    def test_the_list_names_the_sets(self):
+        rc, out, _ = railstrata("validate")
+        self.assertEqual(rc, 0)
+        self.assertEqual([line.split()[0] for line in out.splitlines()], [f.name for f in SETS])
+
+    def test_a_set_of_ones_own_needs_no_code(self):
+        out, _ = self.validate(self.own())
+        self.assertIn("within the bar", out)
+        with open(self.folder / "out/my disc/comparison.csv", newline="", encoding="utf-8") as f:
+            rows = list(csv.DictReader(line for line in f if not line.startswith("#")))
+        self.assertEqual(list(rows[0]), ["load_kN", "p_MPa", "ours of p_MPa"])
+        self.assertAlmostEqual(float(rows[0]["ours of p_MPa"]) / 653.2, 1, delta=0.005)
+
+    def test_what_is_outside_ends_with_failed_checks(self):
+        out, _ = self.validate(self.own(data="load_kN,p_MPa\n20,600\n"), expected=4)
+        self.assertIn("outside", out)
+
+    def test_within_the_scatter_is_better_than_within_the_bar(self):
+        text = OWN.replace('bar = 0.02', 'bar = 0.02\ndeviation = "sd"')
+        out, _ = self.validate(self.own(text, "load_kN,p_MPa,sd\n20,650,10\n"))
+        self.assertIn("within the scatter", out)
+
+    def test_a_row_without_an_answer_is_named(self):
+        out, _ = self.validate(self.own(data="load_kN,p_MPa\n20,653\n-1,600\n"), expected=4)
+        self.assertIn("not solved", out)
+        self.assertIn("row 2: vehicle.wheel_load", out)
+
+    def test_mistakes_are_named_with_their_place_and_a_remedy(self):
+        for old, new, message in (('"p_max_MPa"', '"pmax"', 'validation.toml:14:10: result = "pmax" is no column'),
+                                  ('"load_kN"', '"load"', 'column = "load" is no column of data.csv'),
+                                  ('"measured"', '"guess"', 'reference = "guess" is unknown'),
+                                  ('source =', 'sauce =', 'unknown key sauce'),
+                                  ('bar = 0.02', '', 'bar must be a finite number')):
+            _, err = self.validate(self.own(OWN.replace(old, new)), expected=2)
+            self.assertIn(message, err)
+            self.assertIn("remedy", err)
+        _, err = self.validate("no_such_set", expected=2)
+        self.assertIn("neither a folder with validation.toml nor a set that comes with the program", err)
+        self.assertIn("locomotive", err)
+
+
+if __name__ == "__main__":
+    main()
