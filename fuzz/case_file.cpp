@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "case/option_table.hpp"
-#include "reader.hpp"
 #include "many/axis.hpp"
+#include "reader.hpp"
 
 using namespace railstrata;
 using fuzz::promise;

@@ -6,6 +6,7 @@
 #include "app/common_options.hpp"
 #include "app/control.hpp"
 #include "app/option_values.hpp"
+#include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "runs/pass_folder.hpp"
 

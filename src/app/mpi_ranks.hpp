@@ -27,7 +27,7 @@ class MpiRanks {
   void wait_for_rank_0() const;
 
  private:
-  RailstrataRanks joined_{1, 0, 1, nullptr, nullptr};
+  [[maybe_unused]] RailstrataRanks joined_{1, 0, 1, nullptr, nullptr};  // a build without ranks has no use for it
 };
 
 /// Throws CaseError among several ranks: without this, a command that does not share its work would run once on each

@@ -1,10 +1,10 @@
 #include "explore/case_values.hpp"
 
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <variant>
-#include <nlohmann/json.hpp>
 
 #include "case/option_table.hpp"
 

@@ -4,8 +4,8 @@
 
 namespace railstrata {
 
-std::string_view report_script();    ///< web/dist/report.js
-std::string_view report_style();     ///< web/dist/report.css
-std::string_view view_script();      ///< src/report/view.py
+std::string_view report_script();  ///< web/dist/report.js
+std::string_view report_style();   ///< web/dist/report.css
+std::string_view view_script();    ///< src/report/view.py
 
 }  // namespace railstrata

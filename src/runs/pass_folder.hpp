@@ -1,6 +1,7 @@
 #pragma once
 // Passes of wheels over a rail that yields as jobs, by either method. The files are those of passes/pass_files.hpp,
 // with report.html at the end.
+#include "bem/cell_range.hpp"
 #include "case/case_file.hpp"
 #include "jobs/job.hpp"
 

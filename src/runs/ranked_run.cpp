@@ -4,6 +4,7 @@
 
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
+#include "io/output_folder.hpp"
 #include "runs/device_at_hand.hpp"
 
 namespace railstrata {

@@ -11,11 +11,38 @@
 #include "case/toml_reader.hpp"
 
 namespace railstrata {
+namespace {
+
+constexpr const char* kExample = "see data/paper/published.toml for an example";
+
+PublishedClaim read_claim(CaseSource& source, const toml::table& t) {
+  TomlReader r(
+      source, t,
+      {"section", "text", "kind", "column", "along", "each", "unit", "factor", "limit", "given", "groups", "where"},
+      kExample);
+  PublishedClaim c;
+  c.section = r.text("section", true);
+  c.text = r.text("text", true);
+  c.kind = r.text("kind", true);
+  c.column = r.text("column", true);
+  c.along = r.text("along");
+  c.each = r.text("each");
+  c.unit = r.text("unit");
+  c.given = r.text("given");
+  c.factor = r.number("factor", 1);
+  c.limit = r.number("limit", 0);
+  c.groups = r.texts("groups");
+  c.where = r.lists("where");
+  r.choice("kind", c.kind, {"rises", "falls", "falls_then_rises", "above", "below"});
+  return c;
+}
+
+}  // namespace
+
 Published parse_published(const std::string& text, const std::filesystem::path& file) {
   CaseSource source(file, text);
   const toml::table document = toml_document(source);
   Published out;
-  constexpr const char* kExample = "see data/paper/published.toml for an example";
   TomlReader top(source, document, {"source", "column", "number", "claim"}, kExample);
   out.source = top.text("source");
   for (const toml::table* t : tables(document, "column")) {
@@ -48,27 +75,7 @@ Published parse_published(const std::string& text, const std::filesystem::path& 
     if (!n.bound.empty()) r.choice("bound", n.bound, {"at most", "at least"});
     out.numbers.push_back(std::move(n));
   }
-  for (const toml::table* t : tables(document, "claim")) {
-    TomlReader r(
-        source, *t,
-        {"section", "text", "kind", "column", "along", "each", "unit", "factor", "limit", "given", "groups", "where"},
-        kExample);
-    PublishedClaim c;
-    c.section = r.text("section", true);
-    c.text = r.text("text", true);
-    c.kind = r.text("kind", true);
-    c.column = r.text("column", true);
-    c.along = r.text("along");
-    c.each = r.text("each");
-    c.unit = r.text("unit");
-    c.given = r.text("given");
-    c.factor = r.number("factor", 1);
-    c.limit = r.number("limit", 0);
-    c.groups = r.texts("groups");
-    c.where = r.lists("where");
-    r.choice("kind", c.kind, {"rises", "falls", "falls_then_rises", "above", "below"});
-    out.claims.push_back(std::move(c));
-  }
+  for (const toml::table* t : tables(document, "claim")) out.claims.push_back(read_claim(source, *t));
   source.finish();
   return out;
 }

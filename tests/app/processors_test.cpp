@@ -1,5 +1,5 @@
-#include "app/processor_use.hpp"
 #include "app/processors.hpp"
+#include "app/processor_use.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>

@@ -212,7 +212,8 @@ TEST(SolveBem, ErrorsNameTheKeyTheyAreAbout) {
   EXPECT_EQ(of([](CaseSpec& s) { s.drive.traction_coefficient = 0.51; }), "drive.traction_coefficient");
   EXPECT_EQ(of([](CaseSpec& s) { s.drive.lateral_traction_coefficient = 0.5; }), "drive.lateral_traction_coefficient");
   EXPECT_EQ(of([](CaseSpec& s) {
-              s.third_body = {.thickness = 20e-6, .shear_modulus = 100e6, .yield_shear = 1e6, .hardening = 0, .residual_shear = {}};
+              s.third_body = {
+                  .thickness = 20e-6, .shear_modulus = 100e6, .yield_shear = 1e6, .hardening = 0, .residual_shear = {}};
             }),
             "third_body.yield_shear");
   EXPECT_EQ(of([](CaseSpec& s) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/result/crossed_cylinders.hpp"
 #include "material/elastic.hpp"
+#include "tests/result/crossed_cylinders.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/result/crossed_cylinders.hpp"
 #include "judge/bem_summary.hpp"
 #include "judge/check_limits.hpp"
+#include "tests/result/crossed_cylinders.hpp"
 
 namespace railstrata {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "tests/result/crossed_cylinders.hpp"
 #include "judge/bem_summary.hpp"
+#include "tests/result/crossed_cylinders.hpp"
 
 namespace railstrata {
 namespace {

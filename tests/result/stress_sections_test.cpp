@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/result/crossed_cylinders.hpp"
 #include "material/elastic.hpp"
 #include "mesh/bodies.hpp"
 #include "result/patch.hpp"
+#include "tests/result/crossed_cylinders.hpp"
 
 namespace railstrata {
 namespace {

@@ -39,7 +39,7 @@ export interface Section {
   sigma_xz: PackedNumbers;
   tau_max: PackedNumbers;
   plastic_strain_accumulated?: PackedNumbers;  // accumulated plastic strain, of runs with plasticity
-  material: string;           // one digit (base 36) a cell
+  material: string;                            // one digit (base 36) a cell
 }
 
 export type StressQuantity = "von_mises"|"sigma_1"|"sigma_xz"|"tau_max";
