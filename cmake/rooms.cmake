@@ -51,7 +51,7 @@ endfunction()
 # templates, again in every file: the sources of a room are compiled together (RAILSTRATA_UNITY), so many at a time; a
 # source with compile options of its own stays alone. Rooms that compute nothing are compiled with -O1.
 set(SOURCES_AT_ONCE 24)
-set(ROOMS_THAT_COMPUTE_NOTHING record case hdf5 io passes report jobs runs many study explore app bridge batch usetab export)
+set(ROOMS_THAT_COMPUTE_NOTHING record case hdf5 io passes report jobs runs many study validate explore app bridge batch usetab export)
 
 # railstrata_light(TARGET NAME): these rules for the sources of a room or of its tests.
 function(railstrata_light target name)
