@@ -71,8 +71,9 @@ ExitCode command_validate(const CommandOptions& options) {
   }
   std::vector<ValidationSet> sets;
   for (const fs::path& folder : folders) sets.push_back(load_validation(folder));
-  const fs::path out = options.out.empty() ? fs::path("results/validate") : options.out;
-  const FolderHold hold = prepare_output_folder(out, options.force);
+  const bool own = options.out.empty();  // this command alone writes there: an earlier answer is replaced
+  const fs::path out = own ? fs::path("results/validate") : options.out;
+  const FolderHold hold = prepare_output_folder(out, options.force || own);
   std::vector<Validation> all;
   for (const ValidationSet& set : sets) {
     control().progress("validate", static_cast<double>(all.size()) / static_cast<double>(sets.size()));

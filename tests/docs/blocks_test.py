@@ -82,15 +82,25 @@ def run_sh(block, folder):
     done(block, folder, "sh", "-euc", text)
 
 
+def file_name(block):
+    return pathlib.PurePath(block.file).name
+
+
 def run_toml(block, folder, rs):
-    """A file that begins with [study] is listed as a study; all else is a case, whole or in part."""
+    """A file that begins with [study] is listed as a study, a validation.toml is run on the locomotive's case and data;
+    all else is a case, whole or in part."""
     text = block.text
     if block.file:
         file = folder / block.file
+        file.parent.mkdir(exist_ok=True)
         text = (file.read_text() if file.exists() else "") + text
         file.write_text(text)
     if text.startswith("[study]"):
         done(block, folder, folder / "railstrata", "study", block.file, "--dry-run")
+    elif file_name(block) == "validation.toml":
+        for name in ("case.toml", "data.csv"):
+            shutil.copy(folder / "cases/validation/locomotive" / name, file.parent)
+        done(block, folder, folder / "railstrata", "validate", file.parent.name)
     else:
         rs.Case.from_text(text, str(folder / "case.toml"))
 

@@ -69,6 +69,16 @@ class Validate(FromOutside):
         self.assertEqual(list(rows[0]), ["load_kN", "p_MPa", "ours of p_MPa"])
         self.assertAlmostEqual(float(rows[0]["ours of p_MPa"]) / 653.2, 1, delta=0.005)
 
+    def test_the_usual_folder_takes_later_answers_and_another_is_kept(self):
+        folder = self.own()
+        for _ in range(2):
+            rc, out, err = railstrata("validate", folder, cwd=self.folder)
+            self.assertEqual(rc, 0, out + err)
+        for expected in (0, 2):
+            rc, out, err = railstrata("validate", folder, "--out", "mine", cwd=self.folder)
+            self.assertEqual(rc, expected, out + err)
+        self.assertIn("--force", err)
+
     def test_what_is_outside_ends_with_failed_checks(self):
         out, _ = self.validate(self.own(data="load_kN,p_MPa\n20,600\n"), expected=1)
         self.assertIn("outside", out)
