@@ -6,6 +6,7 @@
 
 #include "case/text_file.hpp"
 #include "case/toml_reader.hpp"
+#include "case/unit_table.hpp"
 #include "many/axis.hpp"
 
 namespace railstrata {
@@ -15,18 +16,21 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExample = "docs/validate.md lists the keys; cases/validation has examples";
 
-bool has_column(const CsvTable& data, const std::string& name) {
-  return std::any_of(data.columns.begin(), data.columns.end(), [&](const CsvColumn& c) { return c.name == name; });
-}
+/// A column of the data that the set names, and where.
+struct NamedColumn {
+  std::string name;
+  const char* key;
+  TextPlace place;
+};
 
-/// Reads the tables of one file beside its data.
+/// Reads the tables of one file.
 class SetReader {
  public:
-  SetReader(CaseSource& source, const CsvTable& data) : source_(source), data_(data) {}
+  explicit SetReader(CaseSource& source) : source_(source) {}
 
   VariedColumn varied(const toml::table& t) {
     TomlReader r(source_, t, {"column", "key", "before", "unit", "factor"}, kExample);
-    const std::string column = column_at(t, "column", r.text("column", true));
+    const std::string column = column_at(r, t, "column");
     return {column, axis_key(r.text("key", true)), r.text("before"), r.text("unit"), r.number("factor", 1)};
   }
 
@@ -40,7 +44,7 @@ class SetReader {
     TomlReader r(source_, t, {"column", "title", "unit", "result", "factor", "deviation", "by", "relative", "bar"},
                  kExample);
     ComparedColumn out;
-    out.column = column_at(t, "column", r.text("column", true));
+    out.column = column_at(r, t, "column");
     out.title = t.contains("title") ? r.text("title") : out.column;
     out.unit = r.text("unit");
     const std::string result = r.text("result", true);
@@ -49,7 +53,7 @@ class SetReader {
       source_.complain_at(place_of(*t.get("result")), fmt::format("result = \"{}\" is no column of a result", result),
                           "take a name of the head of sweep.csv, e.g. \"p_max_MPa\"");
     out.factor = r.number("factor", 1);
-    if (t.contains("deviation")) out.deviation = column_at(t, "deviation", r.text("deviation"));
+    if (t.contains("deviation")) out.deviation = column_at(r, t, "deviation");
     const std::string by = t.contains("by") ? r.text("by") : "largest";
     r.choice("by", by, {"rms", "largest"});
     out.by = by == "rms" ? DifferenceBy::rms : DifferenceBy::largest;
@@ -58,16 +62,41 @@ class SetReader {
     return out;
   }
 
+  /// The columns that the tables name, of a file with more perhaps; as a spreadsheet writes it too.
+  CsvTable data(const fs::path& file) {
+    std::vector<Option> options;
+    options.reserve(columns_.size());
+    for (const NamedColumn& c : columns_)
+      if (std::none_of(options.begin(), options.end(), [&](const Option& o) { return o.key == c.name; }))
+        options.push_back({.key = c.name, .slot = nullptr, .doc = {}, .dimension = dimension::kNumber});
+    UnitTableForm form{.columns = {}, .rivals = {}, .what = "a validation set", .example = "load_kN, p_max_MPa"};
+    form.others = true;
+    for (const Option& o : options) form.columns.push_back({&o, o.key});
+    const UnitTable table = read_unit_table(read_text_file(file, "the data of a validation set, as CSV"), file, form);
+    CsvTable out{file, {}};
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      CsvColumn& column = out.columns.emplace_back(CsvColumn{std::string(table.columns[k]->key), {}});
+      for (const UnitTable::Row& row : table.rows) column.values.push_back(*row.cells[k].number);
+    }
+    require_columns(out);
+    return out;
+  }
+
  private:
-  std::string column_at(const toml::table& t, const char* key, const std::string& name) {
-    if (!name.empty() && !has_column(data_, name))
-      source_.complain_at(place_of(*t.get(key)),
-                          fmt::format("{} = \"{}\" is no column of {}", key, name, data_.file.filename().string()),
-                          "the first line without \"#\" names its columns");
+  std::string column_at(TomlReader& r, const toml::table& t, const char* key) {
+    const std::string name = r.text(key, true);
+    if (!name.empty()) columns_.push_back({name, key, place_of(*t.get(key))});
     return name;
   }
+  void require_columns(const CsvTable& data) {
+    for (const NamedColumn& c : columns_)
+      if (std::none_of(data.columns.begin(), data.columns.end(), [&](const CsvColumn& d) { return d.name == c.name; }))
+        source_.complain_at(c.place,
+                            fmt::format("{} = \"{}\" is no column of {}", c.key, c.name, data.file.filename().string()),
+                            "the first line without \"#\" names its columns");
+  }
   CaseSource& source_;
-  const CsvTable& data_;
+  std::vector<NamedColumn> columns_;
 };
 
 std::string file_name(TomlReader& reader, const toml::table& t, const char* key, const char* otherwise) {
@@ -94,14 +123,14 @@ ValidationSet load_validation(const fs::path& folder) {
   out.reference = top.text("reference", true);
   out.cell = top.text("cell");
   top.choice("reference", out.reference, {"measured", "computed", "closed form"});
-  out.data = read_csv(folder / file_name(top, document, "data", "data.csv"));
   out.loaded = load_case(folder / file_name(top, document, "case", "case.toml"));
-  SetReader reader(source, out.data);
+  SetReader reader(source);
   for (const toml::table* t : tables(document, "vary")) out.varied.push_back(reader.varied(*t));
   for (const toml::table* t : tables(document, "series")) out.series.push_back(reader.series(*t));
   for (const toml::table* t : tables(document, "compare")) out.compared.push_back(reader.compared(*t));
   if (out.compared.empty())
     source.complain_at({1, 1}, "nothing is compared", "add a [[compare]] with column, result and bar");
+  if (out.compared.size() > 0) out.data = reader.data(folder / file_name(top, document, "data", "data.csv"));
   source.finish();
   if (out.series.empty()) out.series.emplace_back();
   if (!out.varied.empty()) out.x_title = out.varied.front().column;

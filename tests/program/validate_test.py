@@ -79,6 +79,16 @@ class Validate(FromOutside):
             self.assertEqual(rc, expected, out + err)
         self.assertIn("--force", err)
 
+    def test_a_spreadsheet_with_decimal_commas_is_read(self):
+        text = OWN.replace('column = "load_kN"', 'column = "Last_kN"')
+        out, _ = self.validate(self.own(text, "\ufeffLast_kN;Bemerkung;p_MPa\r\n20,0;erste Messung;653,2\r\n40,0;;823,0\r\n"))
+        self.assertIn("within the bar", out)
+
+    def test_data_without_rows_are_refused(self):
+        _, err = self.validate(self.own(data="load_kN,p_MPa\n"), expected=2)
+        self.assertIn("data.csv:1: ", err)
+        self.assertIn("the table has no rows", err)
+
     def test_what_is_outside_ends_with_failed_checks(self):
         out, _ = self.validate(self.own(data="load_kN,p_MPa\n20,600\n"), expected=1)
         self.assertIn("outside", out)
