@@ -147,11 +147,13 @@ class TableReader {
     for (const UnitTableForm::Column& c : form_.columns) {
       known.emplace_back(c.key);
       for (const std::string_view key : {c.option->key, c.key})
-        if (const auto unit = unit_after(name, key); unit && key.size() > longest) {
+        if (const auto unit = form_.as_written && name != key ? std::nullopt : unit_after(name, key);
+            unit && key.size() > longest) {
           longest = key.size();
           best = Column{c.option, *unit, c.option->slot && std::holds_alternative<std::string*>(any_slot(*c.option))};
         }
     }
+    if (!best && form_.as_written) return {nullptr, ""};
     const std::string near = nearest_word(name, known);
     if (!best && form_.others && near.empty() && is_word(name)) return {nullptr, ""};
     if (!best)

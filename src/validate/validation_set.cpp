@@ -70,7 +70,7 @@ class SetReader {
       if (std::none_of(options.begin(), options.end(), [&](const Option& o) { return o.key == c.name; }))
         options.push_back({.key = c.name, .slot = nullptr, .doc = {}, .dimension = dimension::kNumber});
     UnitTableForm form{.columns = {}, .rivals = {}, .what = "a validation set", .example = "load_kN, p_max_MPa"};
-    form.others = true;
+    form.as_written = true;
     for (const Option& o : options) form.columns.push_back({&o, o.key});
     const UnitTable table = read_unit_table(read_text_file(file, "the data of a validation set, as CSV"), file, form);
     CsvTable out{file, {}};

@@ -81,7 +81,8 @@ class Validate(FromOutside):
 
     def test_a_spreadsheet_with_decimal_commas_is_read(self):
         text = OWN.replace('column = "load_kN"', 'column = "Last_kN"')
-        out, _ = self.validate(self.own(text, "\ufeffLast_kN;Bemerkung;p_MPa\r\n20,0;erste Messung;653,2\r\n40,0;;823,0\r\n"))
+        data = "\ufeffLast_kN;Bemerkung;p_MPa\r\n20,0;erste Messung;653,2\r\n40,0;;823,0\r\n"
+        out, _ = self.validate(self.own(text, data))
         self.assertIn("within the bar", out)
 
     def test_data_without_rows_are_refused(self):
