@@ -70,10 +70,11 @@ ReportChart chart_of(const Validation& v, const ComparedColumn& column) {
     chart.series.push_back(edge("+ standard deviation", points, 1));
     chart.series.push_back(edge("- standard deviation", points, -1));
   }
+  int colour = 0;  // that of the data
   for (const Comparison* c : all) {
     chart.series.push_back(
         line(c->series->name.empty() ? "RailStrata" : c->series->name, c->points, &ComparedPoint::ours));
-    chart.series.back().colour = static_cast<int>(chart.series.size());
+    chart.series.back().colour = ++colour;
   }
   return chart;
 }
@@ -92,7 +93,7 @@ ReportTable verdicts_of(const std::vector<Validation>& all) {
       {"quantity", [](const VerdictLine& l) { return l.comparison->column->title; }},
       {"series", [](const VerdictLine& l) { return l.comparison->series->name; }},
       {"reference", [](const VerdictLine& l) { return l.validation->set->reference; }},
-      {"rows", [](const VerdictLine& l) { return l.comparison->points.size(); }},
+      {"rows", [](const VerdictLine& l) { return fmt::format("{}", l.comparison->points.size()); }},
       {"difference",
        [](const VerdictLine& l) { return measured_text(*l.comparison->column, l.comparison->difference); }},
       {"of", [](const VerdictLine& l) { return l.comparison->column->by == DifferenceBy::rms ? "rms" : "largest"; }},
