@@ -66,9 +66,11 @@ class HalfSpaceCommands(FromOutside):
 
     @slow
     def test_the_shipped_cases_are_within_the_domain_of_validity(self):
-        # the elastic stresses of wheel and rail are above yield, which is said; nothing else is
+        # the elastic stresses of wheel and rail are above yield, which is said; nothing else is. Validation sets go
+        # beyond it on purpose.
         for case in sorted((SOURCE / "cases").rglob("*.toml")):
-            if case.name.endswith("expect.toml") or "study" in tomllib.loads(case.read_text()):
+            if (case.name.endswith("expect.toml") or case.is_relative_to(SOURCE / "cases/validation")
+                    or "study" in tomllib.loads(case.read_text())):
                 continue
             summary = json.loads(self.done("bem", case, "--threads", "1", "--json", "--no-report", "--force", "--out",
                                            self.folder / "shipped"))
