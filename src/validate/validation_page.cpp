@@ -103,7 +103,8 @@ ReportTable verdicts_of(const std::vector<Validation>& all) {
   ReportTable table{.id = "verdicts",
                     .title = "Answers against numbers of others",
                     .note =
-                        "Bars were fixed before the comparison. Within the scatter: no further from the data than "
+                        "A bar is chosen before a comparison, or the set says otherwise. Within the scatter: no "
+                        "further from the data than "
                         "these scatter.",
                     .columns = {},
                     .rows = {}};
@@ -220,7 +221,8 @@ std::string comparison_svg(const Validation& validation, const ComparedColumn& c
 void write_validation_docs(const fs::path& docs, const std::vector<Validation>& all) {
   std::string text =
       "# Held against numbers of others\n\nEvery set runs again with `railstrata validate` ([how](validate.md)); this "
-      "page is what `railstrata validate --all --docs docs` writes. Bars were fixed before the comparison.\n\n"
+      "page is what `railstrata validate --all --docs docs` writes. A bar is chosen before a comparison, or the set "
+      "says otherwise.\n\n"
       "| set | reference | verdict |\n|---|---|---|\n";
   for (const Validation& v : all)
     text += fmt::format("| {} | {} | {} |\n", v.set->title, v.set->reference, agreement_text(v.agreement));
