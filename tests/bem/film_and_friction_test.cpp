@@ -113,13 +113,7 @@ TEST(FilmAndFriction, RollingFromRestEndsInTheSteadyState) {
   p.speed = kSpeed;
   p.x.creepage = 0.02;
   const TangentialSolution steady = solve_tangential(influence, c.grid, p);
-  TangentialSolution s;
-  s.q_x.assign(c.grid.size(), 0.0);
-  s.q_y = s.q_x;
-  for (int step = 0; step < 80; ++step) {
-    roll_on_one_cell(influence, c.grid, s, p);
-    s = solve_tangential(influence, c.grid, p);
-  }
+  const TangentialSolution s = rolled_from_rest(influence, c.grid, p, 80);
   EXPECT_NEAR(s.force_x / steady.force_x, 1, 2e-4);
   EXPECT_NEAR(peak(s.lost_friction) / peak(steady.lost_friction), 1, 2e-3);
   EXPECT_NEAR(peak(s.plastic) / peak(steady.plastic), 1, 2e-3);

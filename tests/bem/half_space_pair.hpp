@@ -49,6 +49,19 @@ struct ReferenceContact {
   }
 };
 
+/// From rest under no traction, `steps` cells of rolling later.
+inline TangentialSolution rolled_from_rest(const InfluenceOperator& influence, const PatchGrid& grid,
+                                           TangentialProblem problem, int steps) {
+  TangentialSolution s;
+  s.q_x.assign(grid.size(), 0.0);
+  s.q_y = s.q_x;
+  for (int step = 0; step < steps; ++step) {
+    roll_on_one_cell(influence, grid, s, problem);
+    s = solve_tangential(influence, grid, problem);
+  }
+  return s;
+}
+
 inline double largest_traction(const TangentialSolution& s) {
   double q = 0;
   for (std::size_t i = 0; i < s.q_x.size(); ++i) q = std::max(q, std::hypot(s.q_x[i], s.q_y[i]));

@@ -173,13 +173,7 @@ TEST(ThirdBody, StepsOfRollingEndInTheSteadyStateWithItsPlasticShear) {
   p.third_body = film;
   p.x.creepage = 0.01;
   const TangentialSolution steady = solve_tangential(influence, c.grid, p);
-  TangentialSolution s;
-  s.q_x.assign(c.grid.size(), 0.0);
-  s.q_y = s.q_x;
-  for (int step = 0; step < 60; ++step) {
-    roll_on_one_cell(influence, c.grid, s, p);
-    s = solve_tangential(influence, c.grid, p);
-  }
+  const TangentialSolution s = rolled_from_rest(influence, c.grid, p, 60);
   EXPECT_NEAR(s.force_x / steady.force_x, 1, 1e-4);
   EXPECT_NEAR(peak(s.plastic) / peak(steady.plastic), 1, 1e-3);
   EXPECT_GT(peak(s.plastic), 0.01e-3);
