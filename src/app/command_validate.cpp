@@ -20,9 +20,9 @@ constexpr const char* kShipped = "cases/validation";
 
 /// A folder, or the name of a shipped set.
 fs::path folder_of(const std::string& name) {
-  if (fs::exists(fs::path(name) / "validation.toml")) return name;
+  if (holds_validation(name)) return name;
   const fs::path shipped = shipped_folder() / kShipped / name;
-  if (fs::exists(shipped / "validation.toml")) return shipped;
+  if (holds_validation(shipped)) return shipped;
   std::string known;
   for (const fs::path& folder : validation_folders(shipped_folder() / kShipped))
     known += fmt::format("{}{}", known.empty() ? "" : ", ", folder.filename().string());

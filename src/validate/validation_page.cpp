@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "record/json.hpp"
 #include "record/output_file.hpp"
@@ -27,6 +28,9 @@ std::string measured_text(const ComparedColumn& c, double value) {
 std::string title_of(const ComparedColumn& c) {
   return c.unit.empty() ? c.title : fmt::format("{} [{}]", c.title, c.unit);
 }
+
+/// More than one row, over a column that varies.
+bool has_chart(const ValidationSet& set) { return set.data.rows() > 1 && !set.varied.empty(); }
 
 /// All comparisons of one column.
 std::vector<const Comparison*> of_column(const Validation& v, const ComparedColumn& column) {
@@ -59,7 +63,7 @@ ReportChart chart_of(const Validation& v, const ComparedColumn& column) {
   ReportChart chart{.id = v.set->name + "-" + column.column,
                     .title = fmt::format("{}: {}", v.set->title, column.title),
                     .note = v.set->source,
-                    .x = v.set->x_title,
+                    .x = v.set->varied.front().column,
                     .y = title_of(column),
                     .series = {}};
   const std::vector<const Comparison*> all = of_column(v, column);
@@ -84,7 +88,7 @@ struct VerdictLine {
   const Comparison* comparison;
 };
 
-ReportTable verdicts_of(const std::vector<Validation>& all) {
+ReportTable verdicts_of(std::span<const Validation> all) {
   std::vector<VerdictLine> lines;
   for (const Validation& v : all)
     for (const Comparison& c : v.comparisons) lines.push_back({&v, &c});
@@ -96,7 +100,7 @@ ReportTable verdicts_of(const std::vector<Validation>& all) {
       {"rows", [](const VerdictLine& l) { return fmt::format("{}", l.comparison->points.size()); }},
       {"difference",
        [](const VerdictLine& l) { return measured_text(*l.comparison->column, l.comparison->difference); }},
-      {"of", [](const VerdictLine& l) { return l.comparison->column->by == DifferenceBy::rms ? "rms" : "largest"; }},
+      {"of", [](const VerdictLine& l) { return difference_text(l.comparison->column->by); }},
       {"scatter", [](const VerdictLine& l) { return measured_text(*l.comparison->column, l.comparison->scatter); }},
       {"bar", [](const VerdictLine& l) { return measured_text(*l.comparison->column, l.comparison->column->bar); }},
       {"verdict", [](const VerdictLine& l) { return agreement_text(l.comparison->agreement); }}};
@@ -112,13 +116,13 @@ ReportTable verdicts_of(const std::vector<Validation>& all) {
   return table;
 }
 
-Report report_of(const std::vector<Validation>& all, const std::string& title) {
+Report report_of(std::span<const Validation> all, const std::string& title) {
   Report report;
   report.title = title;
   report.tables = {verdicts_of(all)};
   for (const Validation& v : all)
     for (const ComparedColumn& column : v.set->compared)
-      if (v.set->data.rows() > 1 && !v.set->varied.empty()) report.charts.push_back(chart_of(v, column));
+      if (has_chart(*v.set)) report.charts.push_back(chart_of(v, column));
   return report;
 }
 
@@ -168,7 +172,7 @@ std::string section_of(const Validation& v) {
   out += "| quantity | series | rows | difference | scatter | bar | verdict |\n|---|---|---|---|---|---|---|\n";
   for (const Comparison& c : v.comparisons)
     out += fmt::format("| {} | {} | {} | {} ({}) | {} | {} | {} |\n", c.column->title, c.series->name, c.points.size(),
-                       measured_text(*c.column, c.difference), c.column->by == DifferenceBy::rms ? "rms" : "largest",
+                       measured_text(*c.column, c.difference), difference_text(c.column->by),
                        measured_text(*c.column, c.scatter), measured_text(*c.column, c.column->bar),
                        agreement_text(c.agreement));
   return out + "\n";
@@ -185,8 +189,8 @@ void write_validation(const fs::path& folder, const std::vector<std::string>& or
     columns.push_back(std::move(ours));
   }
   write_csv(folder / "comparison.csv", origin, columns);
-  const std::vector<Validation> one{validation};
-  write_whole_file(folder / "report.html", report_page(report_of(one, "Validation: " + validation.set->title)));
+  write_whole_file(folder / "report.html",
+                   report_page(report_of({&validation, 1}, "Validation: " + validation.set->title)));
 }
 
 std::string validations_page(const std::vector<Validation>& all) { return report_page(report_of(all, "Validation")); }
@@ -196,7 +200,7 @@ std::string comparison_svg(const Validation& validation, const ComparedColumn& c
   const std::vector<const Comparison*> all = of_column(validation, column);
   SvgPage page(640, 380 + 18.0 * static_cast<double>(all.size() + 1));
   const SvgFrame f = frame_of(all);
-  page.axes(f, validation.set->x_title, title_of(column));
+  page.axes(f, validation.set->varied.front().column, title_of(column));
   double legend = 390;
   std::size_t k = 0;
   for (const Comparison* c : all) {
@@ -230,7 +234,7 @@ void write_validation_docs(const fs::path& docs, const std::vector<Validation>& 
   fs::create_directories(docs / "images");
   for (const Validation& v : all) {
     text += section_of(v);
-    if (v.set->data.rows() < 2 || v.set->varied.empty()) continue;
+    if (!has_chart(*v.set)) continue;
     for (std::size_t k = 0; k < v.set->compared.size(); ++k) {
       write_whole_file(docs / "images" / picture_name(v, k), comparison_svg(v, v.set->compared[k]));
       text += fmt::format("![{} of {}](images/{})\n\n", v.set->compared[k].title, v.set->title, picture_name(v, k));

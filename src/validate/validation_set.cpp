@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kFile = "validation.toml";
 constexpr const char* kExample = "docs/validate.md lists the keys; cases/validation has examples";
 
 /// A column of the data that the set names, and where.
@@ -54,9 +55,10 @@ class SetReader {
                           "take a name of the head of sweep.csv, e.g. \"p_max_MPa\"");
     out.factor = r.number("factor", 1);
     if (t.contains("deviation")) out.deviation = column_at(r, t, "deviation");
-    const std::string by = t.contains("by") ? r.text("by") : "largest";
-    r.choice("by", by, {"rms", "largest"});
-    out.by = by == "rms" ? DifferenceBy::rms : DifferenceBy::largest;
+    const std::string by = t.contains("by") ? r.text("by") : difference_text(out.by);
+    const std::string rms = difference_text(DifferenceBy::rms);
+    r.choice("by", by, {rms, difference_text(DifferenceBy::largest)});
+    out.by = by == rms ? DifferenceBy::rms : DifferenceBy::largest;
     out.relative = r.flag("relative");
     out.bar = r.number("bar", 0, true);
     return out;
@@ -106,7 +108,7 @@ std::string file_name(TomlReader& reader, const toml::table& t, const char* key,
 }  // namespace
 
 ValidationSet load_validation(const fs::path& folder) {
-  const fs::path file = folder / "validation.toml";
+  const fs::path file = folder / kFile;
   CaseSource source(file, read_text_file(file, "a validation set is a folder with validation.toml; docs/validate.md"));
   const toml::table document = toml_document(source);
   TomlReader top(source, document,
@@ -130,18 +132,22 @@ ValidationSet load_validation(const fs::path& folder) {
   for (const toml::table* t : tables(document, "compare")) out.compared.push_back(reader.compared(*t));
   if (out.compared.empty())
     source.complain_at({1, 1}, "nothing is compared", "add a [[compare]] with column, result and bar");
-  if (out.compared.size() > 0) out.data = reader.data(folder / file_name(top, document, "data", "data.csv"));
+  else
+    out.data = reader.data(folder / file_name(top, document, "data", "data.csv"));
   source.finish();
   if (out.series.empty()) out.series.emplace_back();
-  if (!out.varied.empty()) out.x_title = out.varied.front().column;
   return out;
 }
+
+const char* difference_text(DifferenceBy by) { return by == DifferenceBy::rms ? "rms" : "largest"; }
+
+bool holds_validation(const fs::path& folder) { return fs::exists(folder / kFile); }
 
 std::vector<fs::path> validation_folders(const fs::path& root) {
   std::vector<fs::path> out;
   if (!fs::is_directory(root)) return out;
   for (const auto& entry : fs::directory_iterator(root))
-    if (fs::exists(entry.path() / "validation.toml")) out.push_back(entry.path());
+    if (holds_validation(entry.path())) out.push_back(entry.path());
   std::sort(out.begin(), out.end());
   return out;
 }

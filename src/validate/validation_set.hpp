@@ -25,6 +25,7 @@ struct ValidationSeries {
 
 /// How the difference of all rows is made one number.
 enum class DifferenceBy { rms, largest };
+const char* difference_text(DifferenceBy by);
 
 /// A column of the data against factor * a number of the result.
 struct ComparedColumn {
@@ -47,11 +48,12 @@ struct ValidationSet {
   std::vector<VariedColumn> varied;
   std::vector<ValidationSeries> series;  ///< one without a name if the file has none
   std::vector<ComparedColumn> compared;
-  std::string x_title;  ///< of the first varied column
 };
 
 /// Reads validation.toml, data.csv and the case of a folder. Throws CaseError with every mistake, each at its place.
 ValidationSet load_validation(const std::filesystem::path& folder);
+
+bool holds_validation(const std::filesystem::path& folder);
 
 /// The folders in `root` that hold a validation.toml, by name.
 std::vector<std::filesystem::path> validation_folders(const std::filesystem::path& root);
