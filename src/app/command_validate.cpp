@@ -52,15 +52,12 @@ void print_verdict(const Validation& v) {
   for (const std::string& fault : v.faults) fmt::print("  {}\n", fault);
 }
 
-Validation validate_set(const ValidationSet& set, const fs::path& out, const CommandOptions& options) {
+Validation solved(const ValidationSet& set, const CommandOptions& options) {
   InfluenceCache cache;
   BemOptions bem;
   bem.cell = cell_size(options.cell.empty() ? set.cell : options.cell);
   bem.cache = &cache;
-  Validation result = validate(set, bem, &control_by_signals());
-  fs::create_directories(out / set.name);
-  write_validation(out / set.name, table_origin(set.loaded), result);
-  return result;
+  return validate(set, bem, &control_by_signals());
 }
 
 ExitCode command_validate(const CommandOptions& options) {
@@ -77,9 +74,11 @@ ExitCode command_validate(const CommandOptions& options) {
   std::vector<Validation> all;
   for (const ValidationSet& set : sets) {
     control().progress("validate", static_cast<double>(all.size()) / static_cast<double>(sets.size()));
-    all.push_back(validate_set(set, out, options));
-    if (control().stop) return ExitCode::interrupted;
+    all.push_back(solved(set, options));
     control().progress("");
+    if (control().stop) return ExitCode::interrupted;  // rows are missing
+    fs::create_directories(out / set.name);
+    write_validation(out / set.name, table_origin(set.loaded), all.back());
     print_verdict(all.back());
   }
   write_whole_file(out / "report.html", validations_page(all));
