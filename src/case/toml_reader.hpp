@@ -32,6 +32,9 @@ class TomlReader {
                           fmt::format("write {} = \"…\"", key));
     return {};
   }
+  std::string text_or(const char* key, const std::string& otherwise) {
+    return table_.contains(key) ? text(key) : otherwise;
+  }
   double number(const char* key, double otherwise, bool needed = false) {
     const toml::node* n = table_.get(key);
     if (n && n->is_number() && std::isfinite(number_of(*n))) return number_of(*n);
@@ -40,7 +43,14 @@ class TomlReader {
                           fmt::format("write {} = 1.5", key));
     return otherwise;
   }
-  bool flag(const char* key) { return table_[key].value_or(false); }
+  bool flag(const char* key, bool otherwise = false) {
+    const toml::node* n = table_.get(key);
+    if (n && n->is_boolean()) return n->as_boolean()->get();
+    if (n)
+      source_.complain_at(place_of(*n), fmt::format("{} must be true or false", key),
+                          fmt::format("write {} = true, without quotes", key));
+    return otherwise;
+  }
   std::vector<std::string> texts(const char* key) { return texts_of(table_.get(key)); }
   std::map<std::string, std::vector<std::string>> lists(const char* key) {
     std::map<std::string, std::vector<std::string>> out;

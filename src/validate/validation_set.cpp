@@ -37,8 +37,7 @@ class SetReader {
 
   ValidationSeries series(const toml::table& t) {
     TomlReader r(source_, t, {"name", "set", "judged"}, kExample);
-    const toml::node* judged = t.get("judged");
-    return {r.text("name", true), r.texts("set"), judged == nullptr || r.flag("judged")};
+    return {r.text("name", true), r.texts("set"), r.flag("judged", true)};
   }
 
   ComparedColumn compared(const toml::table& t) {
@@ -46,7 +45,7 @@ class SetReader {
                  kExample);
     ComparedColumn out;
     out.column = column_at(r, t, "column");
-    out.title = t.contains("title") ? r.text("title") : out.column;
+    out.title = r.text_or("title", out.column);
     out.unit = r.text("unit");
     const std::string result = r.text("result", true);
     out.result = find_column(result);
@@ -55,7 +54,7 @@ class SetReader {
                           "take a name of the head of sweep.csv, e.g. \"p_max_MPa\"");
     out.factor = r.number("factor", 1);
     if (t.contains("deviation")) out.deviation = column_at(r, t, "deviation");
-    const std::string by = t.contains("by") ? r.text("by") : difference_text(out.by);
+    const std::string by = r.text_or("by", difference_text(out.by));
     const std::string rms = difference_text(DifferenceBy::rms);
     r.choice("by", by, {rms, difference_text(DifferenceBy::largest)});
     out.by = by == rms ? DifferenceBy::rms : DifferenceBy::largest;
@@ -101,10 +100,6 @@ class SetReader {
   std::vector<NamedColumn> columns_;
 };
 
-std::string file_name(TomlReader& reader, const toml::table& t, const char* key, const char* otherwise) {
-  return t.contains(key) ? reader.text(key) : otherwise;
-}
-
 }  // namespace
 
 ValidationSet load_validation(const fs::path& folder) {
@@ -125,7 +120,7 @@ ValidationSet load_validation(const fs::path& folder) {
   out.reference = top.text("reference", true);
   out.cell = top.text("cell");
   top.choice("reference", out.reference, {"measured", "computed", "closed form"});
-  out.loaded = load_case(folder / file_name(top, document, "case", "case.toml"));
+  out.loaded = load_case(folder / top.text_or("case", "case.toml"));
   SetReader reader(source);
   for (const toml::table* t : tables(document, "vary")) out.varied.push_back(reader.varied(*t));
   for (const toml::table* t : tables(document, "series")) out.series.push_back(reader.series(*t));
@@ -133,7 +128,7 @@ ValidationSet load_validation(const fs::path& folder) {
   if (out.compared.empty())
     source.complain_at({1, 1}, "nothing is compared", "add a [[compare]] with column, result and bar");
   else
-    out.data = reader.data(folder / file_name(top, document, "data", "data.csv"));
+    out.data = reader.data(folder / top.text_or("data", "data.csv"));
   source.finish();
   if (out.series.empty()) out.series.emplace_back();
   return out;
