@@ -62,6 +62,7 @@ void require_plain(const CaseSpec& spec) {
                     "take it out for the comparison, e.g. with --set, or compare with the result (.mat) alone");
   };
   if (!spec.layers.empty()) refuse("elastic layers", "layer");
+  if (spec.geometry.rail_radius) refuse("roller here", "geometry.rail_radius");
   if (spec.friction.law != FrictionForm::coulomb) refuse("friction law of this form", "friction.law");
   if (spec.third_body.thickness) refuse("film of this form", "third_body.thickness");
 }

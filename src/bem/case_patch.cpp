@@ -90,14 +90,16 @@ PatchGrid grid_for(const CaseSpec& spec, const Placement& placement, const BemOp
   return centred_grid(half_x, cells(std::max(1.15 * scale * estimate.b, held)), options.cell, options.cell);
 }
 
-/// Rigid slip of the wheel's surface beyond creepage: each point moves with its local rolling radius. The part linear
-/// in y, -spin y, is left to the spin, which also brings the lateral slip.
+/// Rigid slip of the wheel's surface beyond creepage: each point moves with its local rolling radius, of a rail that
+/// turns too with its own. The part linear in y, -spin y, is left to the spin, which also brings the lateral slip.
 Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidContact& contact, double spin) {
   Plane slip(g.size());
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {
-      const double radius = gap.radius[g.index(g.nx / 2, j)];
+      const std::size_t under_axle = g.index(g.nx / 2, j);
+      const double radius = gap.radius[under_axle];
       slip[g.index(i, j)] = (contact.rolling_radius - radius) / contact.rolling_radius + spin * g.y(j);
+      if (!gap.rail_radius.empty()) slip[g.index(i, j)] += gap.rail_radius[under_axle] * contact.rail_turn - 1;
     }
   return slip;
 }
@@ -134,7 +136,9 @@ Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidCo
     const int low = std::max(j - 1, 0), high = std::min(j + 1, grid.ny - 1);
     if (!present(low) || !present(j) || !present(high)) continue;
     const double angle = contact.angle + std::atan((middle(high) - middle(low)) / ((high - low) * grid.dy));
-    spin[static_cast<std::size_t>(j)] = -std::sin(angle - contact.roll) / contact.rolling_radius - wheel_spin(contact);
+    RigidContact here = contact;
+    here.angle = angle;
+    spin[static_cast<std::size_t>(j)] = wheel_spin(here) - wheel_spin(contact);
   }
   return spin;
 }

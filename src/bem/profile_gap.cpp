@@ -41,14 +41,23 @@ double last_facing_place(const Curve& curve, double begin, int direction) {
   return s;
 }
 
+/// The rail, cut at x from the contact point.
 struct RailCurve {
   const Profile& profile;
   const TrackGeometry& track;
+  const RigidContact& contact;
   PlaneAxes axes;
-  PlanePoint at(double s, double) const {
+  PlanePoint at(double s, double x) const {
     const ProfilePoint p = profile.at(s);
-    return {axes, rail_to_model(track, p.position), rail_to_model(track, p.tangent)};
+    Vec2 position = rail_to_model(track, p.position), along = rail_to_model(track, p.tangent);
+    if (turns()) {
+      const double radius = track.rail_radius + position.z;
+      position.z -= rail_drop(radius, contact.x + x);
+      along.z *= radius / axle_depth(radius, contact.x + x);
+    }
+    return {axes, position, along};
   }
+  bool turns() const { return contact.rail_turn != 0; }
   double end(double begin, int direction) const {
     return last_facing(profile, begin, direction * kWalkingStep, model_to_rail(track, axes.tangent), kFacing);
   }
@@ -157,16 +166,17 @@ template <class WheelSection, class FromAxle>
 ProfileGap gap_to(const WheelSection& wheel_curve, const Profile& rail, const TrackGeometry& track,
                   const RigidContact& contact, const PatchGrid& grid, FromAxle&& from_axle) {
   const PlaneAxes axes(contact);
-  const RailCurve rail_curve{rail, track, axes};
+  const RailCurve rail_curve{rail, track, contact, axes};
   const HeightOverPlane rail_height(rail_curve, contact.rail_s);
   const HeightOverPlane wheel_height(wheel_curve, contact.wheel_s);
   std::vector<typename HeightOverPlane<WheelSection>::Reach> reach;
   for (int i = 0; i < grid.nx; ++i) reach.push_back(wheel_height.reach(grid.x(i)));
-  ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size())};
+  ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size()), {}};
+  if (rail_curve.turns()) out.rail_radius.resize(grid.size());
   const bool mirrors = wheel_curve.symmetric() && std::abs(grid.x(0) + grid.x(grid.nx - 1)) < 1e-9 * grid.dx;
   for_each_if(threads_pay_for(grid.size()), grid.ny, [&](int j) {
     const double t = grid.y(j);
-    const auto on_rail = rail_height.at(0, t, contact.rail_s + t),
+    const auto rail_under_axle = rail_height.at(0, t, contact.rail_s + t),
                under_axle = wheel_height.at(0, t, contact.wheel_s + t);
     NextGuess guess(under_axle ? under_axle->s : contact.wheel_s);
     for (int i = 0; i < grid.nx; ++i) {
@@ -176,16 +186,22 @@ ProfileGap gap_to(const WheelSection& wheel_curve, const Profile& rail, const Tr
         out.gap[k] = out.gap[mirrored];
         out.rail_height[k] = out.rail_height[mirrored];
         out.radius[k] = out.radius[mirrored];
+        if (rail_curve.turns()) out.rail_radius[k] = out.rail_radius[mirrored];
         continue;
       }
       const auto on_wheel = under_axle ? wheel_height.at(x, reach[i], t, guess.value()) : under_axle;
       if (on_wheel) guess.add(on_wheel->s);
+      const auto on_rail =
+          rail_curve.turns() && rail_under_axle ? rail_height.at(x, t, rail_under_axle->s) : rail_under_axle;
       const bool present = on_rail && on_wheel;
       out.gap[k] = present ? on_wheel->w - on_rail->w : ProfileGap::kNoSurface;
       out.rail_height[k] = on_rail ? on_rail->w : 0.0;
       const double middle = present ? 0.5 * (on_rail->w + on_wheel->w) : 0.0;
-      const double height = from_axle(axes.origin + t * axes.tangent + middle * axes.normal);
+      const Vec2 point = axes.origin + t * axes.tangent + middle * axes.normal;
+      const double height = from_axle(point);
       out.radius[k] = std::sqrt(x * x + height * height);
+      if (rail_curve.turns())
+        out.rail_radius[k] = std::copysign(std::hypot(contact.x + x, track.rail_radius + point.z), track.rail_radius);
     }
   });
   return out;

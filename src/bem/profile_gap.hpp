@@ -1,5 +1,6 @@
 #pragma once
-// The undeformed gap of a wheel of revolution on an extruded rail, measured along the normal of the contact plane.
+// The undeformed gap of a wheel of revolution on a rail, extruded or of revolution too, measured along the normal of
+// the contact plane.
 //
 // Contact frame: origin at the rigid contact point, x rolling direction, y along the common tangent (rising by the
 // contact angle to the field side), n from the rail to the wheel. The wheel is its profile turned about the axle, the
@@ -17,6 +18,7 @@ struct ProfileGap {
   Plane rail_height;  ///< m, the rail's surface above the contact plane
   Plane radius;       ///< m, distance from the axle of the middle between the two surfaces: what the deformed interface
                       ///< rolls on
+  Plane rail_radius;  ///< m, the same from the rail's axle, < 0: hollow; empty: a straight rail
   static constexpr double kNoSurface = 0.05;
 };
 

@@ -305,7 +305,8 @@ class WheelOnPatches {
     const double cosines = std::cos(first.angle) / std::cos(own.angle);
     RollingContact& problem = m.patch.contact;
     problem.target.approach = m.approach;
-    problem.x = {1 - (1 - along_.creepage) * own.rolling_radius / first.rolling_radius, {}};
+    const double rail = own.rail_turn == 0 ? 1.0 : first.rail_turn / own.rail_turn;
+    problem.x = {rail - (1 - along_.creepage) * own.rolling_radius / first.rolling_radius, {}};
     problem.y = {across_.creepage * cosines, {}};
     if (spec_.drive.spin) problem.spin = wheel_spin(own) + (*spec_.drive.spin - wheel_spin(first)) / cosines;
   }

@@ -139,6 +139,23 @@ void check_curve(const GeometrySpec& g, CaseSource& source) {
                     "leave it out for straight track");
 }
 
+/// A rail that is curved along rolling.
+void check_roller(const GeometrySpec& g, CaseSource& source) {
+  constexpr double kSmallest = 5e-3;
+  if (!g.rail_radius || !source.sound({"geometry.rail_radius", "geometry.wheel_radius"})) return;
+  const auto refuse = [&](const std::string& rule, const char* remedy) {
+    source.complain("geometry.rail_radius", fmt::format("geometry.rail_radius = {}: {}", length(*g.rail_radius), rule),
+                    remedy);
+  };
+  if (!(std::abs(*g.rail_radius) >= kSmallest))
+    refuse(fmt::format("must be at least {} to either side", length(kSmallest)), "leave it out for a straight rail");
+  else if (*g.rail_radius < 0 && !(-*g.rail_radius > g.wheel_radius))
+    refuse(fmt::format("a hollow rail must be wider than the wheel, wheel_radius = {}", length(g.wheel_radius)),
+           "give a larger radius; above 0 it is a roller");
+  if (g.roll != 0) refuse("not together with geometry.roll", "take one of them out");
+  if (g.curve_radius) refuse("a roller lies in no curve (geometry.curve_radius)", "take one of them out");
+}
+
 void check_path(const RunSpec& run, CaseSource& source) {
   if (!run.rolling || run.positions.empty() || !source.sound({"run.positions", "run.run_up", "run.window"})) return;
   if (!std::is_sorted(run.positions.begin(), run.positions.end(), std::less_equal<>()))
@@ -252,6 +269,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_line_contact(spec, source);
   check_path(spec.run, source);
   check_wheel(spec.geometry, source);
+  check_roller(spec.geometry, source);
   check_mesh(spec.mesh, source);
   check_layers(spec, source);
   check_strengths(spec, source);

@@ -198,12 +198,13 @@ class TreeReader {
                        [&](const OptionTable& t) { return t.name.starts_with(name + "."); });
   }
 
-  /// After everything else, because what they depend on may stand further down; in the tables' order, because forces
-  /// over the load depend on the load.
+  /// After everything else, because what they depend on may stand further down; in the order of the tables and their
+  /// rows, because forces over the load depend on the load, a wheel's creepage on the rail's speed.
   void finish_derived() {
     for (const OptionTable& table : case_tables())
-      for (const Derived& d : derived_)
-        if (d.table == &table) finish(d);
+      for (const Option& option : table.options)
+        for (const Derived& d : derived_)
+          if (d.table == &table && d.option == &option) finish(d);
   }
 
   static double rounded(double value) { return std::stod(fmt::format("{:.5g}", value)); }

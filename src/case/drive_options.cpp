@@ -24,6 +24,14 @@ double over_static_load(const CaseSpec& spec, std::size_t, double force) {
 constexpr std::string_view kMoreLoad = "give more load, or less vehicle.wheel_mass",
                            kLessForce = "give less force, or more load";
 
+/// Speeds of spindles give the rail's surface speed V and the creepage 1 - omega r / V.
+double surface_speed(const CaseSpec& spec, std::size_t, double rotation) {
+  return rotation * std::abs(spec.geometry.rail_radius.value_or(0));
+}
+double creepage_of_rotation(const CaseSpec& spec, std::size_t, double rotation) {
+  return 1 - rotation * spec.geometry.wheel_radius / spec.drive.speed;
+}
+
 bool traction_given(const CaseSpec& spec, std::size_t) { return spec.drive.traction().has_value(); }
 bool load_given(const CaseSpec& spec, std::size_t) { return !spec.vehicle.approach; }
 
@@ -33,6 +41,10 @@ std::vector<Option> creepage_options() {
       option("creepage", at<&C::drive, &D::creepage>,
              "Longitudinal creepage (V - omega r) / V, instead of the traction; negative drives, 1 is a locked wheel",
              kNumber, {-10, 1}),
+      option("wheel_rotation", at<&C::drive, &D::creepage>,
+             "Of the wheel's spindle, instead of the creepage: that is 1 - rotation * wheel_radius / speed", kRotation,
+             {0, 1e5})
+          .derived({creepage_of_rotation, "give another rotation, geometry.wheel_radius or speed"}),
       option("lateral_force", at<&C::drive, &D::lateral_traction_coefficient>,
              "Friction force F_y on the wheel along the contact plane; positive towards the field side", kForce,
              {-1e7, 1e7})
@@ -98,7 +110,11 @@ OptionTable drive_table() {
   OptionTable out{
       "drive",
       "Speed, traction and friction",
-      {option("speed", at<&C::drive, &D::speed>, "Rolling speed", kSpeed, above(0, 200)),
+      {option("speed", at<&C::drive, &D::speed>, "Rolling speed; of a rail that turns its surface's", kSpeed,
+              above(0, 200)),
+       option("rail_rotation", at<&C::drive, &D::speed>,
+              "Of the roller's spindle, instead of the speed: that is rotation * rail_radius", kRotation, above(0, 1e5))
+           .derived({surface_speed, "give geometry.rail_radius, or another rotation"}),
        option("traction_coefficient", at<&C::drive, &D::traction_coefficient>,
               "Wanted F_T / G; positive drives, negative brakes", kNumber, {-1, 1})
            .where(traction_given),
@@ -111,7 +127,8 @@ OptionTable drive_table() {
        option("creepage_start", at<&C::drive, &D::creepage_start>,
               "Longitudinal creepage at the start, (V - omega r) / V: negative drives", kNumber, {-0.1, 0.1})},
       {},
-      {{"traction_coefficient", "tractive_force", "creepage"},
+      {{"speed", "rail_rotation"},
+       {"traction_coefficient", "tractive_force", "creepage", "wheel_rotation"},
        {"lateral_traction_coefficient", "lateral_force", "lateral_creepage"}}};
   append(out.options, creepage_options());
   return out;

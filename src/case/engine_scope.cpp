@@ -29,6 +29,7 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   beyond(spec.transient.kind != TransientKind::none, "transient.kind", "a history of loads and motions",
          "one drive leads to the wanted positions, with inertia");
   beyond(g.in_line(), "geometry.contact", "a line contact", "bodies have ends across, and patches too");
+  beyond(g.rail_radius.has_value(), "geometry.rail_radius", "a rail curved along rolling", "the rail is straight");
   beyond(g.roll != 0, "geometry.roll", "a roll of the wheelset", "the wheel is meshed upright");
   if (!spec.run.rolling) return out;
   if (spec.friction.law != FrictionForm::coulomb && !(spec.friction.memory_distance > 0))

@@ -53,7 +53,12 @@ std::vector<Option> track_options() {
                  "Of the track, positive with the centre on the field side (the inner wheel); none: straight. Adds to "
                  "the spin alone; half-space engine",
                  kLength, {-1e6, 1e6}),
-          option("wheel_radius", at<&C::geometry, &G::wheel_radius>, "At the tape circle", kLength, {0.05, 2.0})};
+          option("wheel_radius", at<&C::geometry, &G::wheel_radius>, "At the tape circle", kLength, {5 * kMilli, 2.0}),
+          option("rail_radius", at<&C::geometry, &G::rail_radius>,
+                 "Of the rail along the rolling direction, at the origin of its profile: a roller of a rig, the other "
+                 "disc of a twin-disc machine; below 0 hollow. Its axle is level and square to the rolling direction, "
+                 "under the middle of the tape circle. None: a straight rail",
+                 kLength, {-1e4, 1e4})};
 }
 
 std::vector<Option> body_options() {

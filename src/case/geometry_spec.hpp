@@ -26,6 +26,7 @@ struct GeometrySpec {
   double roll = 0.0;                   ///< tangent of the wheelset's roll, positive with the field side up
   std::optional<double> curve_radius;  ///< m, positive with the centre on the field side; none: straight track
   double wheel_radius = 0.430;
+  std::optional<double> rail_radius;  ///< m, of the rail along rolling: a roller, a disc; < 0: hollow; none: straight
   double block_width = 0.06, block_height = 0.06;
   WheelSection wheel_section;
   bool in_line() const { return contact == ContactShape::line; }

@@ -51,6 +51,7 @@ const std::array kSymbols{
     Symbol{"HBW", {1 / kBrinellOverVickers, 0, dimension::kHardness}, false},
     Symbol{"HB", {1 / kBrinellOverVickers, 0, dimension::kHardness}, false},
     Symbol{"rad", {1, 0, dimension::kSlope}, true},
+    Symbol{"rpm", {2 * std::numbers::pi / 60, 0, dimension::kRotation}, false},
     Symbol{"deg", {std::numbers::pi / 180, 0, dimension::kSlope}, false},
     Symbol{"°", {std::numbers::pi / 180, 0, dimension::kSlope}, false},
     Symbol{"%", {1, -2, dimension::kNumber}, false},
@@ -91,6 +92,7 @@ const std::vector<Customary>& customary() {
       {dimension::kHeatCapacity, "a specific heat capacity", "460 J/(kg K)", {"J/(kg K)"}},
       {dimension::kTemperature, "a temperature difference", "700 K", {"K"}},
       {dimension::kHardness, "a hardness", "380 HV", {"HV", "HBW"}},
+      {dimension::kRotation, "a rotation", "400 rpm", {"rpm", "rad/s"}},
       {dimension::kSlope, "an inclination", "1:40", {"", "mrad", "rad", "deg"}},
   };
   return all;

@@ -33,6 +33,7 @@ inline constexpr Dimension kToughness{1, -1, -2, 0, 0, 1};  ///< "15 MPa √m"
 inline constexpr Dimension kConductivity{1, 1, -3, 0, -1}, kHeatCapacity{0, 2, -2, 0, -1}, kTemperature{0, 0, 0, 0, 1};
 /// Vickers hardness, in HV; "300 HBW" is 300 / 0.95 HV, good to 5 % up to 450 HV. [ISO18265]
 inline constexpr Dimension kHardness{0, 0, 0, 0, 0, 0, 1};
+inline constexpr Dimension kRotation{0, 0, -1, 1};  ///< of a spindle
 /// An inclination, kept as its tangent; written "1:40", "1/40", "25 mrad", "1.4 deg" or as the bare tangent.
 inline constexpr Dimension kSlope{0, 0, 0, 1};
 }  // namespace dimension

@@ -32,16 +32,27 @@ struct LowestPoint {
   double x = 0, y = 0;
 };
 
-/// At the distance y from the middle of the tape circle. On the wheel's circle of radius r, at x of its own frame, the
-/// height is stationary along the rail where x = r (dz/dy) tan(psi).
-LowestPoint lowest_point(const Profile& wheel, const TrackGeometry& track, double y) {
+/// x in the model frame, from the middle of the tape circle.
+double along_rail(const TrackGeometry& track, const LowestPoint& p) {
+  return (p.x - p.y * track.yaw) / std::hypot(1.0, track.yaw);
+}
+
+/// At the distance y from the middle of the tape circle, where the gap is least along the rail, which has the radius R
+/// there. On the wheel's circle of radius r, at x of its own frame and the depth d, that is where
+///   x (1 + d/D) = (r dz/dy + y d/D) tan(psi),   D the depth of the rail's axle.
+LowestPoint lowest_point(const Profile& wheel, const TrackGeometry& track, double y, double rail_radius) {
   constexpr double kClose = 1e-13;
   constexpr int kMostSteps = 50;
   const double yaw = std::atan(track.yaw), sine = std::sin(yaw), cosine = std::cos(yaw);
   LowestPoint p{0, y};
   for (int i = 0; i < kMostSteps; ++i) {
     const ProfilePoint w = wheel.at(wheel.s_at_y(p.y));
-    p.x = (track.wheel_radius - w.position.z) * w.tangent.z / w.tangent.y * track.yaw;
+    const double radius = track.wheel_radius - w.position.z;
+    p.x = radius * w.tangent.z / w.tangent.y * track.yaw;
+    if (std::isfinite(rail_radius)) {
+      const double depths = std::sqrt(radius * radius - p.x * p.x) / axle_depth(rail_radius, along_rail(track, p));
+      p.x = (p.x + p.y * depths * track.yaw) / (1 + depths);
+    }
     const double next = std::clamp((y - p.x * sine) / cosine, wheel.y_min(), wheel.y_max());
     const bool settled = std::abs(next - p.y) < kClose;
     p.y = next;
@@ -71,7 +82,7 @@ class Gap {
   /// Model frame.
   Vec2 rail_point(double s) const { return roll(cant_, rail_.at(s).position); }
   double wheel_y(double s) const { return rail_point(s).y - offset_y_; }
-  LowestPoint on_wheel(double s) const { return lowest_at(wheel_y(s)); }
+  LowestPoint on_wheel(double s) const { return lowest_at(rail_point(s)); }
   double value(double s) const { return over(s, rail_point(s)); }
   /// The same at a place of the rail, in its own frame; nothing where that does not face the wheel. An upright wheel's
   /// heights come from `wheel`.
@@ -88,30 +99,45 @@ class Gap {
     }
     const LowestPoint p = on_wheel(s);
     const Vec2 t = roll(cant_, rail_.at(s).tangent), w = wheel_.at(wheel_.s_at_y(p.y)).tangent;
-    return t.y * w.z / w.y * steeper(p) - t.z;
+    return t.y * wheel_slope(w.z / w.y, p) - t.z * rail_steeper(s, p);
   }
   /// Depth of a point of the wheel below the axle, m.
   double depth(const LowestPoint& p) const {
     const double radius = track_.wheel_radius - wheel_.height(p.y);
     return std::sqrt((radius - p.x) * (radius + p.x));
   }
+  /// Radius of the rail along rolling at a height of the model frame.
+  double rail_radius(double z) const { return track_.rail_radius + z; }
 
  private:
-  LowestPoint lowest_at(double wheel_y) const {
-    return track_.yaw == 0 ? LowestPoint{0, wheel_y} : lowest_point(wheel_, track_, wheel_y);
+  LowestPoint lowest_at(Vec2 rail) const {
+    const double wheel_y = rail.y - offset_y_;
+    return track_.yaw == 0 ? LowestPoint{0, wheel_y} : lowest_point(wheel_, track_, wheel_y, rail_radius(rail.z));
   }
   double over(double s, Vec2 rail) const {
     if (rolled()) return outline(s).position.z - rail.z;
-    const LowestPoint p = lowest_at(rail.y - offset_y_);
-    return wheel_.height(p.y) + rise(p) - rail.z;
+    const LowestPoint p = lowest_at(rail);
+    return wheel_.height(p.y) + rise(p) - (rail.z - drop(rail.z, p));
   }
   /// By how much the point lies above the lowest one of its circle.
   double rise(const LowestPoint& p) const {
     return p.x == 0 ? 0.0 : track_.wheel_radius - wheel_.height(p.y) - depth(p);
   }
-  /// Slope of the yawed wheel's lower outline over the profile's.
-  double steeper(const LowestPoint& p) const {
-    return track_.yaw == 0 ? 1.0 : (track_.wheel_radius - wheel_.height(p.y)) / depth(p) * std::hypot(1.0, track_.yaw);
+  /// The same of a rail that is curved along rolling, below its highest one.
+  double drop(double z, const LowestPoint& p) const {
+    return track_.yaw == 0 ? 0.0 : rail_drop(rail_radius(z), along_rail(track_, p));
+  }
+  /// Slope across the rail, at the same x, where the profile has `of_profile`.
+  double wheel_slope(double of_profile, const LowestPoint& p) const {
+    if (track_.yaw == 0) return of_profile;
+    const double radius = track_.wheel_radius - wheel_.height(p.y);
+    return (radius * of_profile + p.x * track_.yaw) / (depth(p) * std::hypot(1.0, track_.yaw));
+  }
+  /// The rail's slope across over its profile's.
+  double rail_steeper(double s, const LowestPoint& p) const {
+    if (track_.yaw == 0 || !std::isfinite(track_.rail_radius)) return 1.0;
+    const double radius = rail_radius(rail_point(s).z);
+    return radius / axle_depth(radius, along_rail(track_, p));
   }
 
   const Profile &wheel_, &rail_;
@@ -243,6 +269,12 @@ RigidContact contact_at(const Gap& gap, const Profile& wheel, const Profile& rai
   out.curvature_rail_lateral = r.curvature;
   out.curvature_rolling = std::cos(out.angle - out.roll) /
                           out.rolling_radius;  // Meusnier: the parallel's plane is not normal to the surface
+  if (std::isfinite(track.rail_radius)) {
+    const double radius = gap.rail_radius(out.point.z);
+    out.rail_turn = 1 / axle_depth(radius, out.x);
+    out.curvature_rolling += std::cos(out.angle) * out.rail_turn;
+    out.point.z -= rail_drop(radius, out.x);
+  }
   return out;
 }
 
@@ -282,7 +314,16 @@ Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point) {
 }
 
 double wheel_spin(const RigidContact& contact) {
-  return -std::sin(contact.angle - contact.roll) / contact.rolling_radius;
+  const double of_wheel = -std::sin(contact.angle - contact.roll) / contact.rolling_radius;
+  return contact.rail_turn == 0 ? of_wheel : of_wheel - std::sin(contact.angle) * contact.rail_turn;
+}
+
+double axle_depth(double rail_radius, double x) {
+  return std::copysign(std::sqrt(rail_radius * rail_radius - x * x), rail_radius);
+}
+
+double rail_drop(double rail_radius, double x) {
+  return std::isfinite(rail_radius) ? x * x / (rail_radius + axle_depth(rail_radius, x)) : 0.0;
 }
 
 double yaw_creepage(const RigidContact& contact) {

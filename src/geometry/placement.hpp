@@ -3,6 +3,7 @@
 //
 // Model frame: x rolling direction, y lateral, positive to the field side (a left-hand wheel, so that x, y, z is
 // right-handed), z up. Its origin is the crown point of the (canted) rail in the plane of the wheel's start.
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct TrackGeometry {
   double wheel_radius = 0.430;         ///< nominal, at the tape circle
   double yaw = 0.0;   ///< tangent of the angle by which the wheel's rolling direction is turned to the field side
   double roll = 0.0;  ///< tangent of the angle by which the wheel is turned about x, positive with its field side up
+  double rail_radius = kStraight;  ///< of the rail along x at its profile's origin, < 0: hollow
+  static constexpr double kStraight = std::numeric_limits<double>::infinity();
 };
 
 /// The vertical gap along the rail [m], over arc lengths where it faces the wheel; of a tape circle at the height 0.
@@ -42,16 +45,25 @@ struct RigidContact {
                      ///< the field side
   double rolling_radius = 0;  ///< distance of the contact point from the axle; of a yawed wheel its depth below it
   double curvature_wheel_lateral = 0,
-         curvature_rail_lateral = 0;           ///< of the profiles at the contact, 1/m, convex positive
-  double curvature_rolling = 0;                ///< of the wheel across them, cos(angle) / rolling_radius [1/m]
+         curvature_rail_lateral = 0;  ///< of the profiles at the contact, 1/m, convex positive
+  double curvature_rolling = 0;  ///< of wheel and rail together across them, cos(angle) (1/rolling_radius + rail_turn)
+                                 ///< [1/m]
+  double rail_turn = 0;  ///< 1/m, over the depth of the rail's axle below the contact point; < 0: above; 0: straight
   std::shared_ptr<const GapSamples> searched;  ///< what place_wheel looked at for it; null: of other contacts
 };
 
-/// Spin of the wheel on its contact angle delta less its roll phi, -sin(delta - phi)/r [1/m].
+/// Spin of the wheel on its contact angle delta less its roll phi, -sin(delta - phi)/r [1/m]; of a rail that turns too
+/// its own beside it, -sin(delta)/R.
 double wheel_spin(const RigidContact& contact);
 
+/// Of a rail with a radius R along rolling (< 0: hollow) at x from its axle: the depth of the axle below the surface,
+/// sqrt(R² - x²) with R's sign, and by how much the surface lies below that at x = 0 [m]; of a straight rail 0.
+double axle_depth(double rail_radius, double x);
+double rail_drop(double rail_radius, double x);
+
 /// Lateral creepage in the contact plane of a wheel with the yaw psi: -tan(psi)/cos(delta), for its surface cannot move
-/// into the rail; with a roll as turned_wheel.hpp has it. Like all creepages here without products of creepages.
+/// into the rail, turning or not; with a roll as turned_wheel.hpp has it. Like all creepages here without products of
+/// creepages.
 double yaw_creepage(const RigidContact& contact);
 
 /// Rail profile frame -> model frame (rotation by atan(cant)) and back.
@@ -65,12 +77,13 @@ double gauge_face_y(const Profile& rail, const TrackGeometry& track);
 /// Lowers the wheel vertically until it touches: the smallest vertical gap over the rail's whole running surface, found
 /// to 1e-9 m where the contact is a single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. The
 /// wheel is turned by the yaw psi about the vertical through the middle of its tape circle; the contact, at the angle
-/// delta, then lies before the axle by about r tan(delta) tan(psi). A roll comes first (turned_wheel.hpp). The tape
-/// circle stands at back_to_back / 2 + flange_back_to_tape from the track's centre, the gauge face (gauge_depth below
-/// the highest point of the canted rail) at gauge / 2, and lateral_shift moves the wheel from there. A plane or arc
-/// (Profile::primitive) has neither flange nor gauge face: with one in the pair the tape circle stands over the rail's
-/// axis, moved by lateral_shift. Throws CaseError if the wheel misses the rail, touches at the end of a profile, or the
-/// rail's profile ends above the gauge depth.
+/// delta, then lies before the axle by about r tan(delta) tan(psi), on a rail of the radius R along rolling by 1/(1 +
+/// r/R) of that. A roll comes first (turned_wheel.hpp), on a straight rail alone. The tape circle stands at
+/// back_to_back / 2 + flange_back_to_tape from the track's centre, the gauge face (gauge_depth below the highest point
+/// of the canted rail) at gauge / 2, and lateral_shift moves the wheel from there. A plane or arc (Profile::primitive)
+/// has neither flange nor gauge face: with one in the pair the tape circle stands over the rail's axis, moved by
+/// lateral_shift. Throws CaseError if the wheel misses the rail, touches at the end of a profile, or the rail's profile
+/// ends above the gauge depth.
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track);
 
 /// Where the wheel touches if it is lowered further, through the rail: the lowest places of the vertical gap besides

@@ -39,7 +39,10 @@ VtkQuads swept(const std::vector<Vec2>& line, int stations, const std::function<
 VtkQuads rail_surface(const Placement& placement, double wheel_x) {
   return swept(outline(placement.rail, placement.contact.rail_s), kStations, [&](Vec2 p, int s) {
     const Vec2 q = rail_to_model(placement.track, p);
-    return Vec3{wheel_x + kHalfLength * (2.0 * s / (kStations - 1) - 1), q.y, q.z};
+    const double along = kHalfLength * (2.0 * s / (kStations - 1) - 1), radius = placement.track.rail_radius + q.z;
+    if (!std::isfinite(radius)) return Vec3{wheel_x + along, q.y, q.z};
+    const double angle = along / std::max(std::abs(radius), kHalfLength / std::numbers::pi);
+    return Vec3{wheel_x + std::abs(radius) * std::sin(angle), q.y, q.z - radius * (1 - std::cos(angle))};
   });
 }
 

@@ -131,8 +131,11 @@ Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
   std::vector<std::string> notes;
   Profile wheel = find_profile(ProfileKind::wheel, g.wheel_profile, folder, notes);
   Profile rail = find_profile(ProfileKind::rail, g.rail_profile, folder, notes);
-  TrackGeometry track{g.gauge,        g.gauge_depth, g.back_to_back, g.flange_back_to_tape, g.cant, g.lateral_shift,
-                      g.wheel_radius, g.yaw,         g.roll};
+  TrackGeometry track{g.gauge,        g.gauge_depth,
+                      g.back_to_back, g.flange_back_to_tape,
+                      g.cant,         g.lateral_shift,
+                      g.wheel_radius, g.yaw,
+                      g.roll,         g.rail_radius.value_or(TrackGeometry::kStraight)};
   const RigidContact contact = place_wheel(wheel, rail, track);
   return {std::move(wheel), std::move(rail), track, contact, std::move(notes)};
 }

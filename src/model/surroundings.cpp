@@ -160,7 +160,9 @@ PatchSurroundings patch_surroundings(const CaseSpec& spec, const Placement& p, c
   PatchSurroundings out;
   measure_turn(rail, wheel, patch, out.edges);
   measure_edges(spec, rail, wheel, patch, out.edges);
-  out.curvature_rolling = p.contact.curvature_rolling;
+  const RigidContact& c = p.contact;
+  out.curvature_rolling =
+      std::max(std::cos(c.angle - c.roll) / c.rolling_radius, std::cos(c.angle) * std::abs(c.rail_turn));
   out.flange = flange_place(p);
   const auto locate = [&](const PlacedProfile& body, double& y, double& reach) {
     const ProfilePoint contact = body.profile.at(body.contact_s);

@@ -43,7 +43,7 @@ struct SecondContact {
 
 struct PatchSurroundings {
   PatchEdges edges;
-  double curvature_rolling = 0;  ///< 1/m, of the wheel across the profiles
+  double curvature_rolling = 0;  ///< 1/m, across the profiles, of the body that turns more
   std::optional<FlangePlace> flange;
   std::optional<SecondContact> second;  ///< that the engine leaves out
   bool cut_off = false;                 ///< pressure reaches where a profile or the block ends

@@ -203,7 +203,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "gauge? keys of [geometry]: rail_profile, wheel_profile, rail_shape, "
        "wheel_shape, contact, line_length, gauge, gauge_depth, back_to_back, flange_back_to_tape, cant, lateral_shift, "
        "yaw, roll, curve_radius, "
-       "wheel_radius, "
+       "wheel_radius, rail_radius, "
        "block_width, block_height, rim_thickness, web_thickness, web_offset, "
        "hub_radius, hub_width, bore_radius"},
       {"[meshes]\n",

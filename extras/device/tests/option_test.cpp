@@ -59,6 +59,7 @@ const std::map<std::string, std::string>& others() {
   static const std::map<std::string, std::string> all{
       {"vehicle.approach", "half-space engine"},
       {"drive.spin", "half-space engine"},
+      {"geometry.rail_radius", "half-space engine"},
       {"third_body.residual_shear", "half-space engine"},
       {"mesh.element_size", "the model's"},
       {"mesh.fine_width", "the model's"},
