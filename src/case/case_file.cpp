@@ -22,7 +22,7 @@ namespace railstrata {
 namespace {
 
 bool is_builtin(ProfileKind kind, const std::string& name) {
-  if (name.starts_with("arc:")) return true;
+  if (names_primitive(name)) return true;
   for (const std::string& known : builtin_profile_names(kind))
     if (edit_distance(known, name) == 0) return true;
   return false;

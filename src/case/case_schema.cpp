@@ -106,7 +106,9 @@ constexpr const char* kAboutTransient =
 std::string more_about(const OptionTable& table) {
   if (table.name == "geometry")
     return "\n`rail_profile` and `wheel_profile` also take an arc, `\"arc:R=200 mm\"`: convex of this radius, hollow "
-           "with `R=-450 mm`;\n`\"flat\"` is a plane. Profile files: "
+           "with `R=-450 mm`;\n`\"flat\"` is a plane. Both are 60 mm wide, or as `W=` has it: `\"flat:W=10 mm\"`, "
+           "`\"arc:R=300 mm, W=10 mm\"`. "
+           "Profile files: "
            "[data/profiles](../data/profiles/README.md).\n";
   if (table.name == "vehicle")
     return "\nThe static load of the wheel on the rail is G = (wheel_mass + sprung_mass) gravity. `wheel_load` and "

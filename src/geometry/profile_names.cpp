@@ -31,28 +31,63 @@ std::string upper(std::string text) {
   return text;
 }
 
-constexpr double kSmallestArc = 5e-3, kLargestArc = 1000;  // m
-constexpr const char* kArcRemedy = "write for example arc:R=300 mm (convex) or arc:R=-450 mm (hollow)";
+constexpr double kSmallestArc = 5e-3, kLargestArc = 1000, kNarrowest = 0.5e-3, kWidest = 1;  // m
+constexpr const char* kArcRemedy =
+    "write for example arc:R=300 mm (convex), arc:R=-450 mm (hollow), or with its width arc:R=300 mm, W=10 mm";
 
-double arc_radius(const std::string& name) {
-  const std::size_t equals = name.find('=');
-  const std::string key = equals == std::string::npos ? "" : name.substr(0, equals);
-  if (key != "arc:R" && key != "arc:r") throw CaseError("cannot read the profile '" + name + "'", kArcRemedy);
+/// A plane or an arc as its name has it.
+struct Primitive {
+  double radius = std::numeric_limits<double>::infinity(), width = 60e-3;  // m
+};
+
+/// "R=300 mm" by its letter.
+double length_after(const std::string& name, const std::string& part, double least, double largest) {
   char* end = nullptr;
-  const double value = std::strtod(name.c_str() + equals + 1, &end);
+  const char* begin = part.c_str() + 2;
+  const double value = std::strtod(begin, &end);
   std::string unit = end;
   std::erase(unit, ' ');
-  const double scale = unit == "mm" ? 1e-3 : unit == "m" ? 1.0 : 0.0;
-  if (end == name.c_str() + equals + 1 || scale == 0)
-    throw CaseError("cannot read the radius of the profile '" + name + "'", kArcRemedy);
-  if (!(std::abs(value * scale) >= kSmallestArc && std::abs(value * scale) <= kLargestArc))
-    throw CaseError(fmt::format("the radius of the profile '{}' is not between {:g} mm and {:g} m", name,
-                                1e3 * kSmallestArc, kLargestArc),
-                    std::string(kArcRemedy) + "; a plane is flat");
-  return value * scale;
+  const double scale = unit == "mm" ? 1e-3 : unit == "m" ? 1.0 : 0.0, length = value * scale;
+  if (end == begin || scale == 0)
+    throw CaseError(fmt::format("cannot read {} of the profile '{}'", part, name), kArcRemedy);
+  if (!(std::abs(length) >= least && std::abs(length) <= largest))
+    throw CaseError(
+        fmt::format("{} of the profile '{}' is not between {:g} mm and {:g} m", part, name, 1e3 * least, largest),
+        std::string(kArcRemedy) + "; a plane is flat");
+  return length;
+}
+
+/// Of "flat:W=10 mm", "arc:R=300 mm" or "arc:R=300 mm, W=10 mm".
+Primitive primitive_of(const std::string& name) {
+  Primitive out;
+  const std::size_t colon = name.find(':');
+  std::string rest = colon == std::string::npos ? "" : name.substr(colon + 1);
+  bool arc = false;
+  while (!rest.empty()) {
+    const std::size_t comma = rest.find(',');
+    std::string part = rest.substr(0, comma);
+    part.erase(0, part.find_first_not_of(' '));
+    rest = comma == std::string::npos ? "" : rest.substr(comma + 1);
+    const std::string key = upper(part.substr(0, 2));
+    if (key == "R=") {
+      out.radius = length_after(name, part, kSmallestArc, kLargestArc);
+      arc = true;
+    } else if (key == "W=") {
+      out.width = std::abs(length_after(name, part, kNarrowest, kWidest));
+    } else {
+      throw CaseError("cannot read the profile '" + name + "'", kArcRemedy);
+    }
+  }
+  if (arc != name.starts_with("arc")) throw CaseError("cannot read the profile '" + name + "'", kArcRemedy);
+  return out;
 }
 
 }  // namespace
+
+bool names_primitive(const std::string& name) {
+  const std::string kind = name.substr(0, name.find(':'));
+  return upper(kind) == "FLAT" || (kind == "arc" && kind != name);
+}
 
 std::vector<std::string> builtin_profile_names(ProfileKind kind) {
   std::vector<std::string> names;
@@ -70,8 +105,10 @@ std::string likely_profile(ProfileKind kind, const std::string& name) {
 }
 
 Profile builtin_profile(ProfileKind kind, const std::string& name) {
-  if (upper(name) == "FLAT") return circular_profile(kind, std::numeric_limits<double>::infinity());
-  if (name.starts_with("arc")) return circular_profile(kind, arc_radius(name));
+  if (names_primitive(name)) {
+    const Primitive p = primitive_of(name);
+    return circular_profile(kind, p.radius, 0.5 * p.width);
+  }
   const auto found = makers(kind).find(upper(name));
   if (found != makers(kind).end()) return found->second();
 

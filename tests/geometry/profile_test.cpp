@@ -182,6 +182,9 @@ TEST(Profile, circular_profiles_are_arcs_about_their_centre) {
 
 TEST(ProfileNames, arcs_and_planes_have_names) {
   EXPECT_NEAR(rail("arc:R=300 mm").at(0).curvature, 1 / 0.3, 1e-9);
+  EXPECT_NEAR(rail("arc:R=300 mm, W=10 mm").y_max(), 5e-3, 1e-12);
+  EXPECT_NEAR(wheel("flat:W=0.12 m").y_min(), -60e-3, 1e-12);
+  EXPECT_TRUE(wheel("flat:W=10 mm").primitive());
   EXPECT_NEAR(wheel("arc:R=-0.45 m").at(0).curvature, -1 / 0.45, 1e-9);
   EXPECT_EQ(wheel("flat").at(0).curvature, 0.0);
   EXPECT_EQ(rail("uic60").name(), "UIC60");
@@ -203,7 +206,7 @@ TEST(ProfileNames, unknown_names_are_answered_with_the_nearest) {
             "flat, arc:R=300 mm; or give a file");
   EXPECT_NE(error_of("CN60", ProfileKind::wheel).find("no built-in wheel profile 'CN60'"), std::string::npos);
   EXPECT_NE(error_of("arc:R=300")
-                .find("cannot read the radius of the profile 'arc:R=300'\n    remedy: write for example arc:R=300 mm"),
+                .find("cannot read R=300 of the profile 'arc:R=300'\n    remedy: write for example arc:R=300 mm"),
             std::string::npos);
   for (const char* name : {"arc:R=0 mm", "arc:R=-4 mm", "arc:R=1e300 m", "arc:R=nan mm"})
     EXPECT_NE(error_of(name).find("is not between 5 mm and 1000 m"), std::string::npos) << name;
