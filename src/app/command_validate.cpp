@@ -2,6 +2,9 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <set>
+
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
@@ -30,12 +33,26 @@ fs::path folder_of(const std::string& name) {
                   fmt::format("one of: {}; or a folder of your own", known));
 }
 
+/// Each once.
 std::vector<fs::path> folders_of(const ValidateOptions& options) {
   std::vector<fs::path> out;
-  for (const std::string& name : options.sets) out.push_back(folder_of(name));
+  const auto add = [&](const fs::path& folder) {
+    if (std::none_of(out.begin(), out.end(), [&](const fs::path& o) { return fs::equivalent(o, folder); }))
+      out.push_back(folder);
+  };
+  for (const std::string& name : options.sets) add(folder_of(name));
   if (options.all)
-    for (const fs::path& folder : validation_folders(shipped_folder() / kShipped)) out.push_back(folder);
+    for (const fs::path& folder : validation_folders(shipped_folder() / kShipped)) add(folder);
   return out;
+}
+
+/// Sets of one name in several folders are name, name-2, ..: each has a folder of results.
+void tell_apart(std::vector<ValidationSet>& sets) {
+  std::set<std::string> taken;
+  for (ValidationSet& set : sets) {
+    const std::string name = set.name;
+    for (int k = 2; !taken.insert(set.name).second; ++k) set.name = fmt::format("{}-{}", name, k);
+  }
 }
 
 void print_sets() {
@@ -57,7 +74,7 @@ Validation solved(const ValidationSet& set, const CommandOptions& options) {
   BemOptions bem;
   bem.cell = cell_size(options.cell.empty() ? set.cell : options.cell);
   bem.cache = &cache;
-  return validate(set, bem, &control_by_signals());
+  return validate(set, {bem, &control_by_signals()});
 }
 
 ExitCode command_validate(const CommandOptions& options) {
@@ -68,6 +85,7 @@ ExitCode command_validate(const CommandOptions& options) {
   }
   std::vector<ValidationSet> sets;
   for (const fs::path& folder : folders) sets.push_back(load_validation(folder));
+  tell_apart(sets);
   const bool own = options.out.empty();  // this command alone writes there: an earlier answer is replaced
   const fs::path out = own ? fs::path("results/validate") : options.out;
   const FolderHold hold = prepare_output_folder(out, options.force || own);

@@ -7,6 +7,7 @@
 #include "core/faults.hpp"
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
+#include "judge/shakedown_summary.hpp"
 #include "many/each_case.hpp"
 #include "record/csv.hpp"
 #include "runs/solve_half_space.hpp"
@@ -24,6 +25,7 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
     if (stresses) {
       summary.rail = bem_rail_stress(result, summary.contact);
       summary.warnings = bem_warnings(summary, spec, result);
+      summary.shakedown = shakedown_summary(spec, half_space_shakedown(spec, result));
     }
     c.summary = summary_json(summary);
     c.fault = failed_check(c.summary);

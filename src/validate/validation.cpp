@@ -3,18 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
-
-#include "many/sweep.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::vector<std::string>> rows_of(const ValidationSet& set) {
-  std::vector<std::vector<std::string>> rows(set.data.rows());
+RowTexts rows_of(const ValidationSet& set) {
+  RowTexts rows(set.data.rows());
   for (const VariedColumn& v : set.varied) {
     const std::vector<double> values = set.data.column(v.column, v.factor);
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -49,15 +48,18 @@ Agreement agreement_of(const Comparison& c) {
 }
 
 Comparison compare(const ValidationSet& set, const ValidationSeries& series, const ComparedColumn& column,
-                   const std::vector<SweepCase>& cases) {
+                   const Answers& answers) {
   const std::vector<double> none(set.data.rows(), kUnknown),
       data = set.data.column(column.column),
       at = set.varied.empty() ? none : set.data.column(set.varied.front().column),
       deviation = column.deviation.empty() ? none : set.data.column(column.deviation);
+  const auto found = std::find_if(answers.numbers.begin(), answers.numbers.end(),
+                                  [&](const CsvColumn& c) { return c.name == column.result; });
+  assert(found != answers.numbers.end());
   Comparison out{.column = &column, .series = &series, .points = {}};
   for (std::size_t i = 0; i < data.size(); ++i)
     out.points.push_back(
-        {at[i], data[i], deviation[i], column.factor * column_value(*column.result, cases[i].summary)});
+        {at[i], data[i], deviation[i], i < found->values.size() ? column.factor * found->values[i] : kUnknown});
   out.difference = of_all(out, [](const ComparedPoint& p) { return std::abs(p.ours - p.data); });
   out.scatter = of_all(out, [](const ComparedPoint& p) { return p.deviation; });
   out.agreement = series.judged ? agreement_of(out) : Agreement::not_judged;
@@ -82,22 +84,15 @@ const char* agreement_text(Agreement a) {
   return "not solved";
 }
 
-Validation validate(const ValidationSet& set, const BemOptions& options, const Control* control) {
-  std::vector<std::string> keys;
-  for (const VariedColumn& v : set.varied) keys.push_back(v.key);
+Validation validate(const ValidationSet& set, const AnswerOptions& options) {
+  const RowTexts rows = rows_of(set);
   Validation out{.set = &set, .comparisons = {}, .faults = {}, .agreement = Agreement::not_judged};
   for (const ValidationSeries& series : set.series) {
-    std::vector<SweepCase> cases = plan_rows(set.loaded, series.overrides, keys, rows_of(set));
-    SweepOptions sweep;
-    sweep.bem = options;
-    sweep.control = control;
-    run_sweep(cases, sweep);
-    for (std::size_t i = 0; i < cases.size(); ++i)
-      if (!cases[i].fault.empty())
-        out.faults.push_back(
-            fmt::format("{}row {}: {}", series.name.empty() ? "" : series.name + ", ", i + 1, cases[i].fault));
+    const Answers answers = set.kind->answer(set, series, rows, options);
+    for (const std::string& fault : answers.faults)
+      out.faults.push_back(series.name.empty() ? fault : series.name + ", " + fault);
     for (const ComparedColumn& column : set.compared) {
-      out.comparisons.push_back(compare(set, series, column, cases));
+      out.comparisons.push_back(compare(set, series, column, answers));
       out.agreement = std::max(out.agreement, out.comparisons.back().agreement);
     }
   }

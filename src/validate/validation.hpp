@@ -1,10 +1,8 @@
 #pragma once
-// Solves the rows of a validation set and compares them with its data.
+// Answers the rows of a validation set and compares them with its data.
 #include <string>
 #include <vector>
 
-#include "bem/bem_options.hpp"
-#include "core/control.hpp"
 #include "validate/validation_set.hpp"
 
 namespace railstrata {
@@ -41,7 +39,7 @@ struct Validation {
   Agreement agreement = Agreement::unsolved;  ///< the worst of what is judged
 };
 
-/// Throws CaseError for values that the case refuses in every row.
-Validation validate(const ValidationSet& set, const BemOptions& options, const Control* control);
+/// Throws CaseError for values that are refused in every row.
+Validation validate(const ValidationSet& set, const AnswerOptions& options);
 
 }  // namespace railstrata

@@ -1,12 +1,15 @@
 #include "validate/validation_set.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "case/text_file.hpp"
 #include "case/toml_reader.hpp"
 #include "case/unit_table.hpp"
+#include "case/units.hpp"
 #include "many/axis.hpp"
 
 namespace railstrata {
@@ -27,12 +30,14 @@ struct NamedColumn {
 /// Reads the tables of one file.
 class SetReader {
  public:
-  explicit SetReader(CaseSource& source) : source_(source) {}
+  SetReader(CaseSource& source, const ValidationKind& kind) : source_(source), kind_(kind) {}
 
   VariedColumn varied(const toml::table& t) {
     TomlReader r(source_, t, {"column", "key", "before", "unit", "factor"}, kExample);
-    const std::string column = column_at(r, t, "column");
-    return {column, axis_key(r.text("key", true)), r.text("before"), r.text("unit"), r.number("factor", 1)};
+    const std::string column = column_at(r, t, "column"), key = r.text("key", true);
+    const bool of_case = kind_.keys.empty();
+    if (!of_case && !key.empty()) r.choice("key", key, kind_.keys);
+    return {column, of_case ? axis_key(key) : key, r.text("before"), r.text("unit"), r.number("factor", 1)};
   }
 
   ValidationSeries series(const toml::table& t) {
@@ -47,11 +52,11 @@ class SetReader {
     out.column = column_at(r, t, "column");
     out.title = r.text_or("title", out.column);
     out.unit = r.text("unit");
-    const std::string result = r.text("result", true);
-    out.result = find_column(result);
-    if (!out.result && !result.empty())
-      source_.complain_at(place_of(*t.get("result")), fmt::format("result = \"{}\" is no column of a result", result),
-                          "take a name of the head of sweep.csv, e.g. \"p_max_MPa\"");
+    out.result = r.text("result", true);
+    if (!out.result.empty() && std::find(kind_.results.begin(), kind_.results.end(), out.result) == kind_.results.end())
+      source_.complain_at(place_of(*t.get("result")),
+                          fmt::format("result = \"{}\" is no number of an answer", out.result),
+                          fmt::format("of {} rows take one of: {}", kind_.name, fmt::join(kind_.results, ", ")));
     out.factor = r.number("factor", 1);
     if (t.contains("deviation")) out.deviation = column_at(r, t, "deviation");
     const std::string by = r.text_or("by", difference_text(out.by));
@@ -60,7 +65,14 @@ class SetReader {
     out.by = by == rms ? DifferenceBy::rms : DifferenceBy::largest;
     out.relative = r.flag("relative");
     out.bar = r.number("bar", 0, true);
+    if (out.relative) relative_.push_back({out.column, "column", place_of(t)});
     return out;
+  }
+
+  PressedCircle circle(const toml::table& t) {
+    TomlReader r(source_, t, {"x", "y", "radius", "pressure"}, kExample);
+    return {quantity(r, t, "x", "0 mm", dimension::kLength), quantity(r, t, "y", "0 mm", dimension::kLength),
+            quantity(r, t, "radius", "", dimension::kLength), quantity(r, t, "pressure", "", dimension::kPressure)};
   }
 
   /// The columns that the tables name, of a file with more perhaps; as a spreadsheet writes it too.
@@ -80,10 +92,20 @@ class SetReader {
       for (const UnitTable::Row& row : table.rows) column.values.push_back(*row.cells[k].number);
     }
     require_columns(out);
+    for (const NamedColumn& c : relative_) require_no_zero(c, out);
     return out;
   }
 
  private:
+  double quantity(TomlReader& r, const toml::table& t, const char* key, const char* otherwise, const Dimension& d) {
+    const std::string text = t.contains(key) || !*otherwise ? r.text(key, true) : otherwise;
+    try {
+      return text.empty() ? 0 : parse_quantity(text, d);
+    } catch (const UnitError& e) {
+      source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": {}", key, text, e.what()), e.remedy);
+      return 0;
+    }
+  }
   std::string column_at(TomlReader& r, const toml::table& t, const char* key) {
     const std::string name = r.text(key, true);
     if (!name.empty()) columns_.push_back({name, key, place_of(*t.get(key))});
@@ -96,9 +118,39 @@ class SetReader {
                             fmt::format("{} = \"{}\" is no column of {}", c.key, c.name, data.file.filename().string()),
                             "the first line without \"#\" names its columns");
   }
+  void require_no_zero(const NamedColumn& c, const CsvTable& data) {
+    for (const CsvColumn& d : data.columns)
+      for (std::size_t i = 0; d.name == c.name && i < d.values.size(); ++i)
+        if (d.values[i] == 0)
+          source_.complain_at(
+              c.place,
+              fmt::format("relative = true, and \"{}\" is 0 in row {}: nothing can be divided by it", c.name, i + 1),
+              "take relative out and give the bar in the unit of the data, or leave the row out");
+  }
   CaseSource& source_;
-  std::vector<NamedColumn> columns_;
+  const ValidationKind& kind_;
+  std::vector<NamedColumn> columns_, relative_;
 };
+
+const ValidationKind& kind_of(TomlReader& top) {
+  const std::vector<ValidationKind>& all = validation_kinds();
+  const std::string word = top.text_or("kind", std::string(all.front().name));
+  std::vector<std::string> known;
+  for (const ValidationKind& kind : all) known.emplace_back(kind.name);
+  top.choice("kind", word, known);
+  const auto found = std::find(known.begin(), known.end(), word);
+  return all[found == known.end() ? 0 : static_cast<std::size_t>(found - known.begin())];
+}
+
+void refuse_settings_of_others(CaseSource& source, const toml::table& document, const ValidationKind& kind) {
+  for (const ValidationKind& other : validation_kinds())
+    for (const std::string& key : other.settings)
+      if (&other != &kind && document.contains(key))
+        source.complain_at(
+            place_of(*document.get(key)),
+            fmt::format("{} belongs to kind = \"{}\", this set is of kind {}", key, other.name, kind.name),
+            fmt::format("take {} out, or write kind = \"{}\"", key, other.name));
+}
 
 }  // namespace
 
@@ -107,10 +159,11 @@ ValidationSet load_validation(const fs::path& folder) {
   CaseSource source(file, read_text_file(file, "a validation set is a folder with validation.toml; docs/validate.md"));
   const toml::table document = toml_document(source);
   TomlReader top(source, document,
-                 {"title", "source", "reference", "uncertainty", "fitted", "note", "case", "data", "cell", "vary",
-                  "series", "compare"},
+                 {"title", "source", "reference", "uncertainty", "fitted", "note", "kind", "case", "data", "cell",
+                  "material", "increments", "from_virgin", "circle", "vary", "series", "compare"},
                  kExample);
   ValidationSet out;
+  out.file = file;
   out.name = fs::absolute(folder).lexically_normal().filename().string();
   out.title = top.text("title", true);
   out.source = top.text("source", true);
@@ -118,10 +171,16 @@ ValidationSet load_validation(const fs::path& folder) {
   out.fitted = top.text("fitted", true);
   out.note = top.text("note");
   out.reference = top.text("reference", true);
-  out.cell = top.text("cell");
   top.choice("reference", out.reference, {"measured", "computed", "closed form"});
+  out.kind = &kind_of(top);
+  refuse_settings_of_others(source, document, *out.kind);
+  out.cell = top.text("cell");
+  out.material = top.text_or("material", "rail");
+  out.increments = static_cast<int>(std::clamp(top.number("increments", out.increments), 1.0, 1e6));
+  out.from_virgin = top.flag("from_virgin");
   out.loaded = load_case(folder / top.text_or("case", "case.toml"));
-  SetReader reader(source);
+  SetReader reader(source, *out.kind);
+  for (const toml::table* t : tables(document, "circle")) out.circles.push_back(reader.circle(*t));
   for (const toml::table* t : tables(document, "vary")) out.varied.push_back(reader.varied(*t));
   for (const toml::table* t : tables(document, "series")) out.series.push_back(reader.series(*t));
   for (const toml::table* t : tables(document, "compare")) out.compared.push_back(reader.compared(*t));

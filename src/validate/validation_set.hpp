@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "case/case_file.hpp"
-#include "many/result_columns.hpp"
+#include "halfspace/circular_pressure.hpp"
 #include "record/csv.hpp"
+#include "validate/validation_kind.hpp"
 
 namespace railstrata {
 
-/// A column of the data that gives a key of the case: factor * number between two texts, "arc:R=" and "mm".
+/// A column of the data that gives a key of the rows' kind, of the case as a rule: factor * number between two texts,
+/// "arc:R=" and "mm".
 struct VariedColumn {
   std::string column, key, before, unit;
   double factor = 1;
@@ -27,10 +29,10 @@ struct ValidationSeries {
 enum class DifferenceBy { rms, largest };
 const char* difference_text(DifferenceBy by);
 
-/// A column of the data against factor * a number of the result.
+/// A column of the data against factor * a number of the answer.
 struct ComparedColumn {
   std::string column, title, unit;
-  const ResultColumn* result = nullptr;
+  std::string result;  ///< its name among those of the kind
   double factor = 1;
   std::string deviation;  ///< column with the standard deviation of the data; empty: none is known
   DifferenceBy by = DifferenceBy::largest;
@@ -39,10 +41,16 @@ struct ComparedColumn {
 };
 
 struct ValidationSet {
-  std::string name;  ///< of its folder
+  std::filesystem::path file;  ///< validation.toml
+  std::string name;            ///< of its folder
   std::string title, source, uncertainty, fitted, note;
   std::string reference;  ///< "measured", "computed", "closed form"
   std::string cell;       ///< of the half-space engine; empty: its default
+  const ValidationKind* kind = nullptr;
+  std::string material;                ///< of kind material: "rail", "wheel" or a layer's name
+  int increments = 100;                ///< of kind material, a row
+  bool from_virgin = false;            ///< of kind material: every row begins anew
+  std::vector<PressedCircle> circles;  ///< of kind pressure
   LoadedCase loaded;
   CsvTable data;
   std::vector<VariedColumn> varied;

@@ -79,6 +79,15 @@ class Validate(FromOutside):
             self.assertEqual(rc, expected, out + err)
         self.assertIn("--force", err)
 
+    def test_two_sets_of_one_name_have_a_folder_of_results_each(self):
+        first = self.own()
+        second = self.folder / "elsewhere" / "my disc"
+        shutil.copytree(first, second)
+        out, _ = self.validate(first, second, first)
+        folders = sorted(f.name for f in (self.folder / "out").iterdir() if f.is_dir())
+        self.assertEqual(folders, ["my disc", "my disc-2"])
+        self.assertEqual(out.count("largest pressure"), 2, "a set that is named twice runs once")
+
     def test_a_spreadsheet_with_decimal_commas_is_read(self):
         text = OWN.replace('column = "load_kN"', 'column = "Last_kN"')
         data = "\ufeffLast_kN;Bemerkung;p_MPa\r\n20,0;erste Messung;653,2\r\n40,0;;823,0\r\n"
@@ -105,7 +114,7 @@ class Validate(FromOutside):
         self.assertIn("row 2: vehicle.wheel_load", out)
 
     def test_mistakes_are_named_with_their_place_and_a_remedy(self):
-        for old, new, message in (('"p_max_MPa"', '"pmax"', 'toml:14:10: error: result = "pmax" is no column'),
+        for old, new, message in (('"p_max_MPa"', '"pmax"', 'toml:14:10: error: result = "pmax" is no number'),
                                   ('"load_kN"', '"load"', 'column = "load" is no column of data.csv'),
                                   ('"measured"', '"guess"', 'reference = "guess" is unknown'),
                                   ('source =', 'sauce =', 'unknown key sauce'),
