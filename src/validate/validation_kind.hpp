@@ -1,6 +1,6 @@
 #pragma once
 // What the rows of a validation set are: half-space solutions, points of a material's path, points below a pressed
-// surface. A kind says what a column of the data may give, which numbers an answer has, and finds them.
+// surface. A kind names what a column of the data may give and which numbers an answer has, and finds them.
 #include <string>
 #include <string_view>
 #include <vector>

@@ -188,6 +188,9 @@ void write_validation(const fs::path& folder, const std::vector<std::string>& or
     for (const ComparedPoint& p : c.points) ours.values.push_back(p.ours);
     columns.push_back(std::move(ours));
   }
+  for (CsvColumn& c : columns)  // a name may have what separates columns
+    for (char& letter : c.name)
+      if (std::string_view(",\"#\r\n").find(letter) != std::string_view::npos) letter = ';';
   write_csv(folder / "comparison.csv", origin, columns);
   write_whole_file(folder / "report.html",
                    report_page(report_of({&validation, 1}, "Validation: " + validation.set->title)));

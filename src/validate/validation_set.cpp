@@ -40,9 +40,22 @@ class SetReader {
     return {column, of_case ? axis_key(key) : key, r.text("before"), r.text("unit"), r.number("factor", 1)};
   }
 
-  ValidationSeries series(const toml::table& t) {
-    TomlReader r(source_, t, {"name", "set", "judged"}, kExample);
-    return {r.text("name", true), r.texts("set"), r.flag("judged", true)};
+  ValidationSeries series(const toml::table& t, const fs::path& folder) {
+    TomlReader r(source_, t, {"name", "set", "judged", "recorded", "where"}, kExample);
+    ValidationSeries out{r.text("name", true), r.texts("set"), r.flag("judged", true), {}, {}};
+    if (const std::string file = r.text("recorded"); !file.empty()) out.recorded = folder / file;
+    for (const std::string& text : r.texts("where")) {
+      const std::size_t equals = text.find('=');
+      if (equals == std::string::npos)
+        source_.complain_at(place_of(*t.get("where")), fmt::format("where = \"{}\" has no \"=\"", text),
+                            "write where = [\"engine=fem\"]: columns of the recorded table and their texts");
+      else
+        out.where.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+    if (!out.recorded.empty() && !out.overrides.empty())
+      source_.complain_at(place_of(*t.get("set")), "set has no effect on recorded answers",
+                          "take it out, or record answers of that case");
+    return out;
   }
 
   ComparedColumn compared(const toml::table& t) {
@@ -182,7 +195,7 @@ ValidationSet load_validation(const fs::path& folder) {
   SetReader reader(source, *out.kind);
   for (const toml::table* t : tables(document, "circle")) out.circles.push_back(reader.circle(*t));
   for (const toml::table* t : tables(document, "vary")) out.varied.push_back(reader.varied(*t));
-  for (const toml::table* t : tables(document, "series")) out.series.push_back(reader.series(*t));
+  for (const toml::table* t : tables(document, "series")) out.series.push_back(reader.series(*t, folder));
   for (const toml::table* t : tables(document, "compare")) out.compared.push_back(reader.compared(*t));
   if (out.compared.empty())
     source.complain_at({1, 1}, "nothing is compared", "add a [[compare]] with column, result and bar");

@@ -18,11 +18,18 @@ struct VariedColumn {
   double factor = 1;
 };
 
-/// The same data under other values of the case.
+/// A column and a text in it.
+struct NamedText {
+  std::string name, text;
+};
+
+/// The same data under other values of the case, or against answers that were recorded.
 struct ValidationSeries {
   std::string name;
   std::vector<std::string> overrides;  ///< "key=value"
   bool judged = true;                  ///< false: shown beside the others, no part of the verdict
+  std::filesystem::path recorded;      ///< a table of answers (validate/recorded_answers.hpp); empty: they are computed
+  std::vector<NamedText> where;        ///< what its rows must have
 };
 
 /// How the difference of all rows is made one number.
