@@ -32,11 +32,28 @@ std::string title_of(const ComparedColumn& c) {
 /// More than one row, over a column that varies.
 bool has_chart(const ValidationSet& set) { return set.data.rows() > 1 && !set.varied.empty(); }
 
-/// All comparisons of one column.
-std::vector<const Comparison*> of_column(const Validation& v, const ComparedColumn& column) {
-  std::vector<const Comparison*> out;
-  for (const Comparison& c : v.comparisons)
-    if (c.column == &column) out.push_back(&c);
+/// The first varied column goes one way. Else the rows are no curve over it, and are drawn over the data themselves.
+bool is_curve(const ValidationSet& set) {
+  const std::vector<double> x = set.data.column(set.varied.front().column);
+  return std::is_sorted(x.begin(), x.end()) || std::is_sorted(x.rbegin(), x.rend());
+}
+
+std::string axis_of(const ValidationSet& set, const ComparedColumn& column) {
+  return is_curve(set) ? set.varied.front().column : fmt::format("{} of the data", title_of(column));
+}
+
+/// All comparisons of one column, their points in the order in which they are drawn.
+std::vector<Comparison> of_column(const Validation& v, const ComparedColumn& column) {
+  std::vector<Comparison> out;
+  const bool curve = is_curve(*v.set);
+  for (const Comparison& c : v.comparisons) {
+    if (c.column != &column) continue;
+    std::vector<ComparedPoint>& points = out.emplace_back(c).points;
+    if (curve) continue;
+    for (ComparedPoint& p : points) p.x = p.data;
+    std::stable_sort(points.begin(), points.end(),
+                     [](const ComparedPoint& a, const ComparedPoint& b) { return a.x < b.x; });
+  }
   return out;
 }
 
@@ -63,11 +80,11 @@ ReportChart chart_of(const Validation& v, const ComparedColumn& column) {
   ReportChart chart{.id = v.set->name + "-" + column.column,
                     .title = fmt::format("{}: {}", v.set->title, column.title),
                     .note = v.set->source,
-                    .x = v.set->varied.front().column,
+                    .x = axis_of(*v.set, column),
                     .y = title_of(column),
                     .series = {}};
-  const std::vector<const Comparison*> all = of_column(v, column);
-  const std::vector<ComparedPoint>& points = all.front()->points;
+  const std::vector<Comparison> all = of_column(v, column);
+  const std::vector<ComparedPoint>& points = all.front().points;
   chart.series.push_back(line(v.set->reference, points, &ComparedPoint::data));
   chart.series.back().colour = 0;
   if (!column.deviation.empty()) {
@@ -75,9 +92,9 @@ ReportChart chart_of(const Validation& v, const ComparedColumn& column) {
     chart.series.push_back(edge("- standard deviation", points, -1));
   }
   int colour = 0;  // that of the data
-  for (const Comparison* c : all) {
+  for (const Comparison& c : all) {
     chart.series.push_back(
-        line(c->series->name.empty() ? "RailStrata" : c->series->name, c->points, &ComparedPoint::ours));
+        line(c.series->name.empty() ? "RailStrata" : c.series->name, c.points, &ComparedPoint::ours));
     chart.series.back().colour = ++colour;
   }
   return chart;
@@ -133,10 +150,10 @@ std::pair<double, double> limits(const std::vector<double>& values) {
   return {*least - margin, *largest + margin};
 }
 
-SvgFrame frame_of(const std::vector<const Comparison*>& all) {
+SvgFrame frame_of(const std::vector<Comparison>& all) {
   std::vector<double> x, y;
-  for (const Comparison* c : all)
-    for (const ComparedPoint& p : c->points) {
+  for (const Comparison& c : all)
+    for (const ComparedPoint& p : c.points) {
       const double up = std::isfinite(p.deviation) ? p.deviation : 0;
       x.push_back(p.x);
       for (const double v : {p.data - up, p.data + up, p.ours})
@@ -200,25 +217,25 @@ std::string validations_page(const std::vector<Validation>& all) { return report
 
 std::string comparison_svg(const Validation& validation, const ComparedColumn& column) {
   constexpr const char* kColours[] = {"#0b5fa5", "#c2410c", "#15803d", "#7e22ce", "#a16207", "#0e7490"};
-  const std::vector<const Comparison*> all = of_column(validation, column);
+  const std::vector<Comparison> all = of_column(validation, column);
   SvgPage page(640, 380 + 18.0 * static_cast<double>(all.size() + 1));
   const SvgFrame f = frame_of(all);
-  page.axes(f, validation.set->varied.front().column, title_of(column));
+  page.axes(f, axis_of(*validation.set, column), title_of(column));
   double legend = 390;
   std::size_t k = 0;
-  for (const Comparison* c : all) {
+  for (const Comparison& c : all) {
     std::vector<double> x, y;
-    for (const ComparedPoint& p : c->points)
+    for (const ComparedPoint& p : c.points)
       if (std::isfinite(p.ours)) {
         x.push_back(p.x);
         y.push_back(p.ours);
       }
     const char* colour = kColours[k++ % std::size(kColours)];
-    page.line(f, x, y, colour, !c->series->judged);
-    page.text(80, legend += 18, c->series->name.empty() ? "RailStrata" : "RailStrata, " + c->series->name, "start",
+    page.line(f, x, y, colour, !c.series->judged);
+    page.text(80, legend += 18, c.series->name.empty() ? "RailStrata" : "RailStrata, " + c.series->name, "start",
               colour);
   }
-  draw_data(page, f, all.front()->points);
+  draw_data(page, f, all.front().points);
   page.text(80, 390,
             fmt::format("circles: {}{}", validation.set->reference,
                         column.deviation.empty() ? "" : ", with their standard deviation"));

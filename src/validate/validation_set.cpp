@@ -111,9 +111,14 @@ class SetReader {
 
  private:
   double quantity(TomlReader& r, const toml::table& t, const char* key, const char* otherwise, const Dimension& d) {
-    const std::string text = t.contains(key) || !*otherwise ? r.text(key, true) : otherwise;
+    const bool asked = !*otherwise;
+    const std::string text = t.contains(key) || asked ? r.text(key, true) : otherwise;
     try {
-      return text.empty() ? 0 : parse_quantity(text, d);
+      const double value = text.empty() ? 0 : parse_quantity(text, d);
+      if (asked && !text.empty() && !(value > 0))
+        source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": must be above 0", key, text),
+                            "an area that is not pressed needs no circle");
+      return value;
     } catch (const UnitError& e) {
       source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": {}", key, text, e.what()), e.remedy);
       return 0;
@@ -155,6 +160,14 @@ const ValidationKind& kind_of(TomlReader& top) {
   return all[found == known.end() ? 0 : static_cast<std::size_t>(found - known.begin())];
 }
 
+int increments_of(CaseSource& source, TomlReader& top, const toml::table& document) {
+  const double number = top.number("increments", 100);
+  if (!(number >= 1 && number <= 1e6 && number == std::floor(number)))
+    source.complain_at(place_of(*document.get("increments")), "increments must be a whole number from 1 to 1000000",
+                       "write increments = 100");
+  return static_cast<int>(std::clamp(number, 1.0, 1e6));
+}
+
 void refuse_settings_of_others(CaseSource& source, const toml::table& document, const ValidationKind& kind) {
   for (const ValidationKind& other : validation_kinds())
     for (const std::string& key : other.settings)
@@ -189,7 +202,7 @@ ValidationSet load_validation(const fs::path& folder) {
   refuse_settings_of_others(source, document, *out.kind);
   out.cell = top.text("cell");
   out.material = top.text_or("material", "rail");
-  out.increments = static_cast<int>(std::clamp(top.number("increments", out.increments), 1.0, 1e6));
+  out.increments = increments_of(source, top, document);
   out.from_virgin = top.flag("from_virgin");
   out.loaded = load_case(folder / top.text_or("case", "case.toml"));
   SetReader reader(source, *out.kind);
@@ -199,6 +212,8 @@ ValidationSet load_validation(const fs::path& folder) {
   for (const toml::table* t : tables(document, "compare")) out.compared.push_back(reader.compared(*t));
   if (out.compared.empty())
     source.complain_at({1, 1}, "nothing is compared", "add a [[compare]] with column, result and bar");
+  else if (out.circles.empty() && out.kind->name == "pressure")
+    source.complain_at({1, 1}, "nothing presses", "add a [[circle]] with radius and pressure");
   else
     out.data = reader.data(folder / top.text_or("data", "data.csv"));
   source.finish();

@@ -55,7 +55,7 @@ struct ValidationSet {
   std::string cell;       ///< of the half-space engine; empty: its default
   const ValidationKind* kind = nullptr;
   std::string material;                ///< of kind material: "rail", "wheel" or a layer's name
-  int increments = 100;                ///< of kind material, a row
+  int increments = 1;                  ///< of kind material, a row
   bool from_virgin = false;            ///< of kind material: every row begins anew
   std::vector<PressedCircle> circles;  ///< of kind pressure
   LoadedCase loaded;

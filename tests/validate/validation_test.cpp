@@ -73,6 +73,14 @@ TEST(Validation, DifferenceIsTheLargestOfTheRowsOrTheirRootMeanSquare) {
   EXPECT_EQ(v.agreement, Agreement::outside) << "the worst";
 }
 
+TEST(Validation, RowsThatAreNoCurveAreDrawnOverTheData) {
+  const SetFolder files(kCompare, "load,p\n20,653.18\n40,822.96\n30,747.7\n");
+  const ValidationSet set = files.load();
+  const Validation v = solved(set);
+  EXPECT_EQ(v.comparisons[0].points[2].x, 30);
+  EXPECT_NE(comparison_svg(v, set.compared[0]).find("p of the data"), std::string::npos);
+}
+
 TEST(Validation, SeriesThatIsNotJudgedDoesNotCount) {
   const SetFolder files(kCompare +
                             "[[series]]\nname = \"steel\"\n[[series]]\nname = \"soft\"\njudged = false\n"
@@ -190,6 +198,9 @@ TEST(Validation, FaultsOfAKindAreNamed) {
            {head_of("material") + vary("load") + compare("s_xx_MPa"), "key = \"load\" is unknown"},
            {head_of("material") + vary("e_xx") + compare("p_max_MPa"), "no number of an answer"},
            {head_of("material") + "cell = \"1 mm\"\n" + columns, "cell belongs to kind = \"contact\""},
+           {head_of("material") + "increments = 0\n" + columns, "a whole number from 1"},
+           {head_of("pressure") + vary("depth") + compare("sigma_zz_MPa"), "nothing presses"},
+           {head_of("pressure") + "[[circle]]\nradius = \"0 mm\"\npressure = \"1 MPa\"\n", "must be above 0"},
            {head_of("pressure") + "[[circle]]\nradius = \"5 kN\"\npressure = \"1 MPa\"\n", "radius = \"5 kN\""}}) {
     files.write("validation.toml", text);
     EXPECT_NE(faults_of(files).find(words), std::string::npos) << faults_of(files);

@@ -21,6 +21,7 @@ from contact_library import MM, SI, SIMPACK, Contact, c_int
 
 LIBRARY, HEADER, REFERENCE = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1))
 library = contact_library.load(LIBRARY)
+SETS = pathlib.Path(__file__).resolve().parents[3] / "cases/validation"
 SHEAR = 210000 / 2.6
 LOAD = 84954.6
 
@@ -43,6 +44,7 @@ def tearDownModule():
 
 
 def table(name):
+    """A file of REFERENCE, or a whole path."""
     with open(REFERENCE / name) as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
@@ -211,6 +213,32 @@ class Examples(unittest.TestCase):
         c.call("cntc_setcreepages", 0.00001, 0.0, 0.0)
         self.assertEqual(c.calculate(), 0, c.error())
         printed(self, c.forces()[1] / (0.33 * 106700), "-1.869E-03")
+
+    def test_rows_of_test_table_on_its_own_cells(self):
+        """testbank/test_table_mx11.ref_fx, the rows of cases/validation/contact_table*; iterations end at 1e-6."""
+        rows = [row for name in ("contact_table", "contact_table_spin")
+                for row in table(SETS / name / "data.csv")]
+        self.assertEqual(len(rows), 360)
+        c = Contact(library, 2, 6)
+        c.materials(0.28, 0.28, 82000, 82000)
+        c.friction(0.3)
+        c.call("cntc_setnormalforce", 82000.0)
+        c.flags(P=2, T=3)
+        for row in rows:
+            ratio, angle = float(row["a_over_b"]), math.radians(float(row["direction_deg"]))
+            a = {0.2: 4, 0.5: 6, 1: 9, 2: 12, 5: 20}[ratio]
+            c.hertz(-3, [11, 11, a, a / ratio, 11 / 7])
+            self.assertEqual(c.calculate(), 0, c.error())  # the ellipse's rho is known by then
+            hertz = np.zeros(6)
+            c.call("cntc_gethertzcontact", 6, hertz)
+            rho, radius = hertz[4:]
+            creepage = 0.3 * float(row["magnitude"]) * radius / rho
+            c.call("cntc_setcreepages", creepage * math.cos(angle), creepage * math.sin(angle),
+                   0.3 * float(row["spin_number"]) / rho)
+            self.assertEqual(c.calculate(), 0, c.error())
+            forces = [float(row["F_x"]), float(row["F_y"])]
+            np.testing.assert_allclose(np.array(c.forces()[1:3]) / (0.3 * 82000), forces, rtol=0, atol=5e-6,
+                                       err_msg=str(row))
 
     def test_stresses_under_one_element(self):
         c = Contact(library, 2, 5)
