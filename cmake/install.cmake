@@ -60,11 +60,13 @@ function(railstrata_install_headers layout libdir)
   install(FILES ${package_build}/${layout}pc/railstrata.pc DESTINATION ${libdir}/pkgconfig ${part})
 endfunction()
 
-# Shipped cases without the recorded results of a study, profiles and published numbers, the script for ParaView, texts.
+# Shipped cases; of the recorded results of a study the table that a validation set reads; profiles and published numbers, the script for ParaView, texts.
 function(railstrata_install_data layout)
   railstrata_part(program)
   set(data_folder ${CMAKE_INSTALL_DATADIR}/railstrata)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/cases DESTINATION ${data_folder} ${part} PATTERN "recorded" EXCLUDE)
+  set(study cases/paper/recorded/study)
+  install(FILES ${CMAKE_SOURCE_DIR}/${study}/study.csv DESTINATION ${data_folder}/${study} ${part})
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/data DESTINATION ${data_folder} ${part})
   install(FILES ${CMAKE_SOURCE_DIR}/tests/install/consumer/mine.c ${CMAKE_SOURCE_DIR}/tests/install/consumer/mine.f90
     DESTINATION ${data_folder}/examples ${part})

@@ -47,6 +47,7 @@ install(FILES ${c_header} ${contact_header} DESTINATION include/railstrata)
 install(FILES ${CMAKE_BINARY_DIR}/generated/railstrata_library.def RENAME railstrata.def DESTINATION .)
 install(FILES ${CMAKE_SOURCE_DIR}/tests/install/consumer/mine.c DESTINATION examples)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/cases DESTINATION . PATTERN "recorded" EXCLUDE)
+install(FILES ${CMAKE_SOURCE_DIR}/cases/paper/recorded/study/study.csv DESTINATION cases/paper/recorded/study)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/data ${CMAKE_SOURCE_DIR}/matlab DESTINATION .)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION . FILES_MATCHING PATTERN "*.md" PATTERN "*.bib" PATTERN "*.png"
   PATTERN "*.svg" PATTERN "reliability" EXCLUDE)

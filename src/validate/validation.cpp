@@ -96,6 +96,8 @@ Validation validate(const ValidationSet& set, const AnswerOptions& options) {
       out.faults.push_back(series.name.empty() ? fault : series.name + ", " + fault);
     for (const ComparedColumn& column : set.compared) {
       out.comparisons.push_back(compare(set, series, column, answers));
+      if (!std::isfinite(out.comparisons.back().difference) && answers.faults.empty())
+        out.faults.push_back(fmt::format("{}: answers of this kind and case have no {}", column.title, column.result));
       out.agreement = std::max(out.agreement, out.comparisons.back().agreement);
     }
   }

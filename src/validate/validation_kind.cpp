@@ -60,12 +60,14 @@ LoadedCase case_of(const ValidationSet& set, const ValidationSeries& series) {
 /// The k-th varied column of all rows [SI]. Throws CaseError with key and row.
 std::vector<double> quantities(const ValidationSet& set, const RowTexts& rows, std::size_t k, const Dimension& d) {
   std::vector<double> out;
-  for (std::size_t i = 0; i < rows.size(); ++i) try {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    try {
       out.push_back(parse_quantity(rows[i][k], d));
     } catch (const UnitError& e) {
       throw CaseError(fmt::format("{} = \"{}\" in row {}: {}", set.varied[k].key, rows[i][k], i + 1, e.what()),
                       e.remedy, set.file.string());
     }
+  }
   return out;
 }
 

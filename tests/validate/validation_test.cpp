@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "case/text_file.hpp"
 #include "tests/places.hpp"
 #include "validate/validation_page.hpp"
 
@@ -190,6 +191,14 @@ TEST(Validation, AnswersMayHaveBeenRecorded) {
                                                            "= fem, vehicle.wheel_load = 80 kN"});
 }
 
+TEST(Validation, ANumberThatNoRowHasIsNamed) {
+  const SetFolder files("[[compare]]\ncolumn = \"p\"\ntitle = \"limit\"\nresult = \"shakedown_upper\"\nbar = 1\n",
+                        "load,p\n20,4.6\n");  // of a steel without a strength
+  const ValidationSet set = files.load();
+  EXPECT_EQ(solved(set).faults,
+            std::vector<std::string>{"limit: answers of this kind and case have no shakedown_upper"});
+}
+
 TEST(Validation, FaultsOfAKindAreNamed) {
   const SetFolder files("", "e_xx,s_xx_MPa\n0.004,300\n");
   const std::string columns = vary("e_xx") + compare("s_xx_MPa");
@@ -204,6 +213,14 @@ TEST(Validation, FaultsOfAKindAreNamed) {
            {head_of("pressure") + "[[circle]]\nradius = \"5 kN\"\npressure = \"1 MPa\"\n", "radius = \"5 kN\""}}) {
     files.write("validation.toml", text);
     EXPECT_NE(faults_of(files).find(words), std::string::npos) << faults_of(files);
+  }
+}
+
+TEST(Validation, ThePageOfTheDocumentationHasEveryKindWithItsKeys) {
+  const std::string page = read_text_file(source_dir() / "docs/validate.md", "");
+  for (const ValidationKind& kind : validation_kinds()) {
+    EXPECT_NE(page.find("| `" + std::string(kind.name) + "` |"), std::string::npos) << kind.name;
+    for (const std::string& key : kind.settings) EXPECT_NE(page.find(key), std::string::npos) << key;
   }
 }
 
