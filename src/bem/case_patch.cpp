@@ -9,6 +9,7 @@
 #include "core/faults.hpp"
 #include "geometry/turned_wheel.hpp"
 #include "model/sliding_waves.hpp"
+#include "model/thermal_body.hpp"
 
 namespace railstrata {
 
@@ -171,6 +172,34 @@ CasePatch bodies_of(const CaseSpec& spec) {
   return patch;
 }
 
+/// Coefficients over y of the rail's own profile.
+Plane friction_across(const CaseSpec& spec, const Placement& placement, const CasePatch& patch) {
+  Plane out(patch.grid.size());
+  const RigidContact& c = placement.contact;
+  const Vec2 tangent{std::cos(c.angle), std::sin(c.angle)}, normal{-tangent.z, tangent.y};
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const double t = patch.grid.y(static_cast<int>(k) % patch.grid.ny);
+    const Vec2 on_rail = model_to_rail(placement.track, c.point + t * tangent + patch.profile.rail_height[k] * normal);
+    out[k] = over_table(spec.friction.lateral_table, on_rail.y);
+  }
+  return out;
+}
+
+void fill_heat(const CaseSpec& spec, CasePatch& patch, const HertzContact& estimate) {
+  if (spec.friction.temperature_table.empty() && spec.third_body.temperature_table.empty()) return;
+  patch.contact.heat = ContactHeat{thermal_body(spec, BodyId::rail),       thermal_body(spec, BodyId::wheel),
+                                   spec.friction.rail_temperature.value(), spec.friction.wheel_temperature.value(),
+                                   spec.friction.temperature_table,        spec.third_body.temperature_table};
+  const double diffusivity =
+                   std::max(patch.contact.heat->rail.base.diffusivity(), patch.contact.heat->wheel.base.diffusivity()),
+               peclet = spec.drive.speed * estimate.a / (2 * diffusivity);
+  if (peclet < kLeastPeclet)
+    patch.notes.push_back(
+        fmt::format("the contact moves so slowly that heat spreads beside it (Péclet number {:.2g}, "
+                    "of at least {:g}): temperatures, and friction by them, are too high",
+                    peclet, kLeastPeclet));
+}
+
 /// The problem on a grid that stands.
 void fill_problem(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, CasePatch& patch) {
   RollingContact& contact = patch.contact;
@@ -183,8 +212,12 @@ void fill_problem(const CaseSpec& spec, const Placement& placement, const Normal
   if (spec.bem.spin_angle == SpinAngle::local && !patch.grid.line)
     contact.local_spin = local_spin(patch.grid, patch.profile, placement.contact);
   contact.falling = falling_friction(spec);
-  if (const std::string note = note_of_instability(spec, hertz_estimate(spec, placement.contact)); !note.empty())
-    patch.notes.push_back(note);
+  const HertzContact estimate = hertz_estimate(spec, placement.contact);
+  if (const std::string note = note_of_instability(spec, estimate); !note.empty()) patch.notes.push_back(note);
+  if (!spec.friction.lateral_table.empty()) contact.local_friction = friction_across(spec, placement, patch);
+  if (contact.friction > 0)
+    contact.lateral_share = spec.friction.lateral_coefficient.value_or(contact.friction) / contact.friction;
+  fill_heat(spec, patch, estimate);
   contact.speed = spec.drive.speed;
 }
 

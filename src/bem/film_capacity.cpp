@@ -18,7 +18,8 @@ double capacity(const CasePatch& patch, const NormalOptions& options, double nor
   const NormalTarget target{.load = normal, .approach = {}};
   const Plane pressure = solve_normal(*patch.influence, patch.grid, patch.contact.gap, target, options).pressure;
   double sum = 0;
-  for (const double p : pressure) sum += std::min(patch.contact.friction * p, patch.contact.third_body.yield_shear);
+  for (const double p : pressure)
+    sum += std::min(patch.contact.friction * p, patch.contact.third_body.under(p, 1).yield_shear);
   return sum * patch.grid.cell_area();
 }
 

@@ -7,8 +7,8 @@
 
 namespace railstrata {
 
-double film_share(const InfluenceOperator& influence) {
-  return influence.film() / (influence.of_one_cell(0).xx - influence.of_one_cell(1).xx);
+double film_share(const InfluenceOperator& influence, double more) {
+  return (influence.film() + more) / (influence.of_one_cell(0).xx - influence.of_one_cell(1).xx + more);
 }
 
 Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal, double film) {

@@ -32,8 +32,8 @@ namespace railstrata {
 /// do not lie on the grid, or their gap does not open. Between 0 and 0.64: 0.55 for an edge at the centre of the first
 /// cell; what is more is the staircase's.
 Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal, double film = 0);
-/// `film` of leading_weights() for an operator.
-double film_share(const InfluenceOperator& influence);
+/// `film` of leading_weights() for an operator; more: m/Pa, of the film at the edge beyond the operator's.
+double film_share(const InfluenceOperator& influence, double more = 0);
 
 /// The last term above [m]: what the step of each first cell slips ahead of the edge by pressure; weight from
 /// leading_weights. The normal is that of the gap's contours. Nothing where beta is beyond 1/2, Dundurs' bound: under

@@ -6,6 +6,7 @@
 
 #include "bem/leading_edge.hpp"
 #include "core/faults.hpp"
+#include "steady/anderson.hpp"
 
 namespace railstrata {
 
@@ -45,11 +46,24 @@ void add_displacement_by_pressure(const InfluenceOperator& influence, const Patc
   }
 }
 
+/// Flexibility of the film beyond the operator's, mean over the first cells of the rows [m/Pa].
+double film_at_edge(const PatchGrid& grid, const TangentialProblem& t) {
+  double sum = 0;
+  int cells = 0;
+  const auto ahead = static_cast<std::size_t>(grid.ny);
+  for (std::size_t k = 0; k + ahead < t.film.size(); ++k) {
+    if (!(t.traction_bound[k] > 0) || t.traction_bound[k + ahead] > 0) continue;
+    sum += t.film[k].flexibility() - t.third_body.flexibility();
+    ++cells;
+  }
+  return cells > 0 ? sum / cells : 0;
+}
+
 /// Steps of one cell alone, and no shifts, have first cells that lambda fits.
 void cut_leading_cells(const InfluenceOperator& influence, const PatchGrid& grid, const NormalSolution& normal,
                        TangentialProblem& t) {
   if (t.kind == RollingKind::shift || (t.kind == RollingKind::transient && t.step != grid.dx)) return;
-  t.leading_weight = leading_weights(grid, normal, film_share(influence));
+  t.leading_weight = leading_weights(grid, normal, film_share(influence, film_at_edge(grid, t)));
   if (!influence.couples()) return;
   const PlanePair ahead = leading_slip_by_pressure(influence, grid, normal, t.leading_weight);
   t.extra_slip.x.resize(grid.size(), 0.0);
@@ -58,11 +72,35 @@ void cut_leading_cells(const InfluenceOperator& influence, const PatchGrid& grid
   add_scaled(t.extra_slip.y, -1 / grid.dx, ahead.y);
 }
 
+double factor_at(const RollingContact& contact, std::vector<TablePoint> ContactHeat::*table, std::size_t cell) {
+  if (!contact.heat) return 1;
+  return over_table((*contact.heat).*table,
+                    contact.temperature.empty() ? contact.heat->before_sliding() : contact.temperature[cell]);
+}
+
+Plane traction_bound(const RollingContact& contact, const Plane& pressure) {
+  Plane bound = pressure;
+  for (std::size_t i = 0; i < bound.size(); ++i)
+    bound[i] *= (contact.local_friction.empty() ? contact.friction : contact.local_friction[i]) *
+                factor_at(contact, &ContactHeat::friction, i);
+  return bound;
+}
+
+/// The film of each cell; none where it is the same everywhere.
+std::vector<ThirdBody> films(const RollingContact& contact, const Plane& pressure) {
+  std::vector<ThirdBody> out;
+  const ThirdBody& film = contact.third_body;
+  const bool by_pressure = film.yield_by_pressure != 0 || film.modulus_by_pressure != 0,
+             by_heat = contact.heat && !contact.heat->film.empty();
+  if (!(film.thickness > 0) || !(by_pressure || by_heat)) return out;
+  for (std::size_t i = 0; i < pressure.size(); ++i)
+    out.push_back(film.under(pressure[i], factor_at(contact, &ContactHeat::film, i)));
+  return out;
+}
+
 TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
                                   const RollingContact& contact, const NormalSolution& normal) {
-  TangentialProblem t{contact, normal.pressure, {}};
-  for (std::size_t i = 0; i < t.traction_bound.size(); ++i)
-    t.traction_bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
+  TangentialProblem t{contact, traction_bound(contact, normal.pressure), films(contact, normal.pressure), {}};
   if (influence.couples()) add_displacement_by_pressure(influence, grid, normal.pressure, t);
   if (contact.leading_edge == LeadingEdge::sub_cell) cut_leading_cells(influence, grid, normal, t);
   return t;
@@ -137,9 +175,8 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
   throw NumericalError("normal and tangential contact did not settle against each other");
 }
 
-}  // namespace
-
-RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
+/// At the temperature of `contact`.
+RollingSolution solve_as_warm(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
                               const RollingOptions& options, const RollingSolution* start) {
   if (influence.couples()) return solve_coupled(influence, grid, contact, options, start);
   RollingSolution s;
@@ -150,10 +187,75 @@ RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGri
   return s;
 }
 
+/// Of a step that follows, as contact.flux_before; of a steady state its rows are the way of the particles.
+std::vector<Plane> flux_before(const PatchGrid& grid, const RollingSolution& s) {
+  std::vector<Plane> out;
+  const auto most = static_cast<std::size_t>(grid.nx);
+  Plane last = s.flux.empty() ? Plane(grid.size(), 0.0) : s.flux.front();
+  for (std::size_t k = 0; k < most; ++k) {
+    const bool known = k < s.flux.size();
+    last = rolled_on(grid, known ? s.flux[k] : last);
+    out.push_back(last);
+  }
+  return out;
+}
+
+RollingSolution settle_temperature(const InfluenceOperator& influence, const PatchGrid& grid,
+                                   const RollingContact& contact, const RollingOptions& options,
+                                   const RollingSolution* start) {
+  constexpr double kTolerance = 1e-4;  // of a factor
+  constexpr int kMost = 60;
+  RollingContact warm = contact;
+  Plane& now = warm.temperature;
+  now = start && start->temperature.size() == grid.size() ? start->temperature
+                                                          : Plane(grid.size(), contact.heat->before_sliding());
+  const bool steady = contact.kind == RollingKind::steady;
+  RollingSolution s;
+  Anderson anderson;
+  for (int k = 0; k < kMost; ++k) {
+    s = solve_as_warm(influence, grid, warm, options, k > 0 ? &s : start);
+    const Plane flux = friction_flux(s.tangential, contact.speed);
+    Plane next = contact_temperature(*contact.heat, grid, flux, contact.flux_before, steady,
+                                     steady ? grid.dx : contact.step, contact.speed);
+    double change = 0;
+    for (std::size_t i = 0; i < next.size(); ++i)
+      for (const auto table : {&ContactHeat::friction, &ContactHeat::film})
+        change = std::max(
+            change, std::abs(over_table((*contact.heat).*table, next[i]) - over_table((*contact.heat).*table, now[i])));
+    if (change <= kTolerance) {
+      s.temperature = std::move(next);
+      s.flux.push_back(flux);
+      s.flux.insert(s.flux.end(), contact.flux_before.begin(), contact.flux_before.end());
+      if (s.tangential.bound.empty()) s.tangential.bound = traction_bound(warm, s.normal.pressure);
+      return s;
+    }
+    Field y(now.begin(), now.end()), residual(now.size());
+    for (std::size_t i = 0; i < next.size(); ++i) residual[i] = next[i] - now[i];
+    anderson.step(y, residual);
+    std::copy(y.begin(), y.end(), now.begin());
+  }
+  throw CaseError("friction by temperature does not settle: heat and friction feed each other",
+                  "give creepages instead of forces, a less steep temperature_table, or a smaller slip",
+                  "friction.temperature_table");
+}
+
+}  // namespace
+
+RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
+                              const RollingOptions& options, const RollingSolution* start) {
+  if (contact.heat && contact.kind != RollingKind::shift)
+    return settle_temperature(influence, grid, contact, options, start);
+  RollingSolution s = solve_as_warm(influence, grid, contact, options, start);
+  if (s.tangential.bound.empty() && !contact.local_friction.empty())
+    s.tangential.bound = traction_bound(contact, s.normal.pressure);
+  return s;
+}
+
 void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,
                       RollingContact& contact) {
   roll_on_one_cell(influence, grid, before.tangential, contact);
   add_history_by_pressure(influence, grid, before.normal.pressure, static_cast<std::size_t>(grid.ny), contact.before);
+  if (contact.heat) contact.flux_before = flux_before(grid, before);
 }
 
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,

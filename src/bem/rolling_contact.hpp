@@ -6,6 +6,9 @@
 // caused by the other's traction, until the pressure repeats. Both are solved only as accurately as the other is known:
 // the tangential problem takes one Newton step per outer iteration, the normal one a tolerance that follows the last
 // change of the pressure. So the coupled problem costs little more Newton steps than the tangential problem alone.
+#include <optional>
+
+#include "bem/contact_heat.hpp"
 #include "bem/normal_problem.hpp"
 #include "bem/tangential_problem.hpp"
 #include "case/case_spec.hpp"
@@ -17,7 +20,10 @@ struct RollingContact : RollingConditions {
   Plane gap;  ///< m
   NormalTarget target;
   double friction = 0.3;
-  Plane local_friction;  ///< in each cell, replaces `friction`; empty: uniform
+  Plane local_friction;             ///< in each cell, replaces `friction`; empty: uniform
+  std::optional<ContactHeat> heat;  ///< friction and film by temperature
+  Plane temperature;                ///< K, of each cell, for `heat`; empty: before sliding
+  std::vector<Plane> flux_before;   ///< W/m², transient with `heat`: friction's of the particles, a step ago, two, …
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
 };
 
@@ -31,11 +37,14 @@ struct RollingOptions {
 struct RollingSolution {
   NormalSolution normal;
   TangentialSolution tangential;
+  Plane temperature;         ///< K, of each cell; empty: without ContactHeat
+  std::vector<Plane> flux;   ///< W/m², friction's of the particles, now, a step ago, …; empty: without ContactHeat
   int outer_iterations = 1;  ///< 1 for similar bodies; the iterations of both parts are sums over the outer ones
 };
 
 /// start: solution of a similar problem on the same grid (the state before, a neighbour in a sweep), or null.
-/// Throws as solve_normal and solve_tangential, and NumericalError if the two do not settle against each other.
+/// Friction and film by temperature: in turn with the heat of friction until they repeat. Throws as solve_normal and
+/// solve_tangential, NumericalError if the two do not settle against each other, CaseError if the temperature does not.
 RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
                               const RollingOptions& options = {}, const RollingSolution* start = nullptr);
 

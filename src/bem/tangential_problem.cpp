@@ -67,7 +67,8 @@ class Solver {
   void check_forces() {
     available_ = sum(s_.problem.third_body.hardening > 0 || !s_.varying ? s_.problem.traction_bound : s_.carried);
     const double available = available_ * s_.grid.cell_area(),
-                 wanted = std::hypot(s_.problem.x.force.value_or(0), s_.problem.y.force.value_or(0));
+                 wanted = std::hypot(s_.problem.x.force.value_or(0),
+                                     s_.problem.y.force.value_or(0) / s_.problem.lateral_share);
     constexpr double kRoundOff = 1e-12;  // of the sum: a force of all the friction there is has no solution either
     if (wanted >= (1 - kRoundOff) * available && wanted > 0)
       throw CaseError(
@@ -84,17 +85,17 @@ class Solver {
   void adopt(const TangentialSolution& start) {
     for (std::size_t i = 0; i < s_.n; ++i) {
       if (s_.set[i] == kOutside) continue;
-      const double size = magnitude(start.q_x[i], start.q_y[i]);
+      const double y = start.q_y[i] / s_.problem.lateral_share, size = magnitude(start.q_x[i], y);
       double g = s_.bound[i];
       const bool slips = start.state[i] == ContactState::slip && size > 0;
       if (s_.varying && slips) s_.carried[i] = g = std::min(g, size);
       const double scale = slips || size > g ? g / size : 1.0;
       s_.q[i] = scale * start.q_x[i];
-      s_.q[s_.n + i] = scale * start.q_y[i];
+      s_.q[s_.n + i] = scale * y;
       if (slips) s_.set[i] = kSlip;
     }
     if (s_.problem.x.force) s_.creepage[0] = start.creepage_x;
-    if (s_.problem.y.force) s_.creepage[1] = start.creepage_y;
+    if (s_.problem.y.force) s_.creepage[1] = s_.problem.lateral_share * start.creepage_y;
   }
 
   /// Cells that have come into contact since: as if alone. Left without traction they would mislead the first Newton
@@ -181,7 +182,17 @@ class Solver {
       out.y[k] = leaves ? s_.given.rigid[s_.n + k] + s_.creepage[1] + s_.given.history[s_.n + k] - s_.L.y(k)
                         : s_.slip[s_.n + k];
       if (!s_.given.to_middle_of_step.empty()) out.y[k] += s_.given.to_middle_of_step[k % s_.ahead];
+      out.y[k] = s_.slip_y(out.y[k]);
     }
+    return out;
+  }
+
+  /// How far the ellipse of friction reaches in the direction of each cell's traction; without one, along rolling.
+  Plane bound_along_traction(const TangentialSolution& s) const {
+    Plane out = s_.problem.traction_bound;
+    for (std::size_t k = 0; k < s_.n; ++k)
+      if (const double scaled = magnitude(s_.q[k], s_.q[s_.n + k]); scaled > 0)
+        out[k] *= magnitude(s.q_x[k], s.q_y[k]) / scaled;
     return out;
   }
 
@@ -190,11 +201,12 @@ class Solver {
     const auto half = static_cast<std::ptrdiff_t>(s_.n);
     s.q_x.assign(s_.q.begin(), s_.q.begin() + half);
     s.q_y.assign(s_.q.begin() + half, s_.q.end());
+    for (double& q : s.q_y) q = s_.traction_y(q);
     s.slip_x.assign(s_.n, 0.0);
     s.slip_y.assign(s_.n, 0.0);
     s.state.assign(s_.n, ContactState::separated);
     s.creepage_x = s_.creepage[0];
-    s.creepage_y = s_.creepage[1];
+    s.creepage_y = s_.slip_y(s_.creepage[1]);
     const double dA = s_.grid.cell_area();
     for (int i = 0; i < s_.grid.nx; ++i)
       for (int j = 0; j < s_.grid.ny; ++j) {
@@ -204,9 +216,9 @@ class Solver {
         (s_.set[k] == kStick ? s.stick_area : s.slip_area) += dA;
         if (s_.set[k] == kSlip) {
           s.slip_x[k] = s_.slip[k];
-          s.slip_y[k] = s_.lateral_slip(k);
+          s.slip_y[k] = s_.slip_y(s_.lateral_slip(k));
         }
-        s.moment += (s_.grid.x(i) * s_.q[s_.n + k] - s_.grid.y(j) * s_.q[k]) * dA;
+        s.moment += (s_.grid.x(i) * s.q_y[k] - s_.grid.y(j) * s.q_x[k]) * dA;
       }
     s.force_x = sum(s.q_x) * dA;
     s.force_y = sum(s.q_y) * dA;
@@ -218,6 +230,8 @@ class Solver {
       s.lost_friction = s_.varying->lost();
       s.bound = s_.varying->at_rest();
     }
+    s.film_flexibility = s_.film_flexibility;
+    if (s_.problem.lateral_share != 1) s.bound = bound_along_traction(s);
     s.outer_iterations = outer_;
     s.iterations = s_.L.products();
     return s;
@@ -237,13 +251,15 @@ TangentialProblem taken(const PatchPart& part, const TangentialProblem& p) {
     *plane = part.take(*plane);
   for (PlanePair* pair : {&out.extra_slip, &out.before, &out.traction_before}) *pair = part.take(*pair);
   out.local_spin = part.take_rows(p.local_spin);
+  out.film = part.take(p.film);
   return out;
 }
 
 constexpr Plane TangentialSolution::*kSolutionPlanes[] = {
-    &TangentialSolution::q_x,    &TangentialSolution::q_y,     &TangentialSolution::slip_x,
-    &TangentialSolution::slip_y, &TangentialSolution::plastic, &TangentialSolution::lost_friction,
-    &TangentialSolution::bound};
+    &TangentialSolution::q_x,     &TangentialSolution::q_y,
+    &TangentialSolution::slip_x,  &TangentialSolution::slip_y,
+    &TangentialSolution::plastic, &TangentialSolution::lost_friction,
+    &TangentialSolution::bound,   &TangentialSolution::film_flexibility};
 
 TangentialSolution taken(const PatchPart& part, const TangentialSolution& s) {
   TangentialSolution out = s;
@@ -259,6 +275,14 @@ TangentialSolution put_back(const PatchPart& part, TangentialSolution s) {
   s.cell_slip = part.put(s.cell_slip);
   s.state = part.put(s.state, ContactState::separated);
   return s;
+}
+
+/// Displacement by the film's flexibility beyond the influence operator's.
+void add_film(const TangentialSolution& s, Plane& u_x, Plane& u_y) {
+  for (std::size_t k = 0; k < s.film_flexibility.size(); ++k) {
+    u_x[k] += s.film_flexibility[k] * s.q_x[k];
+    u_y[k] += s.film_flexibility[k] * s.q_y[k];
+  }
 }
 
 }  // namespace
@@ -290,6 +314,7 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   const std::size_t n = grid.size(), row = static_cast<std::size_t>(grid.ny);
   Plane ux(n + row), uy(n + row);
   influence.tangential(before.q_x.data(), before.q_y.data(), ux.data(), uy.data(), grid.nx + 1);
+  add_film(before, ux, uy);
   next.kind = RollingKind::transient;
   next.step = grid.dx;
   next.before.x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
@@ -305,6 +330,7 @@ void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const T
   next.before.x.resize(grid.size());
   next.before.y.resize(grid.size());
   influence.tangential(before.q_x.data(), before.q_y.data(), next.before.x.data(), next.before.y.data(), grid.nx);
+  add_film(before, next.before.x, next.before.y);
   next.plastic_before = before.plastic;
 }
 

@@ -17,10 +17,11 @@
 // and the spin's lateral slip is its mean over the step, phi (x + dq/2), in stick. In slip the cell stands for itself,
 // not for the step ahead of it: (0, -phi dq/3) min(1, |s|/(3 |phi| dq)) is added to the slip that gives the direction.
 // Without weights (whole cells, the scheme of Kalker and CONTACT) it is phi (x + dq/6) everywhere.
-// Where friction falls with slip or a third-body layer yields, g is a function of the cell's slip (varying_bound.hpp).
-// Solved by an active-set Newton method: unknown are both components in stick and the direction in slip; each linear
-// system by GMRES with FFT products. L has a positive semi-definite symmetric part, and slip along the traction adds a
-// positive diagonal, so every linear system is solvable.
+// Friction that is another across rolling, by the factor c: in q_y/c and c s_y the same problem with f alone, L
+// between. Where friction falls with slip or a third-body layer yields, g is a function of the cell's slip
+// (varying_bound.hpp). Solved by an active-set Newton method: unknown are both components in stick and the direction in
+// slip; each linear system by GMRES with FFT products. L has a positive semi-definite symmetric part, and slip along
+// the traction adds a positive diagonal, so every linear system is solvable.
 #include <optional>
 #include <vector>
 
@@ -58,6 +59,8 @@ struct RollingConditions {
                               ///< empty: not known
   FallingFriction falling;    ///< steady rolling; the bound of friction is that at rest
   double speed = 0;           ///< V [m/s], for the slip velocity of `falling`
+  double lateral_share = 1;   ///< f across rolling over f along it: |(q_x, q_y/share)| <= g, slip along the normal of
+                              ///< that ellipse
   ThirdBody third_body;       ///< where it yields; its elastic part is the influence operator's
   Plane plastic_before;       ///< m, history of the third body: as `before` (rolled_on); empty: none yet
   Plane lost_before;  ///< share of friction that slip has taken, history of a memory (friction_memory.hpp); as the one
@@ -65,7 +68,8 @@ struct RollingConditions {
 };
 
 struct TangentialProblem : RollingConditions {
-  Plane traction_bound;  ///< f p in each cell [Pa]; 0 outside the patch
+  Plane traction_bound;         ///< f p in each cell [Pa]; 0 outside the patch
+  std::vector<ThirdBody> film;  ///< in each cell, where it is not `third_body` everywhere; empty: it is
   Plane leading_weight;  ///< lambda in each cell (leading_weights), 0 but in the first cells of the rows; empty: whole
                          ///< cells
 };
@@ -86,6 +90,7 @@ struct TangentialSolution {
   Plane plastic;                    ///< m, plastic shear of the third body; empty: none that yields
   Plane lost_friction;              ///< share of friction that slip has taken; empty: friction without a memory
   Plane bound;                      ///< Pa, what sticking cells carry at most; empty: the problem's traction_bound
+  Plane film_flexibility;           ///< m/Pa, of the film in each cell beyond the influence operator's; empty: none
   double creepage_x = 0, creepage_y = 0;
   double force_x = 0, force_y = 0;       ///< N, on the rail
   double moment = 0;                     ///< N m about the normal at the grid's origin, on the rail

@@ -4,11 +4,36 @@
 
 namespace railstrata {
 
+namespace {
+
+/// Of each cell of the patch, beyond what the influence operator has.
+Plane flexibility_of_film(const TangentialProblem& problem) {
+  Plane out(problem.film.size());
+  for (std::size_t k = 0; k < out.size(); ++k)
+    if (problem.traction_bound[k] > 0) out[k] = problem.film[k].flexibility() - problem.third_body.flexibility();
+  return out;
+}
+
+GivenSlip scaled(GivenSlip given, double lateral_share, std::size_t n) {
+  if (lateral_share == 1) return given;
+  for (std::size_t i = n; i < 2 * n; ++i) {
+    given.rigid[i] *= lateral_share;
+    given.history[i] *= lateral_share;
+  }
+  for (Plane* plane : {&given.to_own_place, &given.to_middle_of_step})
+    for (double& value : *plane) value *= lateral_share;
+  return given;
+}
+
+}  // namespace
+
 SlipOperator::SlipOperator(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem,
-                           const std::vector<LeadingCell>& leading)
+                           const std::vector<LeadingCell>& leading, const Plane& film)
     : influence_(influence),
       grid_(grid),
       leading_(leading),
+      film_(film),
+      lateral_share_(problem.lateral_share),
       steady_(problem.kind == RollingKind::steady),
       step_(railstrata::step_length(grid, problem)),
       inverse_step_(1 / step_),
@@ -18,9 +43,25 @@ SlipOperator::SlipOperator(const InfluenceOperator& influence, const PatchGrid& 
       u_(2 * (n_ + ahead_)) {}
 
 void SlipOperator::apply(const double* in) {
-  influence_.tangential(in, in + n_, u_.data(), u_.data() + n_ + ahead_, steady_ ? grid_.nx + 1 : grid_.nx);
+  const double* q = in;
+  if (lateral_share_ != 1) {
+    scaled_.assign(in, in + 2 * n_);
+    for (std::size_t i = n_; i < 2 * n_; ++i) scaled_[i] *= lateral_share_;
+    q = scaled_.data();
+  }
+  influence_.tangential(q, q + n_, u_.data(), u_.data() + n_ + ahead_, steady_ ? grid_.nx + 1 : grid_.nx);
   ++products_;
+  if (!film_.empty()) add_film(q);
+  if (lateral_share_ != 1)
+    for (std::size_t i = n_ + ahead_; i < u_.size(); ++i) u_[i] *= lateral_share_;
   extrapolate_at_leading_cells();
+}
+
+void SlipOperator::add_film(const double* q) {
+  for (std::size_t i = 0; i < n_; ++i) {
+    u_[i] += film_[i] * q[i];
+    u_[n_ + ahead_ + i] += film_[i] * q[n_ + i];
+  }
 }
 
 /// L + lambda/(1 - lambda) (L - L ahead) in the first cells: written into the displacement that L takes from the
@@ -36,7 +77,15 @@ void SlipOperator::extrapolate_at_leading_cells() {
 }
 
 void SlipOperator::traction_of(const Plane& displacement, double* out) {
-  influence_.precondition_tangential(displacement.data(), displacement.data() + n_, out, out + n_);
+  const Plane* u = &displacement;
+  if (lateral_share_ != 1) {
+    scaled_ = displacement;
+    for (std::size_t i = n_; i < 2 * n_; ++i) scaled_[i] /= lateral_share_;
+    u = &scaled_;
+  }
+  influence_.precondition_tangential(u->data(), u->data() + n_, out, out + n_);
+  if (lateral_share_ != 1)
+    for (std::size_t i = n_; i < 2 * n_; ++i) out[i] /= lateral_share_;
   ++products_;
 }
 
@@ -59,14 +108,19 @@ TangentialState::TangentialState(const InfluenceOperator& influence, const Patch
       q(2 * n, 0.0),
       slip(2 * n),
       set(n, kOutside),
-      given(given_slip(cells, asked)),
-      L(influence, cells, asked, given.leading),
+      given(scaled(given_slip(cells, asked), asked.lateral_share, n)),
+      film_flexibility(flexibility_of_film(asked)),
+      L(influence, cells, asked, given.leading, film_flexibility),
       bound(asked.traction_bound.data()),
-      creepage{asked.x.creepage, asked.y.creepage} {
+      creepage{asked.x.creepage, asked.lateral_share * asked.y.creepage} {
   if (!VaryingBound::needed(problem)) return;
-  if (problem.falling.falls() || problem.third_body.hardening < 0)
-    VaryingBound::require_unique_slip(problem, L.step_length(),
-                                      L.largest(problem.traction_bound, problem.third_body.flexibility()));
+  if (problem.falling.falls() || problem.third_body.hardening < 0) {
+    const double more =
+        film_flexibility.empty() ? 0.0 : *std::max_element(film_flexibility.begin(), film_flexibility.end());
+    VaryingBound::require_unique_slip(
+        problem, L.step_length(),
+        L.largest(problem.traction_bound, problem.third_body.flexibility()) + more / L.step_length());
+  }
   varying.emplace(grid, problem, given);
   carried = varying->at_rest();
   bound = carried.data();

@@ -21,8 +21,9 @@ enum CellSet : unsigned char {
 /// L of tangential_problem.hpp: the slip that tractions take away, of one pair of planes at a time.
 class SlipOperator {
  public:
+  /// film: m/Pa, of each cell beyond the influence's own; empty: none.
   SlipOperator(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem,
-               const std::vector<LeadingCell>& leading);
+               const std::vector<LeadingCell>& leading, const Plane& film);
 
   /// Prepares L in.
   void apply(const double* in);
@@ -45,20 +46,25 @@ class SlipOperator {
 
  private:
   void extrapolate_at_leading_cells();
+  void add_film(const double* in);
 
   const InfluenceOperator& influence_;
   const PatchGrid& grid_;
   const std::vector<LeadingCell>& leading_;
+  const Plane& film_;
+  double lateral_share_;
   bool steady_;
   double step_, inverse_step_, self_;
   std::size_t n_, ahead_;
-  Plane u_;  // rail minus wheel displacement, with a row of cells ahead
+  Plane u_;       // rail minus wheel displacement, with a row of cells ahead
+  Plane scaled_;  // traction or displacement as the influence has it; with a lateral share
   int products_ = 0;
 };
 
 inline double magnitude(double x, double y) { return std::sqrt(x * x + y * y); }
 
-/// Pairs of planes hold x and y one after the other.
+/// Pairs of planes hold x and y one after the other. With a lateral share c of friction all lateral parts are q_y/c and
+/// c s_y, creepage and force too.
 struct TangentialState {
   TangentialState(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem);
   TangentialState(const TangentialState&) = delete;
@@ -69,6 +75,7 @@ struct TangentialState {
   Plane q, slip;         ///< unknown traction; its slip
   Mask set;              ///< CellSet
   GivenSlip given;
+  Plane film_flexibility;  ///< m/Pa, beyond the influence operator's; empty: none
   SlipOperator L;
   std::optional<VaryingBound> varying;
   Plane carried;        ///< with `varying`: the bound of sticking cells, |q| of slipping ones
@@ -104,7 +111,7 @@ struct TangentialState {
   /// (Given force - force of the tractions) / area of a cell, Pa.
   double missing_force(int direction) const {
     const double* values = q.data() + (direction ? n : 0);
-    return (direction ? *problem.y.force : *problem.x.force) / grid.cell_area() -
+    return (direction ? *problem.y.force / problem.lateral_share : *problem.x.force) / grid.cell_area() -
            ordered_sum_of(n, [&](std::size_t i) { return values[i]; });
   }
 
@@ -116,6 +123,10 @@ struct TangentialState {
     const double change = given.to_own_place[i];
     return change == 0 ? y : y + change * std::min(1.0, magnitude(slip[i], y) / (9 * std::abs(change)));
   }
+
+  /// Lateral tractions, slips and creepages from and to those of the surfaces.
+  double traction_y(double of_state) const { return problem.lateral_share * of_state; }
+  double slip_y(double of_state) const { return of_state / problem.lateral_share; }
 
   void update_slip();
   /// A bound that varies takes the slip along the traction; cells that stick are bound by its value at rest.

@@ -44,10 +44,12 @@ class Course {
         placement_(placement),
         options_(sharper(options.rolling)),
         history_(spec, placement.contact),
-        patch_(
-            make_case_patch(spec, placement, options,
-                            {.load = largest_normal_load(history_, spec.drive.friction_coefficient, placement.contact),
-                             .approach = {}})),
+        patch_(make_case_patch(
+            spec, placement, options,
+            {.load = largest_normal_load(history_,
+                                         spec.friction.lateral_coefficient.value_or(spec.drive.friction_coefficient),
+                                         placement.contact),
+             .approach = {}})),
         rolling_(patch_.contact) {
     if (!patch_.grid.line)
       require_one_plane(placement, patch_.frictionless.approach, "transient.kind",

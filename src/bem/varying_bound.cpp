@@ -101,8 +101,9 @@ double VaryingBound::before(const Plane& now, const Plane& history, int i, std::
 
 FilmStep VaryingBound::follow_film(int i, std::size_t k, double length) {
   const double at_rest = rest_[k], plastic = before(plastic_, problem_.plastic_before, i, k);
-  const FilmStep film = yield_or_slide(problem_.third_body, at_rest, plastic, std::max(0.0, along_[k]) * length);
-  rest_[k] = yield_or_slide(problem_.third_body, at_rest, plastic, 0).bound;
+  const ThirdBody& law = problem_.film.empty() ? problem_.third_body : problem_.film[k];
+  const FilmStep film = yield_or_slide(law, at_rest, plastic, std::max(0.0, along_[k]) * length);
+  rest_[k] = yield_or_slide(law, at_rest, plastic, 0).bound;
   plastic_[k] = problem_.traction_bound[k] > 0 ? film.plastic : plastic;
   yields_[k] = !film.slides;
   taken_over_[k] = film.slides && film.plastic > plastic;

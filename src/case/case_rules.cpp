@@ -117,6 +117,12 @@ void check_third_body(const CaseSpec& spec, CaseSource& source) {
         "give the film's thickness, e.g. \"20 µm\"");
   needs("third_body.hardening", t.hardening != 0, "third_body.yield_shear", t.yield_shear.has_value(),
         "give the stress at which the film begins to yield");
+  needs("third_body.yield_by_pressure", t.yield_by_pressure != 0, "third_body.yield_shear", t.yield_shear.has_value(),
+        "give the stress at which the film begins to yield without pressure");
+  needs("third_body.modulus_by_pressure", t.modulus_by_pressure != 0, "third_body.thickness", t.thickness.has_value(),
+        "give the film's thickness, e.g. \"20 µm\"");
+  needs("third_body.temperature_table", !t.temperature_table.empty(), "third_body.thickness", t.thickness.has_value(),
+        "give the film's thickness, e.g. \"20 µm\"");
   if (t.thickness && t.shear_modulus && t.hardening > *t.shear_modulus / *t.thickness)
     source.complain("third_body.hardening",
                     fmt::format("third_body.hardening = {}: must be at most shear_modulus / thickness = {}",
@@ -128,6 +134,54 @@ void check_third_body(const CaseSpec& spec, CaseSource& source) {
     source.complain("third_body.thickness",
                     "a third-body layer under friction that falls with slip at once has no steady state: it would jump",
                     "give friction.memory_distance, e.g. \"14 um\", or take friction.law = \"coulomb\"");
+}
+
+/// An ellipse of friction has no place for laws that count slip by its size alone.
+void check_lateral_coefficient(const CaseSpec& spec, CaseSource& source) {
+  if (!spec.friction.lateral_coefficient) return;
+  const auto refuse = [&](bool asked, const char* with) {
+    if (asked)
+      source.complain("friction.lateral_coefficient",
+                      fmt::format("friction.lateral_coefficient and {}: that law counts slip the same along and across "
+                                  "rolling",
+                                  with),
+                      "take one of them out");
+  };
+  refuse(spec.friction.law != FrictionForm::coulomb, "friction that falls with slip");
+  refuse(spec.third_body.yield_shear.has_value(), "a film that yields");
+  if (!(spec.drive.friction_coefficient > 0))
+    source.complain("friction.lateral_coefficient", "friction.lateral_coefficient needs friction along rolling too",
+                    "give drive.friction_coefficient above 0");
+}
+
+void check_temperatures(const CaseSpec& spec, CaseSource& source) {
+  const FrictionSpec& f = spec.friction;
+  const bool by_temperature = !f.temperature_table.empty() || !spec.third_body.temperature_table.empty();
+  const char* const table = f.temperature_table.empty() ? "third_body.temperature_table" : "friction.temperature_table";
+  if (!source.sound({table, "friction.rail_temperature", "friction.wheel_temperature"})) return;
+  for (const auto& [key, given] : {std::pair("friction.rail_temperature", f.rail_temperature.has_value()),
+                                   std::pair("friction.wheel_temperature", f.wheel_temperature.has_value())}) {
+    if (by_temperature && !given)
+      source.complain(table, fmt::format("{} needs {}", table, key),
+                      "give the temperature at which the body comes, from the same zero as the table's: \"20 K\" if "
+                      "that is 0 °C");
+    if (given && !by_temperature)
+      source.complain(key, fmt::format("{} has no meaning without a temperature_table", key),
+                      "give friction.temperature_table or third_body.temperature_table, or take it out");
+  }
+  if (by_temperature && spec.transient.kind == TransientKind::shift)
+    source.complain(table, "a shift takes no time that heat could be counted by", "take the table out, or let it roll");
+}
+
+void check_lateral_friction(const CaseSpec& spec, CaseSource& source) {
+  const std::vector<TablePoint>& rows = spec.friction.lateral_table;
+  if (rows.empty() || !source.sound({"drive.friction_coefficient", "friction.lateral_table"})) return;
+  if (spec.drive.friction_coefficient != largest_value(rows))
+    source.complain("friction.lateral_table", "friction.lateral_table has the coefficients of the case",
+                    "take drive.friction_coefficient out");
+  if (spec.geometry.in_line())
+    source.complain("friction.lateral_table", "friction.lateral_table has no meaning in a line contact",
+                    "give drive.friction_coefficient instead");
 }
 
 void check_curve(const GeometrySpec& g, CaseSource& source) {
@@ -265,6 +319,9 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_transient(spec, source);
   check_friction_law(spec, source);
   check_third_body(spec, source);
+  check_temperatures(spec, source);
+  check_lateral_coefficient(spec, source);
+  check_lateral_friction(spec, source);
   check_curve(spec.geometry, source);
   check_line_contact(spec, source);
   check_path(spec.run, source);

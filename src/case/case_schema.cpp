@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "case/option_table.hpp"
+#include "core/certainty.hpp"
 #include "damage/grades.hpp"
+#include "friction/friction_conditions.hpp"
 #include "geometry/profile_names.hpp"
 #include "material/hardening_sets.hpp"
 
@@ -46,9 +48,11 @@ struct TypeSchema {
     if (option.form == RowForm::one_named) return named_schema();
     if (option.form == RowForm::named) return {{"type", "array"}, {"items", named_schema()}};
     const std::size_t width = option.columns.size();
+    const bool texts = option.form == RowForm::by_depth;
+    const Json item = texts ? Json{{"type", "string"}} : Json{{"type", {"string", "number"}}};
     return {{"type", "array"},
             {"minItems", 2},
-            {"items", {{"type", "array"}, {"minItems", width}, {"maxItems", width}, {"items", {{"type", "string"}}}}}};
+            {"items", {{"type", "array"}, {"minItems", width}, {"maxItems", width}, {"items", item}}}};
   }
   Json operator()(const std::vector<double>*) const {
     return {{"type", "array"}, {"minItems", 1}, {"items", quantity_schema(option)}};
@@ -102,6 +106,30 @@ constexpr const char* kAboutTransient =
     "is\nfollowed and what comes out: [docs/bem.md](bem.md#transients). Signs: "
     "[conventions](conventions.md#axes-and-signs).\n";
 
+std::string about_conditions() {
+  std::string out =
+      "\n| `condition` | coefficient at rest (range) | slip | film | certainty |\n|---|---|---|---|---|\n";
+  for (const FrictionCondition& c : friction_conditions()) {
+    const std::string falls = c.law.falls() ? fmt::format("falls to {:.2g}, half at {:.3g} m/s",
+                                                          c.law.kinetic_share * c.coefficient, c.law.half_velocity)
+                                            : "",
+                      film = c.film.thickness > 0
+                                 ? fmt::format(
+                                       "{:.4g} MPa/um{}", 1e-12 / c.film.flexibility(),
+                                       c.film.yields()
+                                           ? fmt::format(", yields at {:g} MPa{}", 1e-6 * c.film.yield_shear,
+                                                         c.film.hardening == 0
+                                                             ? ""
+                                                             : fmt::format(", {:+g} MPa/mm", 1e-9 * c.film.hardening))
+                                           : "")
+                                 : "";
+    out += fmt::format("| `{}` | {:g}{} | {} | {} | {}: {} |\n", c.name, c.coefficient,
+                       c.low < c.high ? fmt::format(" ({:g} to {:g})", c.low, c.high) : "", falls, film,
+                       certainty_text(c.certainty), c.source);
+  }
+  return out;
+}
+
 /// Text below a table, on how values of more than one number are written.
 std::string more_about(const OptionTable& table) {
   if (table.name == "geometry")
@@ -126,6 +154,7 @@ std::string more_about(const OptionTable& table) {
            "curve. With `--set`, a key takes the place of\nthe file's other keys of its kind. Finite elements "
            "take creepages to ±0.1; a\ngiven spin is the half-space engine's (`railstrata bem`). Signs: "
            "[conventions](conventions.md#axes-and-signs).\n";
+  if (table.name == "friction") return about_conditions();
   if (table.name == "transient") return kAboutTransient;
   if (table.name == "collective")
     return "\nThe file has the keys of [[load]] under their names with units, `wheel_load [kN]` or `wheel_load_kN`, a "
@@ -144,6 +173,8 @@ std::string more_about(const OptionTable& table) {
 std::vector<std::string> known_names(std::string_view key) {
   std::vector<std::string> out;
   if (key == "rail_profile") out = builtin_profile_names(ProfileKind::rail);
+  if (key == "condition")
+    for (const FrictionCondition& c : friction_conditions()) out.emplace_back(c.name);
   if (key == "wheel_profile") out = builtin_profile_names(ProfileKind::wheel);
   if (key == "grade")
     for (const Grade& grade : grades()) out.emplace_back(grade.name);

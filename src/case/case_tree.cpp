@@ -10,7 +10,9 @@
 #include "case/absent_options.hpp"
 #include "case/overrides.hpp"
 #include "case/value_reader.hpp"
+#include "core/faults.hpp"
 #include "core/nearest_word.hpp"
+#include "friction/friction_conditions.hpp"
 
 namespace railstrata {
 namespace {
@@ -20,11 +22,42 @@ class TreeReader {
   TreeReader(CaseSource& source, CaseSpec& spec) : source_(source), spec_(spec) {}
 
   void read(const toml::table& document) {
+    take_condition(document);
     for (const auto& [key, node] : document) read_top(std::string(key.str()), key, node);
     finish_derived();
+    const std::vector<TablePoint>& across = spec_.friction.lateral_table;
+    if (!across.empty() && !source_.has("drive.friction_coefficient"))
+      spec_.drive.friction_coefficient = largest_value(across);
   }
 
  private:
+  /// The numbers of friction.condition are the defaults of the keys beside it.
+  void take_condition(const toml::table& document) {
+    const auto name = document["friction"]["condition"].value<std::string>();
+    if (!name) return;
+    try {
+      const FrictionCondition& c = friction_condition(*name);
+      spec_.drive.friction_coefficient = c.coefficient;
+      FrictionSpec& f = spec_.friction;
+      f.law = c.law.form;
+      if (c.law.falls()) {
+        f.kinetic_coefficient = c.law.kinetic_share * c.coefficient;
+        f.half_velocity = c.law.half_velocity;
+        f.memory_distance = c.law.memory_distance;
+      }
+      ThirdBodySpec& t = spec_.third_body;
+      if (!(c.film.thickness > 0)) return;
+      t.thickness = c.film.thickness;
+      t.shear_modulus = c.film.shear_modulus;
+      if (c.film.yields()) t.yield_shear = c.film.yield_shear;
+      t.hardening = c.film.hardening;
+      if (c.film.residual > 0) t.residual_shear = c.film.residual;
+    } catch (const CaseError& e) {
+      remember_place(source_, "friction.condition", *document["friction"]["condition"].node());
+      source_.complain("friction.condition", e.diagnostics.front().message, e.diagnostics.front().remedy);
+    }
+  }
+
   struct Derived {
     const OptionTable* table;
     const Option* option;

@@ -63,8 +63,21 @@ std::vector<Option> creepage_options() {
 
 bool falls(const CaseSpec& spec, std::size_t) { return spec.friction.law != FrictionForm::coulomb; }
 
+bool named_condition(const CaseSpec& spec, std::size_t) { return !spec.friction.condition.empty(); }
+
 bool remembers(const CaseSpec& spec, std::size_t index) {
   return falls(spec, index) && spec.friction.memory_distance > 0;
+}
+
+/// [["-20 mm", 0.2], ["10 mm", 0.4]].
+Option table_over(Option place, Option value, std::string_view key, Slot (*slot)(CaseSpec&, std::size_t),
+                  std::string_view doc, std::string_view example) {
+  return option(key, slot, doc).with_rows(RowForm::by_value, {std::move(place), std::move(value)}, example);
+}
+Option temperature_column() { return column("temperature", "", kTemperature, {-300, 3000}); }
+
+bool has_temperature(const CaseSpec& spec, std::size_t) {
+  return !spec.friction.temperature_table.empty() || !spec.third_body.temperature_table.empty();
 }
 
 bool has_film(const CaseSpec& spec, std::size_t) { return spec.third_body.thickness.has_value(); }
@@ -136,30 +149,57 @@ OptionTable drive_table() {
 
 OptionTable friction_table() {
   using F = FrictionSpec;
-  return {"friction",
-          "How friction depends on slip; at rest it is drive.friction_coefficient",
-          {choice_at<&C::friction, &F::law>("law",
-                                            "Coulomb's constant coefficient, or one that falls with the slip velocity "
-                                            "v: by 2^(-v/half_velocity), or by 1/(1 + v/half_velocity)",
-                                            {{"coulomb", FrictionForm::coulomb},
-                                             {"falling_exponential", FrictionForm::falling_exponential},
-                                             {"falling_rational", FrictionForm::falling_rational}}),
-           option("kinetic_coefficient", at<&C::friction, &F::kinetic_coefficient>,
-                  "Falling laws: the coefficient's limit for fast slip", kNumber, {0, 2})
-               .where(falls),
-           option("half_velocity", at<&C::friction, &F::half_velocity>,
-                  "Falling laws: slip velocity at which half of the fall is done", kSpeed, above(0, 100))
-               .where(falls),
-           option("memory_distance", at<&C::friction, &F::memory_distance>,
-                  "Falling laws: sliding distance over which the coefficient follows the slip velocity; 0: at once. "
-                  "Finite elements need one, 10 to 50 um",
-                  kLength, {0, 10 * kMilli})
-               .where(falls),
-           option("memory_velocity", at<&C::friction, &F::memory_velocity>,
-                  "With memory_distance: the coefficient follows as if slip were at least as fast, so that it comes "
-                  "back at rest",
-                  kSpeed, {0, 10})
-               .where(remembers)}};
+  return {
+      "friction",
+      "How friction depends on slip; at rest it is drive.friction_coefficient",
+      {option("condition", at<&C::friction, &F::condition>,
+              "A set by name of drive.friction_coefficient, this table and third_body, under the keys that are given "
+              "beside it")
+           .where(named_condition),
+       choice_at<&C::friction, &F::law>("law",
+                                        "Coulomb's constant coefficient, or one that falls with the slip velocity "
+                                        "v: by 2^(-v/half_velocity), or by 1/(1 + v/half_velocity)",
+                                        {{"coulomb", FrictionForm::coulomb},
+                                         {"falling_exponential", FrictionForm::falling_exponential},
+                                         {"falling_rational", FrictionForm::falling_rational}}),
+       option("kinetic_coefficient", at<&C::friction, &F::kinetic_coefficient>,
+              "Falling laws: the coefficient's limit for fast slip", kNumber, {0, 2})
+           .where(falls),
+       option("half_velocity", at<&C::friction, &F::half_velocity>,
+              "Falling laws: slip velocity at which half of the fall is done", kSpeed, above(0, 100))
+           .where(falls),
+       option("memory_distance", at<&C::friction, &F::memory_distance>,
+              "Falling laws: sliding distance over which the coefficient follows the slip velocity; 0: at once. "
+              "Finite elements need one, 10 to 50 um",
+              kLength, {0, 10 * kMilli})
+           .where(falls),
+       option("memory_velocity", at<&C::friction, &F::memory_velocity>,
+              "With memory_distance: the coefficient follows as if slip were at least as fast, so that it comes "
+              "back at rest",
+              kSpeed, {0, 10})
+           .where(remembers),
+       table_over(column("y", "", kLength, {-0.2, 0.2}), column("coefficient", "", kNumber, {0, 2}), "lateral_table",
+                  at<&C::friction, &F::lateral_table>,
+                  "drive.friction_coefficient across the rail: rows of y of the rail's profile and coefficient, "
+                  "linear between and constant beyond (gauge corner and top); half-space engine",
+                  R"([["-25 mm", 0.15], ["-15 mm", 0.4]])"),
+       option("lateral_coefficient", at<&C::friction, &F::lateral_coefficient>,
+              "Across rolling, where it differs from drive.friction_coefficient along it: tractions lie in an ellipse "
+              "of both, slip along its normal; half-space engine",
+              kNumber, above(0, 2)),
+       table_over(temperature_column(), column("factor", "", kNumber, {0, 10}), "temperature_table",
+                  at<&C::friction, &F::temperature_table>,
+                  "Factor of the coefficient over the temperature of the contact: rail_temperature, "
+                  "wheel_temperature and flash temperature; rows of temperature, from any zero, and factor; "
+                  "half-space engine",
+                  R"([["20 K", 1], ["400 K", 0.6]])"),
+       option("rail_temperature", at<&C::friction, &F::rail_temperature>,
+              "Of the rail as it comes into the contact, with the zero of the temperature tables", kTemperature,
+              {-300, 3000})
+           .where(has_temperature),
+       option("wheel_temperature", at<&C::friction, &F::wheel_temperature>, "The same of the wheel", kTemperature,
+              {-300, 3000})
+           .where(has_temperature)}};
 }
 
 OptionTable third_body_table() {
@@ -177,7 +217,19 @@ OptionTable third_body_table() {
                .where(has_film),
            option("residual_shear", at<&C::third_body, &Film::residual_shear>,
                   "A film that softens: its yield_shear after much shear", kPressure, above(0, 1e11))
-               .where(softens)}};
+               .where(softens),
+           option("yield_by_pressure", at<&C::third_body, &Film::yield_by_pressure>,
+                  "Rise of yield_shear by the pressure of a place; half-space engine", kNumber, {0, 10})
+               .where(has_film),
+           option("modulus_by_pressure", at<&C::third_body, &Film::modulus_by_pressure>, "The same of shear_modulus",
+                  kNumber, {0, 1000})
+               .where(has_film),
+           table_over(temperature_column(), column("factor", "", kNumber, above(0, 10)), "temperature_table",
+                      at<&C::third_body, &Film::temperature_table>,
+                      "Factor of shear_modulus and yield_shear over the temperature of the contact, as "
+                      "friction.temperature_table",
+                      R"([["20 K", 1], ["400 K", 0.6]])")
+               .where(has_film)}};
 }
 
 }  // namespace railstrata

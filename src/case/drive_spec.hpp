@@ -1,8 +1,12 @@
 #pragma once
 // Vehicle, drive and friction of a case, in SI units.
+#include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "friction/falling_friction.hpp"
+#include "friction/friction_table.hpp"
 
 namespace railstrata {
 
@@ -33,8 +37,16 @@ struct DriveSpec {
   }
 };
 
+inline std::array<double*, 2> columns(TablePoint& p) { return {&p.at, &p.value}; }
+
 /// Friction at rest is drive.friction_coefficient.
 struct FrictionSpec {
+  std::string condition = {};                      ///< a set of friction_conditions.hpp; empty: none
+  std::vector<TablePoint> lateral_table = {};      ///< coefficient at rest over y [m] of the rail's profile
+  std::optional<double> lateral_coefficient = {};  ///< across rolling; none: as along
+  std::vector<TablePoint> temperature_table = {};  ///< factor of the coefficient over temperature [K]
+  std::optional<double> rail_temperature = {},
+                        wheel_temperature = {};  ///< K, as they come into the contact; zero as the table's
   FrictionForm law = FrictionForm::coulomb;
   std::optional<double> kinetic_coefficient;  ///< limit of fast slip; with a falling law
   std::optional<double> half_velocity;        ///< m/s, where half of the fall is done; with a falling law
@@ -45,9 +57,12 @@ struct FrictionSpec {
 /// A layer of wear debris, sand, … between wheel and rail; none without a thickness.
 struct ThirdBodySpec {
   std::optional<double> thickness, shear_modulus;
-  std::optional<double> yield_shear;     ///< Pa; none: elastic
-  double hardening = 0;                  ///< Pa/m, by plastic shear; < 0: it softens
-  std::optional<double> residual_shear;  ///< Pa, what softening leaves
+  std::optional<double> yield_shear;               ///< Pa; none: elastic
+  double hardening = 0;                            ///< Pa/m, by plastic shear; < 0: it softens
+  std::optional<double> residual_shear;            ///< Pa, what softening leaves
+  double yield_by_pressure = 0;                    ///< rise of yield_shear by the pressure
+  double modulus_by_pressure = 0;                  ///< the same of shear_modulus
+  std::vector<TablePoint> temperature_table = {};  ///< factor of both over temperature [K]
 };
 
 }  // namespace railstrata

@@ -38,8 +38,20 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
                    "finite elements chatter on a law that follows slip at once",
                    "give friction.memory_distance, 10 to 50 um for a wheel on a rail, or solve the case with "
                    "`railstrata bem`"});
-  beyond(spec.third_body.hardening < 0, "third_body.hardening", "a film that softens",
+  const ThirdBodySpec& film = spec.third_body;
+  beyond(film.hardening < 0, "third_body.hardening", "a film that softens",
          "a step would have several answers, and the film shears in one place");
+  const char* const no_heat = "the flow of heat into the bodies is not computed";
+  beyond(!spec.friction.temperature_table.empty(), "friction.temperature_table", "friction by temperature", no_heat);
+  beyond(!film.temperature_table.empty(), "third_body.temperature_table", "a film that softens with heat", no_heat);
+  beyond(film.yield_by_pressure != 0, "third_body.yield_by_pressure", "a film whose strength depends on pressure",
+         "each node has one film for its whole way");
+  beyond(film.modulus_by_pressure != 0, "third_body.modulus_by_pressure", "a film whose stiffness depends on pressure",
+         "each node has one film for its whole way");
+  beyond(!spec.friction.lateral_table.empty(), "friction.lateral_table", "another coefficient across the rail",
+         "the running surface has one coefficient");
+  beyond(spec.friction.lateral_coefficient.has_value(), "friction.lateral_coefficient",
+         "another coefficient across rolling", "tractions are brought back to a disc");
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
   beyond(std::abs(d.creepage.value_or(0)) > kLargestRunCreepage, "drive.creepage", "so large a creepage",
          largest.c_str());

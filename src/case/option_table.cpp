@@ -111,7 +111,7 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
       return "[" + out + "]";
     }
     std::string operator()(const RowsSlot& v) const {
-      const bool named = option.form != RowForm::by_depth;
+      const bool named = has_named_columns(option.form);
       std::string out;
       for (const std::vector<double>& numbers : *v) {
         std::string row;

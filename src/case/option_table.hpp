@@ -116,12 +116,14 @@ struct Derivation {
   explicit operator bool() const { return value != nullptr; }
 };
 
-/// How a case writes the rows of a RowsSlot.
+/// How a case writes the rows of a RowsSlot. By depth or value: in lists, the first column in order.
 enum class RowForm {
   by_depth,  ///< [["0 mm", "400 MPa"], ["5 mm", "300 MPa"]]
+  by_value,  ///< the same from anywhere on: [["-20 mm", 0.2], ["10 mm", 0.4]]
   named,     ///< [{ modulus = "60 GPa", recall = 250 }]: the keys are those of the columns
   one_named  ///< { saturation = "80 MPa", rate = 12 }
 };
+inline bool has_named_columns(RowForm form) { return form == RowForm::named || form == RowForm::one_named; }
 
 struct Option {
   std::string_view key;

@@ -46,9 +46,9 @@ std::string wanted(const Option& option) {
       return fmt::format("a list, e.g. {}", example_of(option));
     }
     std::string operator()(const RowsSlot&) const {
-      const char* const what = option.form == RowForm::by_depth ? "a table whose rows have"
-                               : option.form == RowForm::named  ? "a list of tables with"
-                                                                : "a table with";
+      const char* const what = !has_named_columns(option.form) ? "a table whose rows have"
+                               : option.form == RowForm::named ? "a list of tables with"
+                                                               : "a table with";
       return fmt::format("{} {}, e.g. {}", what, columns_text(option), example_of(option));
     }
   };
@@ -214,7 +214,7 @@ class ValueReader {
     return sound;
   }
 
-  /// From depth 0 down, at least two rows.
+  /// At least two rows, in order, by depth from 0 down.
   bool fits(const Option& option, const std::string& key, const RowsSlot::Rows& rows) {
     const auto refuse = [&](const std::string& at, const std::string& what, const std::string& remedy) {
       source_.complain(at, what, remedy);
@@ -222,15 +222,16 @@ class ValueReader {
     };
     if (rows.size() < 2)
       return refuse(key, fmt::format("{}: needs at least two rows", key), fmt::format("write {}", wanted(option)));
-    if (rows.front()[0] != 0)
+    if (option.form == RowForm::by_depth && rows.front()[0] != 0)
       return refuse(key + ".0", fmt::format("{}: the first depth must be 0 mm, {}", key, option.columns[0].doc),
                     fmt::format("begin with the {} at the top", option.columns[1].key));
     for (std::size_t i = 1; i < rows.size(); ++i)
       if (!(rows[i][0] - rows[i - 1][0] >= kThinnestStep))
         return refuse(fmt::format("{}.{}", key, i),
-                      fmt::format("{}: depths must increase, by {} at least", key,
-                                  format_quantity(kThinnestStep, dimension::kLength)),
-                      "sort the rows by depth; for a jump write two layers");
+                      fmt::format("{}: the {} must increase from row to row, by {} at least", key,
+                                  option.columns[0].key, format_quantity(kThinnestStep, option.columns[0].dimension)),
+                      option.form == RowForm::by_depth ? "sort the rows by depth; for a jump write two layers"
+                                                       : "sort the rows; for a jump write two rows close together");
     return true;
   }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "material/certainty.hpp"
+#include "core/certainty.hpp"
 
 namespace railstrata {
 

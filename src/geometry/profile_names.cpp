@@ -86,7 +86,7 @@ Primitive primitive_of(const std::string& name) {
 
 bool names_primitive(const std::string& name) {
   const std::string kind = name.substr(0, name.find(':'));
-  return upper(kind) == "FLAT" || (kind == "arc" && kind != name);
+  return upper(kind) == "FLAT" || kind == "arc";
 }
 
 std::vector<std::string> builtin_profile_names(ProfileKind kind) {

@@ -9,6 +9,7 @@
 #include "damage/grades.hpp"
 #include "damage/wear.hpp"
 #include "judge/row_strength.hpp"
+#include "model/thermal_body.hpp"
 
 namespace railstrata {
 namespace {
@@ -46,25 +47,6 @@ const MaterialSpec& surface_material(const CaseSpec& spec, BodyId body) {
   for (const LayerSpec& layer : spec.layers)
     if (layer.on == body) return layer.material;
   return body == BodyId::rail ? spec.rail_material : spec.wheel_material;
-}
-
-ThermalMaterial thermal(const MaterialSpec& m) {
-  return {m.strength.heat.conductivity, m.density, m.strength.heat.capacity};
-}
-
-ThermalBody thermal_body(const CaseSpec& spec, BodyId body) {
-  ThermalBody out;
-  out.base = thermal(body == BodyId::rail ? spec.rail_material : spec.wheel_material);
-  for (const LayerSpec& layer : spec.layers)
-    if (layer.on == body) {
-      if (out.layer_thickness > 0) {
-        out.deeper.push_back(thermal(layer.material));
-        continue;
-      }
-      out.layer_thickness = layer.thickness;
-      out.layer = thermal(layer.material);
-    }
-  return out;
 }
 
 /// Pa, as a pressure; NaN where the case does not give it.

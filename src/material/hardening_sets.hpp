@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "material/certainty.hpp"
+#include "core/certainty.hpp"
 #include "material/plastic.hpp"
 
 namespace railstrata {

@@ -151,7 +151,9 @@ FallingFriction falling_friction(const CaseSpec& spec) {
 ThirdBody third_body(const CaseSpec& spec) {
   const ThirdBodySpec& t = spec.third_body;
   if (!t.thickness) return {};
-  return {*t.thickness, t.shear_modulus.value(), t.yield_shear.value_or(0), t.hardening, t.residual_shear.value_or(0)};
+  return {*t.thickness,         t.shear_modulus.value(),      t.yield_shear.value_or(0),
+          t.hardening,          t.residual_shear.value_or(0), t.yield_by_pressure,
+          t.modulus_by_pressure};
 }
 
 double static_load(const CaseSpec& spec) {

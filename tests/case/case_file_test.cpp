@@ -159,7 +159,7 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   CaseSpec spec = one_of_each();
   spec.layers.resize(2);
   spec.layers[1].on = BodyId::wheel;
-  spec.friction = {FrictionForm::coulomb, 0.1, 0.7};  // for the law that `disturb` gives
+  spec.friction = {.law = FrictionForm::coulomb, .kinetic_coefficient = 0.1, .half_velocity = 0.7};  // for the law that `disturb` gives
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options)
       if (!option.derivation && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)) &&
@@ -334,7 +334,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n      |                ^\n    remedy: begin with the modulus at "
        "the top"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"0 mm\", \"210 GPa\"]]\n",
-       "a.toml:2:37: layer.0.young_table: depths must increase, by 0.001 mm at least\n    2 | young_table = [[\"0 "
+       "a.toml:2:37: layer.0.young_table: the depth must increase from row to row, by 0.001 mm at least\n    2 | "
+       "young_table = [[\"0 "
        "mm\", \"420 GPa\"], [\"0 mm\", \"210 GPa\"]]\n      |                                     ^\n    remedy: sort "
        "the rows by depth; for a jump write two layers"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"]]\n",
