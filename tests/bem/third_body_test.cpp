@@ -14,7 +14,8 @@ namespace {
 constexpr double kMPa = 1e6, kPerMm = 1e9;
 // Films of Hou's tests, 20 µm. [HouKalousekMagel1997]
 const ThirdBody kMagnetite{20e-6, 176.63 * kMPa, 560 * kMPa, 0}, kClay{20e-6, 106.25 * kMPa, 200 * kMPa, 435 * kPerMm},
-    kMoS2{20e-6, 20.238 * kMPa, 20 * kMPa, 20.4 * kPerMm};
+    kMoS2{20e-6, 20.238 * kMPa, 20 * kMPa, 20.4 * kPerMm},
+    kSand{20e-6, 176.63 * kMPa, 400 * kMPa, -195 * kPerMm, 1 * kMPa};
 
 /// Shifts of one cell of 1 mm², in mm, and the force over friction after each, as CONTACT prints it (its example
 /// plastic_3bl: G = 82 GPa, nu = 0.28, 900 N, f = 0.7).
@@ -30,6 +31,9 @@ TEST(ThirdBody, OneCellShearedBackAndForthMeetsContact) {
       {kClay,
        {-0.040, -0.040, -0.040, -0.040, -0.036, 0.0, 0.036, 0.0, -0.046, -0.044, -0.050, -0.050},
        {0.3175, 0.3429, 0.3683, 0.3937, 0.4166, 0.4166, 0.1308, 0.1308, 0.4229, 0.4509, 0.4826, 0.5144}},
+      {kSand,
+       {-0.025, -0.025, -0.050, -0.050, -0.050, -0.050, -0.050, -0.050, -0.050, -0.050, -0.050, -0.050, -0.050},
+       {0.3175, 0.6349, 0.6190, 0.6032, 0.5873, 0.5714, 0.5556, 0.5397, 0.5238, 0.5081, 0.4922, 0.4763, 0.4605}},
       {kMoS2,
        {-0.020, -0.040, -0.040, -0.050, -0.050, -0.050},
        {0.03175, 0.03302, 0.03428, 0.03587, 0.03746, 0.03904}}};
