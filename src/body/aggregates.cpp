@@ -71,9 +71,8 @@ void Aggregates::cut_stations(int block, double radius, const ClusterSizes& size
   // from the station under the contact to both ends
   const int n = static_cast<int>(at.size());
   auto distance = [&](int j) {
-    double t = std::abs(at[j]);
-    if (body_.mesh.kind == SweepKind::revolve) t = std::abs(std::remainder(t, 2 * std::acos(-1.0)));
-    return radius * t;
+    const double t = at[j] - body_.mesh.contact_at;
+    return radius * std::abs(body_.mesh.kind == SweepKind::revolve ? std::remainder(t, 2 * std::acos(-1.0)) : t);
   };
   cut.group_of.resize(n);
   cut.group_first.clear();

@@ -12,6 +12,27 @@ namespace {
 
 constexpr const char* kWithHalfSpaces = "take it out, or solve the case with `railstrata bem`";
 
+/// A rail with a radius along rolling is meshed as a ring that turns about a shaft.
+void refuse_on_ring(const CaseSpec& spec, std::vector<BeyondEngine>& out) {
+  const GeometrySpec& g = spec.geometry;
+  if (!g.rail_radius) return;
+  const auto refuse = [&](bool asked, const char* key, const char* why, const char* remedy) {
+    if (asked)
+      out.push_back({key, fmt::format("{} with geometry.rail_radius is not in this engine: {}", key, why), remedy});
+  };
+  refuse(!(*g.rail_radius > 0), "geometry.rail_radius", "a hollow rail has no axle below it", kWithHalfSpaces);
+  refuse(g.rail_shape != RailShape::block, "geometry.rail_shape", "a rail with web and foot does not close to a ring",
+         "give rail_shape = \"block\": a disc as wide as its profile, block_height thick down to its bore");
+  refuse(g.cant != 0, "geometry.cant", "the ring's axle is parallel to the wheel's",
+         "give cant = 0.0, or solve the case with `railstrata bem`");
+  refuse(g.yaw != 0, "geometry.yaw", "the wheel's search follows a straight rail", kWithHalfSpaces);
+  refuse(spec.run.plasticity, "run.plasticity", "elements of a ring that turns stay elastic", "take it out");
+  refuse(spec.run.device == ComputeDevice::gpu, "run.device", "its kernels know a straight rail",
+         "give device = \"cpu\"");
+  refuse(spec.run.time_step_method == TimeStepMethod::local, "run.time_step_method", "inner steps know a straight rail",
+         "give time_step_method = \"auto\"");
+}
+
 }  // namespace
 
 std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
@@ -29,7 +50,7 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   beyond(spec.transient.kind != TransientKind::none, "transient.kind", "a history of loads and motions",
          "one drive leads to the wanted positions, with inertia");
   beyond(g.in_line(), "geometry.contact", "a line contact", "bodies have ends across, and patches too");
-  beyond(g.rail_radius.has_value(), "geometry.rail_radius", "a rail curved along rolling", "the rail is straight");
+  refuse_on_ring(spec, out);
   beyond(g.roll != 0, "geometry.roll", "a roll of the wheelset", "the wheel is meshed upright");
   if (!spec.run.rolling) return out;
   if (spec.friction.law != FrictionForm::coulomb && !(spec.friction.memory_distance > 0))

@@ -40,11 +40,17 @@ RAILSTRATA_POINTWISE NodeTraction apart(const NodeTraction& t) {
   return out;
 }
 
-/// Unit vectors of the contact plane at a rail node with the normal n = (0, n_y, n_z).
+/// Unit vectors of the contact plane at a rail node with the normal n: t1 upright in the plane of rolling; of a
+/// straight rail, n_x = 0, along x.
 struct TangentFrame {
   Vec3 t1, t2;
 };
-RAILSTRATA_POINTWISE TangentFrame tangent_frame(Vec3 n) { return {{1, 0, 0}, {0, n.z, -n.y}}; }
+RAILSTRATA_POINTWISE TangentFrame tangent_frame(Vec3 n) {
+  if (n.x == 0) return {{1, 0, 0}, {0, n.z, -n.y}};
+  const double length = std::sqrt(n.x * n.x + n.z * n.z);
+  const Vec3 along{n.z / length, 0, -n.x / length};
+  return {along, cross(n, along)};
+}
 
 /// Traction on the rail as a vector in the model frame.
 RAILSTRATA_POINTWISE Vec3 traction_vector(const NodeTraction& t, Vec3 n) {

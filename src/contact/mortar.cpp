@@ -22,6 +22,13 @@ struct SurfaceField {
   }
 };
 
+void find_angles(const ContactSurface& surface, std::vector<double>& sine, std::vector<double>& cosine) {
+  for (double t : surface.stations.at) {
+    sine.push_back(std::sin(t));
+    cosine.push_back(std::cos(t));
+  }
+}
+
 }  // namespace
 
 MortarContact::MortarContact(ContactSurface rail, ContactSurface wheel)
@@ -29,14 +36,29 @@ MortarContact::MortarContact(ContactSurface rail, ContactSurface wheel)
       wheel_(std::move(wheel)),
       inner_columns_(rail_.columns - 2),
       apart_(independent_distance(rail_, wheel_)) {
-  for (double t : wheel_.stations.at) {
-    sin_t_.push_back(std::sin(t));
-    cos_t_.push_back(std::cos(t));
-  }
+  find_angles(wheel_, sin_t_, cos_t_);
+  if (!rail_.rises) return;
+  find_angles(rail_, rail_sin_, rail_cos_);
+  for (int c = 0; c + 1 < rail_.columns; ++c) rail_.width[c] *= 0.5 * std::abs(rail_.node[c].z + rail_.node[c + 1].z);
 }
 
+// The ring is met as the wheel is, about its own axle.
 Vec3 MortarContact::rail_point(const Field& u, int c, int j, double wy, double wx) const {
+  if (rail_.rises)
+    return wheel_point(rail_, rail_sin_, rail_cos_, SurfaceField{u, rail_}, {0, 0, 0, rail_psi_}, rail_turned_,
+                       Hit{.column = c, .station = j, .weight_y = wy, .weight_t = wx, .offset = {}, .inside = true});
   return in_wheel_axes(wheel_, mortar_law::rail_point(rail_, SurfaceField{u, rail_}, c, j, wy, wx));
+}
+
+Vec3 MortarContact::rail_normal(int c, int j) const {
+  const double along = rail_.rises ? rail_.radius * (rail_.contact_at + rail_psi_ - rail_.stations.at[j]) : 0.0;
+  return rail_.rail_normal(c, along);
+}
+
+void MortarContact::turn_to(const AxlePose& pose) {
+  turned_ = rotation_by(pose.psi);
+  rail_psi_ = pose.rail_psi;
+  rail_turned_ = rotation_by(rail_psi_);
 }
 
 MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose, Vec3 p, Tangential correction,
@@ -70,7 +92,7 @@ void MortarContact::test_nodes(const Field& u_rail, const Field& u_wheel, const 
     const int j = window_first_ + static_cast<int>(w);
     for (int c = 1; c <= inner_columns_; ++c) {
       const Vec3 p = rail_point(u_rail, c, j, 0, 0);
-      const Vec3 normal = yaw_back(wheel_.yaw, {0, rail_.outward[c].y, rail_.outward[c].z});
+      const Vec3 normal = yaw_back(wheel_.yaw, rail_normal(c, j));
       Hit h = opposite(u_wheel, pose, p, {});
       h = opposite(u_wheel, pose, p, {h.offset.x, h.offset.y});
       const double gap = dot(normal, h.offset);
@@ -142,8 +164,9 @@ void MortarContact::start_corrections(const Field& u_rail, const Field& u_wheel,
 void MortarContact::search(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model, double half_length,
                            double gap_limit) {
   const AxlePose pose = in_wheel_axes(wheel_, in_model);
-  turned_ = rotation_by(pose.psi);
-  const Window window = window_around(rail_, wheel_.origin.x + in_model.x - rail_.origin.x, half_length);
+  turn_to(pose);
+  const double centre = rail_.rises ? rail_.contact_at + rail_psi_ : wheel_.origin.x + in_model.x - rail_.origin.x;
+  const Window window = window_around(rail_, centre, half_length / rail_.radius);
   window_first_ = window.first;
   window_stations_ = window.stations;
   reserve_window();
@@ -178,7 +201,7 @@ void MortarContact::append_weights(const WheelPatch& patch, double area) {
 
 const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model) {
   const AxlePose pose = in_wheel_axes(wheel_, in_model);
-  turned_ = rotation_by(pose.psi);
+  turn_to(pose);
   update_hits(u_rail, u_wheel, pose);
   result_.rows.clear();
   result_.weights.clear();
@@ -189,7 +212,7 @@ const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel,
     row.station = j;
     row.rail = rail_.index(c, j);
     row.first = static_cast<int>(result_.weights.size());
-    row.normal = {0, rail_.outward[c].y, rail_.outward[c].z};
+    row.normal = rail_normal(c, j);
     row.on_wheel = yaw_back(wheel_.yaw, row.normal);
     const FacetsAroundNode around = facets_around(c, j);
     const auto hit = [&](int q, int g) -> const Hit& { return hits_[around[q]][g]; };

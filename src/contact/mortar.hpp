@@ -85,6 +85,8 @@ class MortarContact {
   using FacetsAroundNode = std::array<int, 4>;  // in facets_: the node is their corner (1,1), (0,1), (1,0), (0,0)
 
   Vec3 rail_point(const Field& u, int column, int station, double weight_y, double weight_x) const;
+  Vec3 rail_normal(int column, int station) const;
+  void turn_to(const AxlePose& pose);
   Vec3 gauss_point(const Field& u_rail, const Facet& facet, int g) const;
   Hit opposite(const Field& u_wheel, const AxlePose& pose, Vec3 point, Tangential correction,
                const Hit& guess = Hit{}) const;
@@ -101,9 +103,11 @@ class MortarContact {
   void choose_node(int column, int station);
   void append_weights(const WheelPatch& patch, double area);
 
-  ContactSurface rail_, wheel_;
-  std::vector<double> sin_t_, cos_t_;           // of the wheel's stations
-  Rotation<double> turned_;                     // by psi
+  ContactSurface rail_, wheel_;              // width of a ring: area of its facets per unit of the sweep coordinate
+  std::vector<double> sin_t_, cos_t_;        // of the wheel's stations
+  std::vector<double> rail_sin_, rail_cos_;  // of those of a rail that is a ring
+  Rotation<double> turned_, rail_turned_;    // by psi and rail_psi
+  double rail_psi_ = 0;
   int window_first_ = 0, window_stations_ = 0;  // rail stations that the last search looked at
   int inner_columns_ = 0;                       // of the rail: the outermost are tied to the coarser mesh
   int apart_ = 1;                               // columns or stations between rows that share no wheel node

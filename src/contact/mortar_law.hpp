@@ -11,15 +11,16 @@
 
 #include "core/rotation.hpp"
 #include "core/simd.hpp"
+#include "core/sweep_kind.hpp"
 #include "core/tangential.hpp"
 #include "core/turn.hpp"
 
 namespace railstrata {
 
 /// Rigid position of the axle: displacement from the start and rotation psi (positive rolling forward, any number of
-/// turns).
+/// turns); rail_psi: the same of a rail that is a ring, negative, for the wheel stays where it is.
 struct AxlePose {
-  double x = 0, y = 0, z = 0, psi = 0;
+  double x = 0, y = 0, z = 0, psi = 0, rail_psi = 0;
 };
 
 namespace mortar_law {
@@ -72,7 +73,7 @@ RAILSTRATA_POINTWISE Vec3 in_wheel_axes(const Surface& wheel, Vec3 point) {
 template <class Surface>
 RAILSTRATA_POINTWISE AxlePose in_wheel_axes(const Surface& wheel, const AxlePose& pose) {
   const Vec3 travel = yaw_back(wheel.yaw, {pose.x, pose.y, pose.z});
-  return {travel.x, travel.y, travel.z, pose.psi};
+  return {travel.x, travel.y, travel.z, pose.psi, pose.rail_psi};
 }
 
 /// Number of the values at the front of a sorted array that are not above x; below(x, value): x < value.
@@ -265,9 +266,13 @@ int independent_distance(const Surface& rail, const Surface& wheel) {
       out = std::min(out, s.stations.at[j + 1] - s.stations.at[j]);
     return out;
   };
-  double radius = 0;
-  for (const Vec2 n : wheel.node) radius = std::max(radius, std::abs(n.z));
-  const double ratio = std::max(across(wheel, false) / across(rail, true), radius * along(wheel) / along(rail));
+  const auto radius = [](const Surface& s) {
+    double out = s.kind == SweepKind::extrude ? 1.0 : 0.0;
+    for (int c = 0; s.kind == SweepKind::revolve && c < s.columns; ++c) out = std::max(out, std::abs(s.node[c].z));
+    return out;
+  };
+  const double ratio =
+      std::max(across(wheel, false) / across(rail, true), radius(wheel) * along(wheel) / (radius(rail) * along(rail)));
   constexpr double kMost = 64;  // farther than any patch: the rows stand one after the other
   return static_cast<int>(std::ceil(std::min(2 * kFarPoint + 2.04 * ratio, kMost)));
 }

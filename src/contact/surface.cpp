@@ -1,5 +1,7 @@
 #include "contact/surface.hpp"
 
+#include <algorithm>
+
 namespace railstrata {
 
 ContactSurface contact_surface(const SweptBody& body, const BodyLayout& layout, const SectionCurve& curve) {
@@ -8,6 +10,8 @@ ContactSurface contact_surface(const SweptBody& body, const BodyLayout& layout, 
   const BlockLayout& lay = layout.blocks[body.contact.block];
   c.kind = body.kind;
   c.origin = body.origin;
+  c.contact_at = body.contact_at;
+  c.rises = body.rises();
   c.columns = body.contact.columns + 1;
   c.stations = block.stations;
   c.s = body.contact.s;
@@ -18,6 +22,10 @@ ContactSurface contact_surface(const SweptBody& body, const BodyLayout& layout, 
   for (int n = 0; n + 1 < c.columns; ++n) {
     c.sagitta.push_back(curve(0.5 * (c.s[n] + c.s[n + 1])).position - 0.5 * (c.node[n] + c.node[n + 1]));
     c.width.push_back(std::abs(c.s[n + 1] - c.s[n]));
+  }
+  if (c.kind == SweepKind::revolve) {
+    c.radius = 0;
+    for (const Vec2& n : c.node) c.radius = std::max(c.radius, std::abs(n.z));
   }
   c.first_line = lay.line(0, 0);
   c.stride = lay.stride;

@@ -2,6 +2,7 @@
 // The running surface of a swept body as the contact sees it: the top nodes of the contact band, with the exact profile
 // between them.
 #include <cassert>
+#include <cmath>
 #include <functional>
 
 #include "core/rotation.hpp"
@@ -24,8 +25,11 @@ struct SurfaceIndex {
 struct ContactSurface {
   SweepKind kind = SweepKind::extrude;
   Vec3 origin;
-  Rotation<double> yaw;  ///< of the body's axes about the vertical through its origin, from the model's
-  int columns = 0;       ///< nodes across
+  double contact_at = 0;  ///< SweptBody::contact_at
+  double radius = 1;      ///< m, of a revolved surface, the largest: metres per unit of the sweep coordinate
+  bool rises = false;     ///< a rail that is a ring, axle below (SweptBody::rises)
+  Rotation<double> yaw;   ///< of the body's axes about the vertical through its origin, from the model's
+  int columns = 0;        ///< nodes across
   Stations stations;
   std::vector<Vec2> node;         ///< section coordinates of the surface nodes, y increasing
   std::vector<Vec2> outward;      ///< unit normals there
@@ -39,6 +43,16 @@ struct ContactSurface {
     assert(column >= 0 && column < columns);
     assert(station >= 0 && station < stations.nodes());
     return first_line + static_cast<std::ptrdiff_t>(column) * 3 * stride + station;
+  }
+  /// y and z, model frame, of a column's node of the undeformed body where the contact is.
+  Vec2 at_contact(int column) const {
+    return {origin.y + node[column].y, origin.z + (rises ? -node[column].z : node[column].z)};
+  }
+  /// Normal of a rail at a column, model frame, out of the material, `ahead` [m] of where the contact is.
+  Vec3 rail_normal(int column, double ahead) const {
+    const Vec2 n = outward[column];
+    if (!rises) return {0, n.y, n.z};
+    return {-n.z * std::sin(ahead / radius), n.y, -n.z * std::cos(ahead / radius)};
   }
   /// The inverse of index().
   SurfaceIndex node_at(std::ptrdiff_t index) const {

@@ -50,6 +50,7 @@ struct AxleLaw {
   double gravity = 0, lateral_speed = 0;           ///< m/s², m/s
   double rest_z = 0;                               ///< m, height in static equilibrium
   bool keeps_pace = false, free_sideways = false;  ///< as ExplicitOptions
+  bool stays = false;                              ///< does not travel: the rail is a ring and turns below it
 };
 
 /// Smooth rise from 0 to 1 over [0, 1] with zero slope at both ends.
@@ -82,7 +83,7 @@ RAILSTRATA_POINTWISE double advance_axle(const AxleLaw& law, const AxleLoads& lo
   const double suspension = -law.suspension.sprung_mass * law.gravity - spring.on_masses;
   const double vx = a.vx, vy = a.vy, vz = a.vz, spin = a.spin;
   const double torque = law.keeps_pace ? -loads.moment : drive.torque;
-  if (!law.keeps_pace) a.vx += dt * loads.fx / law.mass_x;
+  if (!law.keeps_pace && !law.stays) a.vx += dt * loads.fx / law.mass_x;
   const double drift = law.free_sideways ? vy - law.lateral_speed : 0.0;
   if (law.free_sideways) a.vy += dt * ((loads.fy + drive.lateral) / law.mass_z - rate * drift);
   a.vz += dt * ((loads.fz + suspension) / law.mass_z - law.gravity - rate * a.vz);

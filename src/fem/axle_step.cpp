@@ -2,13 +2,13 @@
 
 namespace railstrata {
 
-AxleLoads bore_loads(const Axle& axle, const Field& f_wheel, Rotation<double> drift, double tie_moment,
+AxleLoads bore_loads(const std::vector<BoreNode>& nodes, const Field& f, Rotation<double> drift, double tie_moment,
                      const ReferenceFrame& frame) {
   Vec3 bore{};
   double moment = -tie_moment;
-  for (const BoreNode& n : axle.bore) {
-    const double fx = -f_wheel[n.index], fz = -f_wheel[n.index + 2 * n.stride];
-    bore.y -= f_wheel[n.index + n.stride];
+  for (const BoreNode& n : nodes) {
+    const double fx = -f[n.index], fz = -f[n.index + 2 * n.stride];
+    bore.y -= f[n.index + n.stride];
     const auto [rx, rz] = drift.forward(n.arm.x, n.arm.z);
     bore.x += fx;
     bore.z += fz;
@@ -21,8 +21,8 @@ AxleLoads bore_loads(const Axle& axle, const Field& f_wheel, Rotation<double> dr
 AxleLaw axle_law(const RollingSystem& system, double rest_z) {
   const Axle& axle = system.axle;
   const ExplicitOptions& o = system.options;
-  return {axle.mass_x, axle.mass_z,  axle.inertia,   suspension_law(o.vehicle), system.gravity, o.lateral_speed,
-          rest_z,      o.keeps_pace, o.free_sideways};
+  return {axle.mass_x,     axle.mass_z, axle.inertia, suspension_law(o.vehicle), system.gravity,
+          o.lateral_speed, rest_z,      o.keeps_pace, o.free_sideways,           system.on_ring()};
 }
 
 }  // namespace railstrata

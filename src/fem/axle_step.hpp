@@ -14,9 +14,9 @@ inline double drive_torque(const RollingSystem& system, double time) {
   return ramp > 0 ? system.torque * smooth_rise(time / ramp) : system.torque;
 }
 
-/// Internal forces of the bore's nodes, in the wheel's frame, turned by `drift` within it; tie_moment: what the ties'
-/// offsets hand to the rotation.
-AxleLoads bore_loads(const Axle& axle, const Field& f_wheel, Rotation<double> drift, double tie_moment,
+/// Internal forces of a bore's nodes, in the frame of their body, turned by `drift` within it; tie_moment: what the
+/// ties' offsets hand to the rotation.
+AxleLoads bore_loads(const std::vector<BoreNode>& nodes, const Field& f, Rotation<double> drift, double tie_moment,
                      const ReferenceFrame& frame);
 
 /// rest_z: height of the axle in static equilibrium [m].

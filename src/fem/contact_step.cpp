@@ -16,8 +16,8 @@ double inverse_mass(const RollingBody& b, std::ptrdiff_t i) {
 // the node).
 template <class Add>
 void distribute(const MortarRows& rows, const ContactRow& row, const RollingBodies& bodies, Vec3 force, Add&& add) {
-  const Vec3 turned = bodies[kWheel].frame.to_frame(force);
-  const double on_rail[3] = {force.x, force.y, force.z}, on_wheel[3] = {-turned.x, -turned.y, -turned.z};
+  const Vec3 turned = bodies[kWheel].frame.to_frame(force), to_rail = bodies[kRail].frame.to_frame(force);
+  const double on_rail[3] = {to_rail.x, to_rail.y, to_rail.z}, on_wheel[3] = {-turned.x, -turned.y, -turned.z};
   for (int i = 0; i < 3; ++i) add(kRail, row.rail + i * bodies[kRail].surface.stride, on_rail[i]);
   for (int w = row.first; w < row.first + row.count; ++w)
     for (int i = 0; i < 3; ++i)
@@ -32,6 +32,14 @@ const SurfaceResponse* response_of(const RollingBody& b) {
   return b.steps.response.empty() ? nullptr : &b.steps.response;
 }
 
+// Of a node of a body that turns.
+FreeMotion turning_node(const RollingBody& b, const BodyState& state, std::ptrdiff_t i, SurfaceIndex at,
+                        const StepScope& scope) {
+  return free_wheel_node(b.frame, b.mean, b.arm(b.body.mesh.contact.block, at.column, at.station),
+                         b.body.inverse_mass[i], vector_at(state.f, i, b.surface.stride),
+                         vector_at(state.v, i, b.surface.stride), scope.gravity, scope.dt, scope.damping_rate);
+}
+
 void gather_rail(const MortarRows& rows, const RollingBody& b, const BodyState& state, const StepScope& scope,
                  ContactSide& side) {
   side.clear();
@@ -39,8 +47,9 @@ void gather_rail(const MortarRows& rows, const RollingBody& b, const BodyState& 
   for (const ContactRow& r : rows.rows) {
     const int stride = b.surface.stride;
     const FreeMotion motion =
-        free_rail_node(b.body.inverse_mass[r.rail], vector_at(state.f, r.rail, stride),
-                       vector_at(state.v, r.rail, stride), scope.gravity, scope.dt, scope.damping_rate);
+        b.turns() ? turning_node(b, state, r.rail, {r.column, r.station}, scope)
+                  : free_rail_node(b.body.inverse_mass[r.rail], vector_at(state.f, r.rail, stride),
+                                   vector_at(state.v, r.rail, stride), scope.gravity, scope.dt, scope.damping_rate);
     side.before.push_back(motion.before);
     side.velocity.push_back(motion.after);
     side.inverse_mass.push_back(side.response ? side.response->own(r.column) : inverse_mass(b, r.rail));
@@ -57,10 +66,7 @@ void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b
   const int block = b.body.mesh.contact.block;
   for (std::ptrdiff_t i : nodes) {
     const SurfaceIndex at = b.surface.node_at(i);
-    const FreeMotion motion =
-        free_wheel_node(b.frame, b.mean, b.arm(block, at.column, at.station), b.body.inverse_mass[i],
-                        vector_at(state.f, i, b.surface.stride), vector_at(state.v, i, b.surface.stride), scope.gravity,
-                        scope.dt, scope.damping_rate);
+    const FreeMotion motion = turning_node(b, state, i, at, scope);
     side.before.push_back(motion.before);
     side.velocity.push_back(motion.after);
     if (!side.response) {

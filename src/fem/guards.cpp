@@ -35,7 +35,9 @@ std::string when(const Stepper& st) {
 }
 
 void require_shape(const BandSample& sample, const SweptBody& body) {
-  const std::vector<Vec2>& section = body.blocks[body.contact.block].section.nodes;
+  std::vector<Vec2> section = body.blocks[body.contact.block].section.nodes;
+  if (body.rises())
+    for (Vec2& p : section) p.z = -p.z;
   const std::optional<InvertedElement> worst = inverted_element(sample, section);
   if (!worst) return;
   const Vec3 at = worst->centre;
@@ -87,7 +89,7 @@ void require_finite(const Stepper& st) {
 }
 
 void require_forward(const Stepper& st) {
-  if (st.state().axle.vx <= 0)
+  if (st.speed() <= 0 || (st.system().on_ring() && st.state().axle.spin <= 0))
     throw NumericalError(
         fmt::format("the wheel came to a stand at {}\n    try a higher drive.speed, less braking by "
                     "drive.traction_coefficient, or nearer run.positions",

@@ -110,19 +110,21 @@ class Preload {
       for (const NodeLine& l : sys_.bodies[k].lines)
         if (l.component == 2)
           for (int j = 0; j < l.count; ++j) f.body[k][l.first + j] = -g * sys_.bodies[k].mass[l.first + j];
-    const double spin = sys_.start_spin, spin2 = spin * spin;
-    const Body& wheel = sys_.wheel();
-    for (const NodeLine& l : wheel.lines) {
-      if (l.component == 1) continue;
-      const double z = line_radius(wheel, l.block, l.node);
-      for (int j = 0; j < l.count; ++j) {
-        const double t = wheel.mesh.blocks[l.block].stations.at[j];
-        f.body[kWheel][l.first + j] +=
-            spin2 * wheel.mass[l.first + j] * (l.component == 0 ? -z * std::sin(t) : z * std::cos(t));
-      }
-    }
+    add_centrifugal(sys_.wheel(), sys_.start_spin, f.body[kWheel]);
+    if (sys_.on_ring()) add_centrifugal(sys_.rail(), sys_.rail_spin, f.body[kRail]);
     f.axle = -g * (sys_.axle.mass_z + sys_.options.vehicle.sprung_mass);
     return f;
+  }
+  static void add_centrifugal(const Body& body, double spin, Field& f) {
+    const double spin2 = spin * spin;
+    for (const NodeLine& l : body.lines) {
+      if (l.component == 1) continue;
+      const double z = line_radius(body, l.block, l.node);
+      for (int j = 0; j < l.count; ++j) {
+        const double t = body.mesh.blocks[l.block].stations.at[j];
+        f[l.first + j] += spin2 * body.mass[l.first + j] * (l.component == 0 ? -z * std::sin(t) : z * std::cos(t));
+      }
+    }
   }
   double load_norm() {
     const StaticVector f = loads();

@@ -34,9 +34,11 @@ constexpr long kStepsBetweenGoodStates = 1024;  // a copy of the state costs les
 // The wheel positions at which a wanted position is sampled: every rail station of the window, so that samples fall on
 // the same points of the mesh.
 std::vector<double> sample_positions(const RollingSystem& s, double position) {
-  const auto& at = s.rail_surface().stations.at;
-  const auto near = std::lower_bound(at.begin(), at.end(), position);
-  const double spacing = *near - *std::prev(near);
+  const ContactSurface& rail = s.rail_surface();
+  const auto& at = rail.stations.at;
+  const auto near =
+      std::lower_bound(at.begin(), at.end(), rail.rises ? rail.contact_at - position / rail.radius : position);
+  const double spacing = rail.radius * (*near - *std::prev(near));
   constexpr double kRounding = 1e-6;  // half a window of two and a half elements is three by every instruction set
   const int half = std::max(1, static_cast<int>(std::lround(0.5 * s.model.spec.run.window / spacing + kRounding)));
   std::vector<double> out;

@@ -48,7 +48,7 @@ class BandPlanes {
   int count_;
 };
 
-// A wheel's motion with its axle.
+// A body's motion with its axle.
 struct RigidMotion {
   RigidMotion(const AxlePose& pose, const Rotation<double>& yaw_turn)
       : shift{pose.x, pose.y, pose.z}, turn(rotation_by(pose.psi)), yaw_by(yaw_turn) {}
@@ -71,7 +71,8 @@ Vec3 elastic_displacement(const Body& body, const Field& u, SectionNode node, in
   return d;
 }
 
-// radius: metres per unit of the sweep coordinate.
+// radius: metres per unit of the sweep coordinate. Stations are those of the body in the order in which they lie along
+// the rail: backwards of a ring below the wheel.
 BandSample band_sample(const Body& body, const ContactBand& band, const SampledBody& at, double centre, double radius,
                        const AxlePose& pose, const Rotation<double>& yaw_turn, double half_length) {
   const BandPlanes planes(body.mesh.blocks[band.block]);
@@ -89,17 +90,21 @@ BandSample band_sample(const Body& body, const ContactBand& band, const SampledB
   s.columns = band.columns;
   s.rows = band.rows;
   s.stations = last - first;
-  for (int j = first; j <= last; ++j) s.along.push_back(radius * (planes.coordinate(j) - centre));
-  for (int j = first; j < last; ++j)
+  const bool back = body.mesh.rises();
+  const auto plane = [&](int k) { return back ? last - k : first + k; };
+  for (int k = 0; k <= s.stations; ++k)
+    s.along.push_back((back ? -radius : radius) * (planes.coordinate(plane(k)) - centre));
+  for (int k = 0; k < s.stations; ++k)
     for (int q = 0; q < band.rows * band.columns; ++q) {
-      s.stress.push_back(element_stress(body, at.u, at.history, band.block, q, planes.station(j)));
+      const int station = planes.station(std::min(plane(k), plane(k + 1)));
+      s.stress.push_back(element_stress(body, at.u, at.history, band.block, q, station));
       if (body.plastic.empty()) continue;
-      s.plastic.push_back(element_plasticity(body, pose.psi, at.history, band.block, q, planes.station(j)));
+      s.plastic.push_back(element_plasticity(body, pose.psi, at.history, band.block, q, station));
     }
   const RigidMotion motion(pose, yaw_turn);
-  for (int j = first; j <= last; ++j)
-    for (int k = 0; k < (band.rows + 1) * (band.columns + 1); ++k)
-      s.displacement.push_back(elastic_displacement(body, at.u, {band.block, k}, planes.station(j), motion));
+  for (int k = 0; k <= s.stations; ++k)
+    for (int n = 0; n < (band.rows + 1) * (band.columns + 1); ++n)
+      s.displacement.push_back(elastic_displacement(body, at.u, {band.block, n}, planes.station(plane(k)), motion));
   return s;
 }
 
@@ -110,24 +115,31 @@ RollingSample take_sample(const RollingSystem& sys, const SampledBody& rail, con
   RollingSample out;
   const double half = sample_half_length(sys);
   out.position = pose.x;
-  out.rail = band_sample(sys.rail(), sys.model.rail.contact, rail, pose.x, 1.0, {}, {}, half);
+  const ContactSurface& surface = sys.rail_surface();
+  const double below = surface.rises ? surface.contact_at + pose.rail_psi : pose.x;
+  out.rail =
+      band_sample(sys.rail(), sys.model.rail.contact, rail, below, surface.radius, {0, 0, 0, pose.rail_psi}, {}, half);
   out.wheel = band_sample(sys.wheel(), sys.model.wheel.contact, wheel, pose.psi, sys.rolling_radius, pose,
                           sys.wheel_surface().yaw, half);
-  const auto& at = sys.rail_surface().stations.at;
-  const int first =
-      static_cast<int>(std::lower_bound(at.begin(), at.end(), out.rail.along.front() + pose.x - 1e-9) - at.begin());
-  out.first_station = first;
-  for (int j = first; j <= first + out.rail.stations; ++j)
-    for (int c = 0; c < sys.rail_surface().columns; ++c) out.tractions.push_back(tractions.at(c, j));
+  const auto& at = surface.stations.at;
+  const int step = surface.rises ? -1 : 1;
+  const int first = static_cast<int>(
+      std::lower_bound(at.begin(), at.end(), below + step * out.rail.along.front() / surface.radius - 1e-9) -
+      at.begin());
+  out.first_station = step * first;
+  for (int k = 0; k <= out.rail.stations; ++k)
+    for (int c = 0; c < surface.columns; ++c) out.tractions.push_back(tractions.at(c, first + step * k));
   return out;
 }
 
 RollingSample take_sample(const Stepper& st) {
   const RollingState& state = st.state();
   const BodyState &rail = state.bodies[kRail], &wheel = state.bodies[kWheel];
-  const Field u_wheel = st.displacement(BodyId::wheel);
-  RollingSample s =
-      take_sample(st.system(), {rail.u, rail.history}, {u_wheel, wheel.history}, state.tractions, state.axle.pose());
+  const bool ring = st.system().on_ring();
+  const Field u_wheel = st.displacement(BodyId::wheel), u_ring = ring ? st.displacement(BodyId::rail) : Field{};
+  RollingSample s = take_sample(st.system(), {ring ? u_ring : rail.u, rail.history}, {u_wheel, wheel.history},
+                                state.tractions, st.pose());
+  s.position = st.position();
   s.time = state.time;
   s.axle = state.axle;
   s.forces = st.forces();

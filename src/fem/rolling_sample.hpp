@@ -14,7 +14,7 @@ struct RollingSample {
   ContactForces forces;
   double creepage = 0, lateral_creepage = 0;
   BandSample rail, wheel;
-  int first_station = 0;  ///< of the rail's surface: that of the first tractions
+  int first_station = 0;  ///< of the rail's surface: that of the first tractions; its negative if they go backwards
   std::vector<NodeTraction>
       tractions;  ///< rail surface nodes of the band sample, index station * (columns + 1) + column
 };

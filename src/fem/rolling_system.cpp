@@ -78,6 +78,17 @@ void clear_prescribed_mass(Body& body) {
   }
 }
 
+std::vector<BoreNode> bore_nodes(const Body& body) {
+  std::vector<BoreNode> out;
+  for (const SectionNode& n : body.mesh.prescribed) {
+    const BlockLayout& lay = body.layout.blocks[n.block];
+    for (int j = 0; j < lay.stations; ++j)
+      out.push_back(
+          {lay.line(n.node, 0) + j, lay.stride, reference_position(body, n.block, n.node, j) - body.mesh.origin});
+  }
+  return out;
+}
+
 // The axle as a solid shaft of the bore's radius and what is not meshed, with the nodes of the bore.
 Axle axle_of(const Body& wheel, const CaseSpec& spec) {
   const VehicleSpec& v = spec.vehicle;
@@ -92,15 +103,10 @@ Axle axle_of(const Body& wheel, const CaseSpec& spec) {
   axle.mass_z = added;
   const double bore = spec.geometry.wheel_section.bore_radius;
   axle.inertia = 0.5 * added * bore * bore;
-  for (const SectionNode& n : wheel.mesh.prescribed) {
-    const BlockLayout& lay = wheel.layout.blocks[n.block];
-    for (int j = 0; j < lay.stations; ++j) {
-      const std::ptrdiff_t index = lay.line(n.node, 0) + j;
-      const Vec3 arm = reference_position(wheel, n.block, n.node, j) - wheel.mesh.origin;
-      axle.bore.push_back({index, lay.stride, arm});
-      axle.mass_z += wheel.mass[index];
-      axle.inertia += wheel.mass[index] * (arm.x * arm.x + arm.z * arm.z);
-    }
+  axle.bore = bore_nodes(wheel);
+  for (const BoreNode& n : axle.bore) {
+    axle.mass_z += wheel.mass[n.index];
+    axle.inertia += wheel.mass[n.index] * (n.arm.x * n.arm.x + n.arm.z * n.arm.z);
   }
   axle.mass_x = axle.mass_z + (v.couple_sprung_mass ? v.sprung_mass : 0.0);
   return axle;
@@ -139,8 +145,11 @@ ExplicitOptions explicit_options(const Model& m) {
 }
 
 ContactSurface rail_surface_of(const Model& m, const Body& rail) {
-  return contact_surface(m.rail, rail.layout, [&](double s) {
-    return SectionPoint{m.rail_section_point(s), m.rail_section_normal(s)};
+  const Vec3 origin = m.rail.origin;
+  const bool rises = m.rail.rises();
+  return contact_surface(m.rail, rail.layout, [&, origin, rises](double s) {
+    const Vec2 p = m.rail_section_point(s), n = m.rail_section_normal(s);
+    return rises ? SectionPoint{{p.y, origin.z - p.z}, {n.y, -n.z}} : SectionPoint{p, n};
   });
 }
 
@@ -177,9 +186,14 @@ RollingSystem::RollingSystem(const Model& m)
   if (m.spec.run.rolling)
     start_spin = drive.speed * (1 - drive.creepage.value_or(drive.creepage_start)) / rolling_radius;
   const double traction = drive.traction().value_or(0) * m.load;
-  torque = traction * (rolling_radius + spin_inertia / (travel_mass * rolling_radius));
-  absorbers = end_absorbers(rail());
-  end_loads = end_loads_of(rail());
+  torque = traction * (rolling_radius + (on_ring() ? 0.0 : spin_inertia / (travel_mass * rolling_radius)));
+  if (on_ring()) {
+    rail_bore = bore_nodes(rail());
+    if (m.spec.run.rolling) rail_spin = -drive.speed / (m.placement.contact.point.z - rail().mesh.origin.z);
+  } else {
+    absorbers = end_absorbers(rail());
+    end_loads = end_loads_of(rail());
+  }
   surfaces = {rail_surface_of(m, rail()), wheel_surface_of(m, wheel())};
   const double yaw_angle = m.placement.contact.yaw;
   surfaces[kWheel].yaw = {std::cos(yaw_angle), std::sin(yaw_angle)};

@@ -9,6 +9,9 @@
 // start. The axle has what the given wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius.
 // Suspension: groups of a spring and a dashpot with a share of the sprung mass each, vertical, around the axle's
 // (non-rotating) box. In x the sprung mass moves with the axle if the case asks for it.
+//
+// A rail that is a ring (mesh/bodies.hpp) turns about a rigid shaft in its bore with the uniform spin -V/R; the wheel's
+// axle then stays where it is along x. Positions, speeds and creepages count the arc that has passed below the wheel.
 #include <array>
 
 #include "body/body.hpp"
@@ -21,8 +24,8 @@ namespace railstrata {
 /// Elements and precision that a case asks for.
 ElementOptions element_options(const CaseSpec& spec);
 
-/// A node on the rigid axle: index of component x in the wheel's fields, arm from the axle's centre in the undeformed
-/// wheel.
+/// A node on a rigid axle: index of component x in the body's fields, arm from the axle's centre in the undeformed
+/// body.
 struct BoreNode {
   std::ptrdiff_t index;
   int stride;
@@ -78,15 +81,18 @@ struct RollingSystem {
   std::array<ContactSurface, 2> surfaces;  ///< by BodyId
   double gravity = 0;
   double rolling_radius = 0;
-  double spin_inertia = 0;  ///< kg m², of everything that turns
-  double travel_mass = 0;   ///< kg, of everything that moves along x
-  double start_spin = 0;    ///< rad/s, at the start of the rolling: V (1 - creepage)/r; 0 for a static case
+  double spin_inertia = 0;          ///< kg m², of everything that turns
+  double travel_mass = 0;           ///< kg, of everything that moves along x
+  double start_spin = 0;            ///< rad/s, at the start of the rolling: V (1 - creepage)/r; 0 for a static case
+  double rail_spin = 0;             ///< rad/s, of a rail that is a ring, always: -V/R; 0: of a straight one, at rest
+  std::vector<BoreNode> rail_bore;  ///< of a rail that is a ring
   double torque =
       0;  ///< N m, steady: gives the wanted F_T with the inertia of the accelerated wheel, M = F_T (r + I/(m r))
 
   const Body& body(BodyId id) const { return bodies[index_of(id)]; }
   const Body& rail() const { return body(BodyId::rail); }
   const Body& wheel() const { return body(BodyId::wheel); }
+  bool on_ring() const { return rail().mesh.rises(); }
   const ContactSurface& surface(BodyId id) const { return surfaces[index_of(id)]; }
   const ContactSurface& rail_surface() const { return surface(BodyId::rail); }
   const ContactSurface& wheel_surface() const { return surface(BodyId::wheel); }

@@ -51,7 +51,7 @@ void note_scaled_blocks(const Body& body, const MassScaling& scaling, StepLimits
 double penalty_step(const RollingSystem& sys, const MassScaling& rail) {
   const ContactSurface& r = sys.rail_surface();
   const int c = r.columns / 2, j = r.stations.nodes() / 2;
-  const double area = r.width[c] * (r.stations.at[j + 1] - r.stations.at[j]);
+  const double area = r.radius * r.width[c] * (r.stations.at[j + 1] - r.stations.at[j]);
   return 2 / std::sqrt(2 * sys.options.contact.penalty_stiffness * area * sys.rail().inverse_mass[r.index(c, j)] *
                        rail.share(r.index(c, j)));
 }

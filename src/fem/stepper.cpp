@@ -13,10 +13,19 @@ namespace {
 
 ReferenceFrame rolling_frame(const RollingSystem& sys, double dt) {
   ReferenceFrame frame;
-  frame.speed = sys.options.speed;
+  frame.speed = sys.on_ring() ? 0.0 : sys.options.speed;
   frame.lateral_speed = sys.options.lateral_speed;
   frame.spin = sys.start_spin;
   frame.yaw_turn = sys.wheel_surface().yaw;
+  frame.set_step(dt);
+  return frame;
+}
+
+// A straight rail is at rest in the model frame.
+ReferenceFrame rail_frame(const RollingSystem& sys, double dt) {
+  ReferenceFrame frame;
+  if (!sys.on_ring()) return frame;
+  frame.spin = sys.rail_spin;
   frame.set_step(dt);
   return frame;
 }
@@ -32,7 +41,8 @@ bool same_sizes(const RestartState& r, const RollingSystem& sys) {
 
 RollingBodies rolling_bodies(const RollingSystem& sys, StepPlan& plan, const Ranks& ranks) {
   std::vector<TileCut> cuts = cut_tiles({&sys.rail(), &sys.wheel()}, ranks.count, ranks.rank);
-  return {RollingBody(sys.rail(), sys.rail_surface(), plan.bodies[kRail], {}, std::move(cuts[kRail])),
+  return {RollingBody(sys.rail(), sys.rail_surface(), plan.bodies[kRail], rail_frame(sys, plan.limits.chosen),
+                      std::move(cuts[kRail])),
           RollingBody(sys.wheel(), sys.wheel_surface(), plan.bodies[kWheel], rolling_frame(sys, plan.limits.chosen),
                       std::move(cuts[kWheel]))};
 }
@@ -44,6 +54,11 @@ Stepper::Stepper(const RollingSystem& system, const Ranks& ranks)
       plan_(system),
       bodies_(rolling_bodies(system, plan_, ranks)),
       contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)) {
+  if (!ranks.alone() && sys_.on_ring())
+    throw CaseError(
+        "a rail that is a ring (geometry.rail_radius) is not shared by ranks: they exchange what stands "
+        "around a wheel that travels along a straight rail",
+        "run the case in one process");
   if (!ranks.alone()) exchange_.emplace(ranks, system.model, bodies_);
 }
 
@@ -94,12 +109,16 @@ RestartState Stepper::restart_beside_state() const {
 
 void Stepper::start(const PreloadResult& preload) {
   state_.tractions = preload.tractions;
-  state_.axle = {
-      .z = preload.axle_z, .vx = sys_.options.speed, .vy = sys_.options.lateral_speed, .spin = sys_.start_spin};
+  const bool ring = sys_.on_ring();
+  state_.axle = {.z = preload.axle_z,
+                 .vx = ring ? 0.0 : sys_.options.speed,
+                 .vy = sys_.options.lateral_speed,
+                 .spin = sys_.start_spin};
   side_force_ = -preload.contact_force.y;
   axle_rest_z_ = preload.axle_z;
   state_.groups.assign(sys_.options.vehicle.suspension_groups, MassGroup{});
-  const double rate[2] = {sys_.options.speed, sys_.start_spin};  // of the pattern against the material: m/s, rad/s
+  // of the pattern against the material: m/s, rad/s
+  const double rate[2] = {ring ? sys_.rail_spin : sys_.options.speed, sys_.start_spin};
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     RollingBody& b = bodies_[k];
     BodyState& state = state_.bodies[k];
@@ -111,18 +130,24 @@ void Stepper::start(const PreloadResult& preload) {
     if (k == kRail && !preload.before.empty()) add(state.u, -1, preload.before);  // what was there does not travel
     start_velocities(b, rate[k], state);
     state.u = preload.u[k];
-    b.mean = mean_motion(b, state);
+    if (k == kWheel) b.mean = mean_motion(b, state);  // a ring has nothing to keep: its shaft turns it
   }
 }
 
 double Stepper::damping_rate() const {
   const ExplicitOptions& o = sys_.options;
   if (o.run_up <= 0) return 0;
-  return o.run_up_damping * (1 - smooth_rise(state_.axle.x / o.run_up));
+  return o.run_up_damping * (1 - smooth_rise(position() / o.run_up));
 }
 
 // Rotation of each body relative to its frame.
 std::array<double, 2> Stepper::drift() const { return {0.0, state_.axle.psi - bodies_[kWheel].frame.psi}; }
+
+AxlePose Stepper::pose() const {
+  AxlePose out = state_.axle.pose();
+  out.rail_psi = bodies_[kRail].frame.psi;
+  return out;
+}
 
 AxlePose Stepper::pose_in_frame() const {
   const ReferenceFrame& frame = bodies_[kWheel].frame;
@@ -135,7 +160,7 @@ AxleDrive Stepper::axle_drive() const { return {drive_torque(sys_, state_.time),
 double Stepper::lateral_creepage() const {
   const RigidContact& contact = sys_.model.placement.contact;
   const AxleMotion& a = state_.axle;
-  return (a.vy - a.spin * sys_.rolling_radius * std::tan(contact.yaw)) / (a.vx * std::cos(contact.angle));
+  return (a.vy - a.spin * sys_.rolling_radius * std::tan(contact.yaw)) / (speed() * std::cos(contact.angle));
 }
 
 void Stepper::step() {
@@ -145,7 +170,7 @@ void Stepper::step() {
   const StepScope scope{dt(), sys_.gravity, damping_rate(), want_energy_, look, laps_};
   if (laps_) laps_->start();
   const std::array<double, 2> turned = drift();
-  const AxlePose pose = state_.axle.pose();
+  const AxlePose pose = this->pose();
 
   if (state_.step % kExtendInterval == 0) extend_hot_elements(turned);
   if (exchange_) {
@@ -155,11 +180,12 @@ void Stepper::step() {
   evaluate_elements(bodies_, state_.bodies, turned, scope, exchange());
   scope.lap(StepPart::planes);
   if (want_energy_) book_stored_energy(turned);
-  const double tie_moment = reduce_ties(turned);
+  const std::array<double, 2> tie_moment = reduce_ties(turned);
   scope.lap(StepPart::tie_forces);
   absorb_at_ends();
-  const AxleLoads loads =
-      bore_loads(sys_.axle, state_.bodies[kWheel].f, rotation_by(turned[kWheel]), tie_moment, bodies_[kWheel].frame);
+  const AxleLoads loads = bore_loads(sys_.axle.bore, state_.bodies[kWheel].f, rotation_by(turned[kWheel]),
+                                     tie_moment[kWheel], bodies_[kWheel].frame);
+  if (sys_.on_ring()) book_ring_drive(tie_moment[kRail]);
   for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].steps.scaling.scale(state_.bodies[k].f);
   scope.lap(StepPart::ends);
 
@@ -221,14 +247,22 @@ void Stepper::book_stored_energy(const std::array<double, 2>& turned) {
   balance_.spring = spring_energy(axle_law(sys_, axle_rest_z_), state_.axle.z, state_.groups);
 }
 
-// Forces on slaves go to their masters; returns what the offsets hand to the wheel's rotation.
-double Stepper::reduce_ties(const std::array<double, 2>& turned) {
+// Forces on slaves go to their masters; returns what the offsets hand to the rotation of a body that turns.
+std::array<double, 2> Stepper::reduce_ties(const std::array<double, 2>& turned) {
   const TiedField tied[] = {{.ties = sys_.rail().ties, .values = state_.bodies[kRail].f, .part = bodies_[kRail].part},
                             {.ties = sys_.wheel().ties,
                              .values = state_.bodies[kWheel].f,
                              .turn = rotation_by(turned[kWheel]),
                              .part = bodies_[kWheel].part}};
-  return collect_ties(tied);
+  if (!sys_.on_ring()) return {0.0, collect_ties(tied)};
+  return {collect_ties({&tied[kRail], 1}), collect_ties({&tied[kWheel], 1})};
+}
+
+// The work of the shaft that keeps the ring's spin.
+void Stepper::book_ring_drive(double tie_moment) {
+  const ReferenceFrame& frame = bodies_[kRail].frame;
+  balance_.guide_work -=
+      dt() * sys_.rail_spin * bore_loads(sys_.rail_bore, state_.bodies[kRail].f, {}, tie_moment, frame).moment;
 }
 
 void Stepper::absorb_at_ends() {
@@ -252,7 +286,7 @@ void Stepper::book_contact(const ContactLosses& losses) {
 void Stepper::book_update(const StepScope& scope) {
   balance_.damping += scope.dt * (sums_[kWheel].damping + sums_[kRail].damping);
   if (!scope.sums_wanted()) return;
-  for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].mean = mean_motion(bodies_[k], sums_[k]);
+  bodies_[kWheel].mean = mean_motion(bodies_[kWheel], sums_[kWheel]);
 }
 
 void Stepper::book_kinetic_energy(double axle) {

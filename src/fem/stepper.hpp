@@ -67,10 +67,14 @@ class Stepper {
   double largest_pressure() const;
   const RollingSystem& system() const { return sys_; }
   double dt() const { return plan_.limits.chosen; }
-  /// Position of the wheel, m from the start.
-  double position() const { return state_.axle.x; }
+  /// Position of the wheel, m from the start; on a ring the arc that has passed below it.
+  double position() const { return sys_.on_ring() ? speed() * state_.time : state_.axle.x; }
+  /// V, m/s, of the wheel along the rail.
+  double speed() const { return sys_.on_ring() ? sys_.options.speed : state_.axle.vx; }
   /// Rigid slip of wheel against rail over the speed, (V - omega r)/V: negative when driving.
-  double creepage() const { return (state_.axle.vx - state_.axle.spin * sys_.rolling_radius) / state_.axle.vx; }
+  double creepage() const { return (speed() - state_.axle.spin * sys_.rolling_radius) / speed(); }
+  /// Of the axle and of a rail that is a ring, model frame.
+  AxlePose pose() const;
   /// Rigid slip in the contact plane over the speed, positive where the wheel slides to the field side.
   double lateral_creepage() const;
   double torque() const { return axle_drive().torque; }
@@ -97,7 +101,8 @@ class Stepper {
   RankExchange* exchange() { return exchange_ ? &*exchange_ : nullptr; }
   void extend_hot_elements(const std::array<double, 2>& turned);
   void book_stored_energy(const std::array<double, 2>& drift);
-  double reduce_ties(const std::array<double, 2>& drift);
+  std::array<double, 2> reduce_ties(const std::array<double, 2>& drift);
+  void book_ring_drive(double tie_moment);
   void absorb_at_ends();
   void step_on_engine();
   void take_over(const StepRecord& record);

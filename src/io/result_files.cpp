@@ -194,7 +194,8 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
     for (int k = 0; k < per_station; ++k) {
       // the wheel as it stands over the rail: station angle counted from the vertical below the axle
       const double radius = turning ? -section.nodes[static_cast<std::size_t>(band.columns / 2)].z : 1.0;
-      const double t = turning ? b.sample.along[s] / radius : b.sample.along[s];
+      const double along = turning ? b.sample.along[s] / radius : b.sample.along[s];
+      const double t = b.body->rises() ? b.body->contact_at - along : along;
       Vec3 p = swept_point(b.body->kind, b.body->origin, section.nodes[k], t);
       p.x += wheel_x;
       mesh.points.push_back(p);
@@ -209,8 +210,9 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
       for (int c = 0; c < band.columns; ++c) {
         const long long a = static_cast<long long>(s) * per_station;
         const auto& q = section.quads[static_cast<std::size_t>(r) * band.columns + c];
-        mesh.cells.push_back({a + q[0], a + q[1], a + q[2], a + q[3], a + per_station + q[0], a + per_station + q[1],
-                              a + per_station + q[2], a + per_station + q[3]});
+        const int one = b.body->rises() ? 3 : 1, three = 4 - one;  // a section on its head is seen from behind
+        mesh.cells.push_back({a + q[0], a + q[one], a + q[2], a + q[three], a + per_station + q[0],
+                              a + per_station + q[one], a + per_station + q[2], a + per_station + q[three]});
         const Sym3 value = b.at(c, r, s);
         const int m = b.body->layer_of(section.quad_material[static_cast<std::size_t>(r) * band.columns + c]);
         cells.push_back({0, 0, 0, value, m, plastic_at(b.sample.plastic, cells.size())});

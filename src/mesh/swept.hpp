@@ -74,6 +74,7 @@ struct SweptBody {
   std::string name;  ///< "rail", "wheel"
   SweepKind kind = SweepKind::extrude;
   Vec3 origin;
+  double contact_at = 0;      ///< sweep coordinate under the wheel before the rolling: pi of a rail that is a ring
   std::vector<Block> blocks;  ///< masters and slaves in any order; a tie's slave is never master of a cycle
   std::vector<Tie> ties;
   ContactBand contact;
@@ -82,6 +83,9 @@ struct SweptBody {
   std::vector<std::string> materials;  ///< names; 0 is the matrix, then the layers from the surface down
   std::vector<int> material_layer;     ///< of each material: 0 the matrix, k the k-th layer; the rows of a graded layer
                                        ///< share theirs. Empty: every material is a layer
+
+  /// A rail that is a ring: its axle lies below the contact, where its sections stand on their heads.
+  bool rises() const { return kind == SweepKind::revolve && contact_at != 0; }
 
   int layer_of(int material) const {
     return material_layer.empty() ? material : material_layer[static_cast<std::size_t>(material)];

@@ -265,7 +265,9 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   rail.block_width = g.block_width;
   rail.block_height = g.block_height;
   rail.layers = layer_meshes(spec, BodyId::rail);
-  m.rail = meshed_rail ? *meshed_rail : mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
+  m.rail = meshed_rail     ? *meshed_rail
+           : g.rail_radius ? mesh_ring_rail(m.placement.rail, *g.rail_radius, rail, sizes)
+                           : mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
 
   WheelMeshSpec wheel;
   wheel.shape = g.wheel_shape;

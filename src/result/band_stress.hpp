@@ -29,7 +29,7 @@ struct BandSurface {
   std::vector<Sym3> stress;  ///< Pa, at the nodes (stress_maxima.hpp)
   const ContactField& field;
   double poisson = 0;  ///< of the surface
-  double radius = 0;   ///< m, of the wheel; 0: the rail
+  double radius = 0;   ///< m, of the wheel; 0: the rail; negative: a rail that is a ring
 };
 
 /// Layer of an element of the band: 0 the matrix, then the layers from the surface down.

@@ -91,8 +91,8 @@ ContactField contact_field(const RollingSystem& sys, const RollingSample& s) {
       const std::size_t i = static_cast<std::size_t>(j) * f.columns + c;
       const NodeTraction& t = s.tractions[i];
       f.x[i] = s.rail.along[j];
-      f.y[i] = surface.origin.y + surface.node[c].y;
-      f.z[i] = surface.origin.z + surface.node[c].z;
+      f.y[i] = surface.at_contact(c).y;
+      f.z[i] = surface.at_contact(c).z;
       f.area[i] = tributary([&](int k) { return surface.width[k]; }, c, f.columns) *
                   tributary([&](int k) { return s.rail.along[k + 1] - s.rail.along[k]; }, j, f.stations);
       f.p[i] = t.p;
@@ -141,7 +141,7 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     m.creepage += weight * s.creepage;
     m.lateral_creepage += weight * s.lateral_creepage;
     m.axle_z += weight * s.axle.z;
-    if (s.axle.vx > 0) m.spin_per_m += weight * (1 - s.creepage) * wheel_spin(sys.model.placement.contact);
+    if (sys.start_spin > 0) m.spin_per_m += weight * (1 - s.creepage) * wheel_spin(sys.model.placement.contact);
     add(m.rail, s.rail, weight);
     add(m.wheel, s.wheel, weight);
   }

@@ -104,7 +104,11 @@ Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e1
 
 namespace {
 
-// Recovery at the inner surface nodes of a sample; `traction(column, station)` acts on this body.
+/// m, by which the surface turns upwards along the rail: of the wheel; negative of a ring below it; 0: straight.
+double rising_radius(const ContactSurface& rail) { return rail.rises ? -rail.radius : 0.0; }
+
+// Recovery at the inner surface nodes of a sample; `traction(column, station)` acts on this body. radius: by which it
+// rises along the rail.
 template <class Traction>
 std::vector<Sym3> recover_surface(const ContactSurface& surface, const BandSample& sample, const SweptBody& body,
                                   const std::vector<Elastic>& materials, double radius, Traction&& traction) {
@@ -115,11 +119,10 @@ std::vector<Sym3> recover_surface(const ContactSurface& surface, const BandSampl
   auto u = [&](int c, int j) { return sample.displacement[static_cast<std::size_t>(j) * nodes_per_station + c]; };
   for (int j = 1; j + 1 < stations; ++j)
     for (int c = 1; c + 1 < columns; ++c) {
-      const double angle =
-          radius > 0 ? sample.along[j] / radius : 0;  // of the section plane against the vertical below the axle
+      const double angle = radius != 0 ? sample.along[j] / radius : 0;  // of the section plane against the vertical
       const Vec3 t1{std::cos(angle), 0, std::sin(angle)};
-      const Vec3 n{-surface.outward[c].z * std::sin(angle), surface.outward[c].y,
-                   surface.outward[c].z * std::cos(angle)};
+      const double up = surface.rises ? -surface.outward[c].z : surface.outward[c].z;
+      const Vec3 n{-up * std::sin(angle), surface.outward[c].y, up * std::cos(angle)};
       const Vec3 t2 = cross(n, t1);
       const double along = sample.along[j + 1] - sample.along[j - 1],
                    across = (t2.y > 0 ? 1 : -1) * (surface.width[c - 1] + surface.width[c]);
@@ -142,7 +145,7 @@ Vec3 traction_at(const ContactField& f, const ContactSurface& rail, double x, do
   Vec3 t{};
   for (int k = 0; k < 4; ++k) {
     const int i = (s + k / 2) * f.columns + c + k % 2;
-    const Vec3 n{0, rail.outward[c + k % 2].y, rail.outward[c + k % 2].z};
+    const Vec3 n = rail.rail_normal(c + k % 2, f.x[i]);
     t += ((k % 2 ? a : 1 - a) * (k / 2 ? b : 1 - b)) * traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, n);
   }
   return t;
@@ -179,11 +182,12 @@ double begin_of(const CaseSpec& spec, BodyId body, const MeanContact& m) {
 
 std::vector<Sym3> rail_surface_stress(const RollingSystem& sys, const MeanContact& m) {
   const ContactField& f = m.field;
-  return recover_surface(sys.rail_surface(), m.rail, sys.model.rail, sys.model.rail_at_surface, 0, [&](int c, int j) {
-    const int i = j * f.columns + c;
-    return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0},
-                           {0, sys.rail_surface().outward[c].y, sys.rail_surface().outward[c].z});
-  });
+  const ContactSurface& surface = sys.rail_surface();
+  return recover_surface(surface, m.rail, sys.model.rail, sys.model.rail_at_surface, rising_radius(surface),
+                         [&](int c, int j) {
+                           const int i = j * f.columns + c;
+                           return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, surface.rail_normal(c, f.x[i]));
+                         });
 }
 
 std::vector<Sym3> wheel_surface_stress(const RollingSystem& sys, const MeanContact& m) {
@@ -195,7 +199,8 @@ std::vector<Sym3> wheel_surface_stress(const RollingSystem& sys, const MeanConta
 }
 
 BandSurface rail_band_surface(const RollingSystem& sys, const MeanContact& m) {
-  return {rail_surface_stress(sys, m), m.field, surface_poisson(sys.model.rail, sys.model.rail_at_surface), 0};
+  return {rail_surface_stress(sys, m), m.field, surface_poisson(sys.model.rail, sys.model.rail_at_surface),
+          rising_radius(sys.rail_surface())};
 }
 
 BandSurface wheel_band_surface(const RollingSystem& sys, const MeanContact& m) {
