@@ -80,6 +80,30 @@ TEST(Mortar, RowsAreTheSameWhereTheWheelsRingCloses) {
   }
 }
 
+// Two cylinders, one below the other, however far both have turned: the gap of a row is the closed form of its facets'
+// mean, normals are the ring's radii, and areas its arcs.
+TEST(Mortar, ARingBelowTheWheelHasTheGapsOfTwoCircles) {
+  const double radius = 0.07;
+  Surfaces s;
+  s.bend_rail(radius);
+  for (const double psi : {0.0, -0.013}) {
+    MortarContact contact(s.rail, s.wheel);
+    const AxlePose pose{0, 0, 1e-6, 0.021, psi};
+    int compared = 0;
+    for (const ContactRow& row : settled_rows(contact, s.turned_rail(psi), s.rolled(pose), pose).rows) {
+      const double angle = std::numbers::pi + psi - s.rail.stations.at[row.station], x = radius * std::sin(angle);
+      if (std::abs(x) > 4e-3) continue;
+      const double sum = 1 / radius + 1 / s.radius;
+      EXPECT_NEAR(row.normal.x, std::sin(angle), 1e-12);
+      EXPECT_NEAR(row.normal.z, std::cos(angle), 1e-12);
+      EXPECT_NEAR(row.area, s.h * s.width, 1e-9 * s.h * s.width);
+      EXPECT_NEAR(row.gap, 1e-6 + 0.5 * sum * (x * x - s.h * s.h / 6), 0.01 * 0.5 * sum * (x * x + s.h * s.h));
+      ++compared;
+    }
+    EXPECT_GT(compared, 50);
+  }
+}
+
 // For a parabola x^2 / 2R the integral is (x^2 - h^2 / 6) / 2R.
 TEST(Mortar, WeightedGapOfAParabolaFollowsTheClosedForm) {
   const Surfaces s;

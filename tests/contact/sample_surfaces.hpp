@@ -39,6 +39,29 @@ struct Surfaces {
     return count;
   }
 
+  /// Makes a ring of the rail: a cylinder of this radius below the contact.
+  void bend_rail(double rail_radius) {
+    rail.kind = SweepKind::revolve;
+    rail.origin = {0, 0, -rail_radius};
+    rail.contact_at = std::numbers::pi;
+    rail.radius = rail_radius;
+    rail.rises = true;
+    for (double& x : rail.stations.at) x = std::numbers::pi + x / rail_radius;
+    for (Vec2& n : rail.node) n.z = -rail_radius;
+    for (Vec2& n : rail.outward) n.z = -1;
+  }
+  /// Displacements of its nodes when it has turned about its axle.
+  Field turned_rail(double psi) const {
+    Field u = rail_field();
+    for (int c = 0; c < rail.columns; ++c)
+      for (int j = 0; j < rail.stations.nodes(); ++j) {
+        const double t = rail.stations.at[j], z = rail.node[c].z;
+        u[rail.index(c, j)] = -z * (std::sin(t - psi) - std::sin(t));
+        u[rail.index(c, j) + 2 * rail.stride] = z * (std::cos(t - psi) - std::cos(t));
+      }
+    return u;
+  }
+
   Field rail_field() const { return Field(static_cast<std::size_t>(rail.columns) * 3 * rail.stride, 0.0); }
   Field wheel_field() const { return Field(static_cast<std::size_t>(wheel.columns) * 3 * wheel.stride, 0.0); }
   template <class F>

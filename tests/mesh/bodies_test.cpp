@@ -352,6 +352,30 @@ std::string message_of(const auto& make) {
   return "no CaseError";
 }
 
+// A ring below the wheel is a wheel on its head: its crown is the rail's under x = 0, its axle lies below, the fine
+// stations are those of the way, which goes against its angles.
+TEST(RingRail, StandsUnderTheWheelWithItsFineStationsAlongTheWay) {
+  const double radius = 0.2, crown = 0.15;
+  RailMeshSpec spec = rail_spec();
+  spec.block_height = 0.08;
+  const SweptBody body = mesh_ring_rail(circular_profile(ProfileKind::rail, crown, 0.02), radius, spec, {});
+  EXPECT_TRUE(body.rises());
+  EXPECT_LE(body.contact.fine_begin, std::numbers::pi - spec.x_end / radius + 1e-12);
+  EXPECT_GE(body.contact.fine_end, std::numbers::pi - spec.x_begin / radius - 1e-12);
+  const Block& cap = body.blocks[body.contact.block];
+  for (int c = 0; c <= body.contact.columns; ++c)
+    for (double t : cap.stations.at) {
+      const Vec3 p = swept_point(body.kind, body.origin, cap.section.nodes[c], t);
+      EXPECT_NEAR(std::hypot(p.x, p.z + radius), radius - crown + std::sqrt(crown * crown - p.y * p.y), 1e-12);
+    }
+  const Vec3 ahead = swept_point(body.kind, body.origin, {0, -radius}, std::numbers::pi - 0.01 / radius);
+  EXPECT_NEAR(ahead.x, 0.01, 1e-5);
+  EXPECT_NEAR(ahead.z, -0.5 * 0.01 * 0.01 / radius, 1e-6);
+  for (const SectionNode& n : body.prescribed)
+    EXPECT_NEAR(body.blocks[n.block].section.nodes[n.node].z, -(radius - spec.block_height), 1e-12);
+  for (const BlockQuality& q : measure_quality(body)) EXPECT_GT(q.scaled_jacobian_min, 0.3) << q.block;
+}
+
 TEST(Faults, NameWhatDoesNotFitAndTheRemedy) {
   const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
   EXPECT_TRUE(has(message_of([] { rail(one_layer(12e-3)); }), "layer thicker than the head: 12 mm"));
