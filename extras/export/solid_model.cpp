@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "case/engine_scope.hpp"
+#include "core/faults.hpp"
 #include "core/rotation.hpp"
 #include "mesh/station_weights.hpp"
 #include "mesh/unstructured.hpp"
@@ -182,6 +183,11 @@ double missed_by_nodes(const SolidModel& model) {
 
 SolidModel solid_model(const Model& m) {
   require_finite_elements(m.spec);
+  if (m.spec.geometry.rail_radius)
+    throw CaseError(
+        "a rail that is a ring (geometry.rail_radius) is not exported: the decks have a rail at rest and a "
+        "wheel that travels",
+        "take it out");
   const RigidContact& contact = m.placement.contact;
   const double h = m.spec.mesh.element_size, reach = 1.5 * m.hertz.a + 3 * h;
   SolidModel out;

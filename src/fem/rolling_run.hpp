@@ -48,6 +48,12 @@ struct RunState {
   EnergyBalance start_energy;
   bool started = false;                            ///< start_energy is known
   double largest_closure = 0, largest_energy = 0;  ///< J
+
+  /// m, of the wheel from the start; on a ring, where the axle does not travel, that of the last row of the history.
+  double position() const {
+    const double travelled = stepper.state.axle.x;
+    return travelled != 0 || result.history.empty() ? travelled : result.history.back().position;
+  }
 };
 
 /// Requests to a run, looked at between two steps.

@@ -71,7 +71,7 @@ void RunJob::resume() {
   begun_ = std::move(found.checkpoint.run);
   const auto& state = begun_->stepper.state;
   control_.info("{}: goes on in {} at x = {:.2f} mm, t = {:.4g} ms", loaded_.spec.title, folder().string(),
-                1e3 * state.axle.x, 1e3 * state.time);
+                1e3 * begun_->position(), 1e3 * state.time);
   mesh();
 }
 

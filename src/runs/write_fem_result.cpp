@@ -111,7 +111,7 @@ void save_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, con
                      const Control& control) {
   try {
     write_checkpoint(folder, origin, state);
-    control.info("checkpoint at x = {:.2f} mm", 1e3 * state.stepper.state.axle.x);
+    control.info("checkpoint at x = {:.2f} mm", 1e3 * state.position());
   } catch (const EnvironmentError& e) {
     if (stopping) throw;
     control.warn("no checkpoint: {}; the run goes on", e.what());
