@@ -37,6 +37,9 @@ void print_geometry(const CaseSpec& spec, const Placement& placement) {
   fmt::print("contact point  y = {:.3f} mm, z = {:.3f} mm; on the wheel at y = {:.3f} mm\n", 1e3 * c.point.y,
              1e3 * c.point.z, 1e3 * wheel_y(placement));
   fmt::print("contact angle  {:.2f} mrad; rolling radius {:.3f} mm\n", 1e3 * c.angle, 1e3 * c.rolling_radius);
+  if (c.rail_turn != 0)
+    fmt::print("rail           {} of {:.3f} mm along rolling at the contact\n", c.rail_turn > 0 ? "roller" : "hollow",
+               1e3 / std::abs(c.rail_turn));
   if (c.yaw != 0)
     fmt::print("yaw            {:.3f} mrad; the contact lies {:.3f} mm before the axle\n", 1e3 * c.yaw, 1e3 * c.x);
   if (c.roll != 0) fmt::print("roll           {:.3f} mrad, field side up\n", 1e3 * c.roll);
@@ -144,7 +147,8 @@ nlohmann::ordered_json as_json(const CaseSpec& spec, const Placement& placement)
             {"angle_rad", c.angle},
             {"yaw_rad", c.yaw},
             {"roll_rad", c.roll},
-            {"rolling_radius_m", c.rolling_radius}}},
+            {"rolling_radius_m", c.rolling_radius},
+            {"rail_turn_per_m", c.rail_turn}}},
           {"load_N", hertz.load},
           {"hertz", {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}}}};
 }

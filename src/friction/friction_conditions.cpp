@@ -47,7 +47,7 @@ const std::vector<FrictionCondition>& friction_conditions() {
        0.33,
        0.26,
        0.35,
-       {FrictionForm::falling_exponential, 0.14 / 0.33, 1.25, 14e-6, 1e-3},
+       {FrictionForm::falling_exponential, 0.14 / 0.33, 1.25, 28e-6, 1e-3},
        {1e-3, 6.56e9, 0, 0, 0}},
       {"friction_modifier",
        Certainty::published,
