@@ -21,6 +21,20 @@ std::vector<double> pulse_response(const ContactHeat& heat, std::size_t steps, d
   return rise;
 }
 
+/// T = before + own F(T), F the factor of friction over temperature: the cell heats itself by what it carries.
+double own_temperature(const std::vector<TablePoint>& factor, double before, double own) {
+  if (factor.empty() || !(own > 0)) return before + own;
+  constexpr int kHalvings = 50;
+  const auto [least, most] =
+      std::minmax_element(factor.begin(), factor.end(), [](auto& a, auto& b) { return a.value < b.value; });
+  double low = before + own * least->value, high = before + own * most->value;
+  for (int i = 0; i < kHalvings && high > low; ++i) {
+    const double middle = 0.5 * (low + high);
+    (before + own * over_table(factor, middle) > middle ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 double ContactHeat::before_sliding() const {
@@ -35,23 +49,25 @@ Plane friction_flux(const TangentialSolution& s, double speed) {
   return flux;
 }
 
-Plane contact_temperature(const ContactHeat& heat, const PatchGrid& grid, const Plane& flux,
+Plane contact_temperature(const ContactHeat& heat, const PatchGrid& grid, const FluxOfCells& flux,
                           const std::vector<Plane>& before, bool steady, double step, double speed) {
   const auto columns = static_cast<std::size_t>(grid.ny);
   const std::size_t steps = steady ? static_cast<std::size_t>(grid.nx) : before.size() + 1;
   const std::vector<double> response = pulse_response(heat, steps, step, speed);
-  const auto flux_of = [&](std::size_t k, std::size_t lag) {
-    if (!steady) return lag == 0 ? flux[k] : before[lag - 1][k];
-    const std::size_t ahead = k + lag * columns;
-    return ahead < flux.size() ? flux[ahead] : 0.0;
-  };
-  Plane out(grid.size(), heat.before_sliding());
-  for_cells(
-      grid.size(),
-      [&](std::size_t k) {
-        for (std::size_t lag = 0; lag < steps; ++lag) out[k] += response[lag] * flux_of(k, lag);
-      },
-      steps);
+  const double cold = heat.before_sliding();
+  Plane out(grid.size()), now = flux.value;
+  for (std::size_t k = grid.size(); k-- > 0;) {  // from the leading edge on
+    double rise = 0;
+    for (std::size_t lag = 1; lag < steps; ++lag) {
+      const std::size_t ahead = k + lag * columns;
+      if (steady && ahead >= now.size()) break;
+      rise += response[lag] * (steady ? now[ahead] : before[lag - 1][k]);
+    }
+    const double made_at = over_table(heat.friction, flux.temperature[k]);
+    const double own = made_at > 0 ? response[0] * now[k] / made_at : 0.0;
+    out[k] = own_temperature(heat.friction, cold + rise, own);
+    if (made_at > 0) now[k] *= over_table(heat.friction, out[k]) / made_at;
+  }
   return out;
 }
 

@@ -215,7 +215,7 @@ RollingSolution settle_temperature(const InfluenceOperator& influence, const Pat
   for (int k = 0; k < kMost; ++k) {
     s = solve_as_warm(influence, grid, warm, options, k > 0 ? &s : start);
     const Plane flux = friction_flux(s.tangential, contact.speed);
-    Plane next = contact_temperature(*contact.heat, grid, flux, contact.flux_before, steady,
+    Plane next = contact_temperature(*contact.heat, grid, {flux, now}, contact.flux_before, steady,
                                      steady ? grid.dx : contact.step, contact.speed);
     double change = 0;
     for (std::size_t i = 0; i < next.size(); ++i)

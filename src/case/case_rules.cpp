@@ -158,7 +158,9 @@ void check_temperatures(const CaseSpec& spec, CaseSource& source) {
   const FrictionSpec& f = spec.friction;
   const bool by_temperature = !f.temperature_table.empty() || !spec.third_body.temperature_table.empty();
   const char* const table = f.temperature_table.empty() ? "third_body.temperature_table" : "friction.temperature_table";
-  if (!source.sound({table, "friction.rail_temperature", "friction.wheel_temperature"})) return;
+  if (!source.sound({"friction.temperature_table", "third_body.temperature_table", "friction.rail_temperature",
+                     "friction.wheel_temperature"}))
+    return;
   for (const auto& [key, given] : {std::pair("friction.rail_temperature", f.rail_temperature.has_value()),
                                    std::pair("friction.wheel_temperature", f.wheel_temperature.has_value())}) {
     if (by_temperature && !given)

@@ -40,7 +40,7 @@ class TreeReader {
       spec_.drive.friction_coefficient = c.coefficient;
       FrictionSpec& f = spec_.friction;
       f.law = c.law.form;
-      if (c.law.falls()) {
+      if (c.law.falls() && document["friction"]["law"].value<std::string>() != "coulomb") {
         f.kinetic_coefficient = c.law.kinetic_share * c.coefficient;
         f.half_velocity = c.law.half_velocity;
         f.memory_distance = c.law.memory_distance;

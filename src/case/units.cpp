@@ -170,6 +170,9 @@ UnitError unknown_unit(std::string_view unit, const Dimension& expected) {
   std::vector<std::string> units;
   for (const std::string_view u : customary(expected).units)
     if (!u.empty()) units.emplace_back(u);
+  if (expected == dimension::kTemperature && (unit == "°C" || unit == "degC" || unit == "C"))
+    return UnitError(fmt::format("unknown unit \"{}\"", unit),
+                     "write the same number in K, \"20 K\" for 20 °C: only differences count");
   const std::string near = nearest_word(unit, units);
   return UnitError(fmt::format("unknown unit \"{}\"", unit),
                    near.empty() ? how_to_write(expected) : fmt::format("did you mean {}?", near));

@@ -157,6 +157,14 @@ TEST(FrictionByTemperature, FromRestItBecomesThatOfSteadyRolling) {
   }
 }
 
+TEST(FrictionByTemperature, SettlesHoweverSteeplyItFalls) {
+  const BemResult r =
+      solved({"drive.creepage=-0.3", "drive.speed=\"80 m/s\"", "friction.rail_temperature=\"0 K\"",
+              "friction.wheel_temperature=\"0 K\"", "friction.temperature_table=[[\"0 K\", 1], [\"100 K\", 0.01]]"});
+  EXPECT_LT(-r.force.x, 0.05 * 0.5 * 80e3);
+  EXPECT_GT(-r.force.x, 0.01 * 0.5 * 80e3);
+}
+
 TEST(FrictionByTemperature, OneFactorEverywhereIsAnotherCoefficient) {
   const BemResult a = solved({"drive.friction_coefficient=0.4", "friction.rail_temperature=\"20 K\"",
                               "friction.wheel_temperature=\"20 K\"",

@@ -100,6 +100,8 @@ TEST(Units, EveryBadTextIsRefusedWithItsRuleAndRemedy) {
        "write a length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)"},
       {"210 gpa", kPressure, "unknown unit \"gpa\"", "did you mean GPa?"},
       {"3 furlong", kLength, "unknown unit \"furlong\"", "write a length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)"},
+      {"20 °C", kTemperature, "unknown unit \"°C\"",
+       "write the same number in K, \"20 K\" for 20 °C: only differences count"},
       {"50 mph", kSpeed, "unknown unit \"mph\"", "write a speed, e.g. \"100 km/h\" (units: m/s, km/h)"},
       {"100 kmh", kSpeed, "unknown unit \"kmh\"", "did you mean km/h?"},
       {"0,5 mm", kLength, "has a comma in the number", "numbers have a decimal point: write \"0.5 mm\""},
