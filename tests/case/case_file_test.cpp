@@ -159,7 +159,9 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   CaseSpec spec = one_of_each();
   spec.layers.resize(2);
   spec.layers[1].on = BodyId::wheel;
-  spec.friction = {.law = FrictionForm::coulomb, .kinetic_coefficient = 0.1, .half_velocity = 0.7};  // for the law that `disturb` gives
+  spec.friction = {.law = FrictionForm::coulomb,
+                   .kinetic_coefficient = 0.1,
+                   .half_velocity = 0.7};  // for the law that `disturb` gives
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options)
       if (!option.derivation && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)) &&
