@@ -62,8 +62,11 @@ enum Field : int {
   kDisplacementX = 7,
   kDisplacementY = 8,
   kDisplacementN = 9,
+  kFilmStrength = 11,
   kSlipX = 15,
-  kSlipY = 16
+  kSlipY = 16,
+  kTemperature1 = 20,
+  kTemperature2 = 21
 };
 
 /// A request that is not supported or not possible: CONTACT's code and a line for the user.

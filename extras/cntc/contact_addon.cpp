@@ -1,5 +1,6 @@
 // The functions of CONTACT's library interface.
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <string>
@@ -113,6 +114,10 @@ void cntc_setglobalflags(const int* lenflg, const int* params, const int* values
   for (int k = 0; k < *lenflg; ++k) set_global_flag(params[k], values[k]);
 }
 
+void cntc_setfileunits(const int*, const int*) {}
+
+void cntc_getmaxnumthreads(int* mxthrd) { *mxthrd = omp_get_num_procs(); }
+
 void cntc_readinpfile(const int* ire, const int*, const char*, const int*, int* ierror) {
   *ierror = guarded(*ire, -1, nullptr, "cntc_readinpfile",
                     [] { throw Refused(kInputFile, "input files are not read: set the problem by calls"); });
@@ -152,10 +157,10 @@ void cntc_setmaterialparameters(const int* ire, const int* icp, const int* mdigi
       [&](Problem& p) { set_materials(p, *mdigit, given(rparam, *nparam)); });
 }
 
-void cntc_settemperaturedata(const int* ire, const int* icp, const int* imeth, const int*, const double*) {
-  set(ire, icp, Setting::temperature, "cntc_settemperaturedata", [&](Problem&) {
-    if (*imeth != 0) throw Refused(kOther, "temperatures are not computed: H = 0 is offered");
-  });
+void cntc_settemperaturedata(const int* ire, const int* icp, const int* imeth, const int* nparam,
+                             const double* rparam) {
+  set(ire, icp, Setting::temperature, "cntc_settemperaturedata",
+      [&](Problem& p) { set_heat(p, *imeth, given(rparam, *nparam)); });
 }
 
 void cntc_settimestep(const int* ire, const int* icp, const double*) {
@@ -393,8 +398,7 @@ void cntc_getmaximumtraction(const int* ire, const int* icp, double* ptmax) {
 
 void cntc_getmaximumtemperature(const int* ire, const int* icp, double* t1max, double* t2max) {
   *t1max = *t2max = kNoNumber;
-  with_problem(*ire, *icp, "cntc_getmaximumtemperature",
-               [](Problem&) { throw Refused(kOther, "temperatures are not computed"); });
+  with_problem(*ire, *icp, "cntc_getmaximumtemperature", [&](Problem& p) { *t1max = *t2max = largest_temperature(p); });
 }
 
 void cntc_getfielddata(const int* ire, const int* icp, const int* ifld, const int* lenarr, double* fld) {

@@ -42,9 +42,23 @@ void turn(RollingSolution& s) {
   t.slip_x = std::move(slip.x);
   t.slip_y = std::move(slip.y);
   std::reverse(t.state.begin(), t.state.end());
-  reverse(t.plastic);
-  reverse(t.bound);
+  for (Plane* plane : {&t.plastic, &t.bound, &t.lost_friction, &t.film_flexibility, &s.temperature}) reverse(*plane);
+  for (Plane& flux : s.flux) reverse(flux);
   for (double* value : {&t.creepage_x, &t.creepage_y, &t.force_x, &t.force_y}) *value = -*value;
+}
+
+/// Keys of a case as the numbers that a caller has set.
+std::string in_words_of_contact(std::string text) {
+  constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+      {"friction.memory_distance", "MEMDST"},   {"friction.half_velocity", "SABSH1"},
+      {"friction.kinetic_coefficient", "FKIN"}, {"friction.law", "the L-digit"},
+      {"friction.temperature_table", "DFHEAT"}, {"third_body.hardening", "K_TAU"},
+      {"third_body.yield_shear", "TAU_C0"},     {"drive.friction_coefficient", "FSTAT"},
+      {"drive.creepage", "a creepage (F = 0)"}, {"drive.speed", "VELOC"}};
+  for (const auto& [key, word] : kWords)
+    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + word.size()))
+      text.replace(at, key.size(), word);
+  return text;
 }
 
 bool same_grid(const PatchGrid& a, const PatchGrid& b) {
@@ -83,7 +97,10 @@ class Drive {
     const bool turn_it = tang_ >= kTransient && settings_.chi != 0;
     if (turn_it && last) turn(last->rolling);
     solve_turned(next, last, was_broken, turn_it);
-    if (turn_it) turn(next.rolling);
+    if (turn_it) {
+      turn(next.rolling);
+      reverse(next.temperature);
+    }
     next.border_cells = border_cells(next);
     problem_.solved = std::move(next);
     problem_.broken = false;
@@ -106,8 +123,14 @@ class Drive {
     if (tang_ != kFrictionless && !settings_.friction)
       throw Refused(kFriction, "no friction: call cntc_setfrictionmethod");
     if (settings_.friction) out.friction = *settings_.friction;
-    if (out.friction.falling.falls() && (tang_ == kShift || tang_ == kTransient))
-      throw Refused(kFriction, "friction that falls with slip is offered in steady rolling, T = 3");
+    out.film = m.film;
+    if (out.friction.falling.falls() && tang_ == kShift)
+      throw Refused(kFriction, "friction that falls with slip is offered in rolling, T = 2 and 3");
+    if (!out.friction.by_temperature.empty() && (!settings_.heat || tang_ < kTransient))
+      throw Refused(kFriction, "L = 6 needs temperatures, cntc_settemperaturedata with H = 3, and T = 2 or 3");
+    if (out.film.thickness > 0 && out.friction.falling.falls() && !out.friction.falling.remembers())
+      throw Refused(kFriction,
+                    "a film (M = 4) under friction that falls with slip (L = 3 to 5) needs a memory, MEMDST");
     check_step(out.on.grid);
     return out;
   }
@@ -133,6 +156,10 @@ class Drive {
     c.falling = next.friction.falling;
     c.speed = next.speed;
     c.third_body = settings_.materials.film;
+    if (!next.friction.by_temperature.empty()) {
+      c.heat = settings_.heat;
+      c.heat->friction = next.friction.by_temperature;
+    }
     c.leading_edge = LeadingEdge::whole_cell;
     const Creepages& given = settings_.creepages;
     const double unit = next.shift ? given.length : 1, sign = turn_it ? -1 : 1;
@@ -199,11 +226,24 @@ class Drive {
         without_friction(next, g, c, start);
       else
         with_friction(next, g, c, start, turn_it);
+      if (settings_.heat && tang_ >= kTransient) next.temperature = temperature(next, g, c);
     } catch (const CaseError& e) {
-      throw Refused(flag(settings_, kForce) > 0 ? kTotalForce : kTangential, e.what());
+      const std::string& key = e.diagnostics.front().where;
+      const bool of_law = key.starts_with("friction.") || key.starts_with("third_body.");
+      throw Refused(flag(settings_, kForce) > 0 ? kTotalForce
+                    : of_law                    ? kFriction
+                                                : kTangential,
+                    in_words_of_contact(e.what()));
     } catch (const NumericalError& e) {
       throw Refused(normal_fails(next, g, c) ? kNormal : kTangential, e.what());
     }
+  }
+
+  /// Of friction that does not depend on it: of the rows as they stand.
+  Plane temperature(const Solved& next, const PatchGrid& g, const RollingContact& c) const {
+    if (!next.rolling.temperature.empty()) return next.rolling.temperature;
+    const Plane flux = friction_flux(next.rolling.tangential, c.speed), cold(g.size(), 0.0);
+    return contact_temperature(*settings_.heat, g, {flux, cold}, {}, true, g.dx, c.speed);
   }
 
   RollingOptions options() const {

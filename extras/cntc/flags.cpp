@@ -30,7 +30,7 @@ constexpr Rule kRules[] = {
     {kMaterialLaw, 0, 1, 0, "M, MATER", "is set by cntc_setmaterialparameters"},
     {kExtraSlip, 0, 0, 1, "E, EXRHS", "E = 0 (none) and 1 (as set by cntc_setextrarigidslip) are offered"},
     {kDebug, 0, -kAny, kAny, "X, XFLOW", "has no effect: there is no such output"},
-    {kHeat, 0, 1, 0, "H, HEAT", "temperatures are not computed"},
+    {kHeat, 0, 1, 0, "H, HEAT", "is set by cntc_settemperaturedata"},
     {kEstimate, 0, 0, 3, "I, IESTIM", "I = 0 to 3 are offered"},
     {kOutput, 2, -kAny, kAny, "O, OUTPUT", ""},
     {kFlow, 4, -kAny, kAny, "W, FLOW", ""},
@@ -87,6 +87,7 @@ int get_flag(const Problem& problem, int code) {
   if (code == kUnits) return problem.units.code;
   if (code == kCaseNumber) return problem.cases;
   if (code == kFrictionLaw) return s.friction ? s.friction->digit : 0;
+  if (code == kHeat) return s.heat ? 3 : 0;
   if (code == kMaterialLaw) return s.materials.film.thickness > 0 ? 4 : 0;
   return flag(s, code);
 }

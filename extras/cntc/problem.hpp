@@ -47,6 +47,7 @@ struct Materials {
 struct FrictionLaw {
   double at_rest = 0;
   FallingFriction falling;
+  std::vector<TablePoint> by_temperature;  ///< factor of `at_rest`; empty: none
   int digit = 0;
 };
 
@@ -67,6 +68,7 @@ struct Settings {
   Materials materials;
   bool has_materials = false;
   std::optional<FrictionLaw> friction;
+  std::optional<ContactHeat> heat;  ///< without tables
   Parameters grid, gap;
   double load = 0;      ///< N
   double approach = 0;  ///< m
@@ -98,6 +100,8 @@ struct Solved {
   std::shared_ptr<const InfluenceOperator> influence;
   RollingSolution rolling;
   FrictionLaw friction;
+  ThirdBody film;
+  Plane temperature;  ///< of each element, °C; empty: H = 0
   double speed = 1;
   double spin = 0;     ///< 1/m, or rad of a shift
   bool shift = false;  ///< slip and creepages are distances

@@ -52,6 +52,10 @@ RSCNTC_API void cntc_setmaterialparameters(const int* ire, const int* icp, const
                                            const double* rparam);
 RSCNTC_API void cntc_settemperaturedata(const int* ire, const int* icp, const int* imeth, const int* nparam,
                                         const double* rparam);
+/* The units are taken and not used: no files are opened by number. */
+RSCNTC_API void cntc_setfileunits(const int* nunits, const int* iunits);
+/* As many as the machine offers: no licence counts them. */
+RSCNTC_API void cntc_getmaxnumthreads(int* mxthrd);
 RSCNTC_API void cntc_settimestep(const int* ire, const int* icp, const double* dt);
 RSCNTC_API void cntc_setreferencevelocity(const int* ire, const int* icp, const double* veloc);
 RSCNTC_API void cntc_setrollingstepsize(const int* ire, const int* icp, const double* chi, const double* dq);

@@ -48,10 +48,34 @@ Plane normal_displacement(const Solved& s) {
 Plane friction_field(const Solved& s) {
   const TangentialSolution& t = s.rolling.tangential;
   Plane out(s.on.grid.size(), s.friction.at_rest);
-  if (!s.friction.falling.falls()) return out;
+  if (!s.friction.by_temperature.empty() && !s.temperature.empty())
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] *= over_table(s.friction.by_temperature, s.temperature[k]);
+  if (!t.lost_friction.empty())
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] *= 1 - t.lost_friction[k];
+  if (!s.friction.falling.falls() || !t.lost_friction.empty()) return out;
   for (std::size_t k = 0; k < out.size(); ++k)
     out[k] *= friction_share(s.friction.falling, {s.speed * std::hypot(t.slip_x[k], t.slip_y[k])}).value;
   return out;
+}
+
+/// What the film of an element bears, Pa.
+double film_strength(const Solved& s, std::size_t k) {
+  const Plane& plastic = s.rolling.tangential.plastic;
+  return s.film.strength(plastic.empty() ? 0.0 : plastic[k]);
+}
+
+/// Of an element that slips: it is the film that gives way, not friction.
+bool yields(const Solved& s, std::size_t k) {
+  constexpr double kNear = 1 - 1e-6;
+  const TangentialSolution& t = s.rolling.tangential;
+  return s.film.yields() && !t.plastic.empty() && t.plastic[k] > 0 &&
+         std::hypot(t.q_x[k], t.q_y[k]) >= kNear * film_strength(s, k);
+}
+
+const Plane& temperatures(const Solved& s) {
+  if (s.temperature.empty())
+    throw Refused(kOther, "there are no temperatures: cntc_settemperaturedata with H = 3, and T = 2 or 3");
+  return s.temperature;
 }
 
 double combined(double one, double other) { return 0.5 * (one + other); }
@@ -122,7 +146,7 @@ std::vector<int> division(const Problem& p) {
     for (int j = 0; j < g.ny; ++j) {
       const std::size_t k = g.index(i, j);
       const bool slips = s.rolling.tangential.state[k] == ContactState::slip;
-      const int in_contact = slips ? 2 : 1;
+      const int in_contact = slips ? (yields(s, k) ? 3 : 2) : 1;
       out[static_cast<std::size_t>(i + g.nx * j)] = s.rolling.normal.pressure[k] > 0 ? in_contact : 0;
     }
   return out;
@@ -132,13 +156,18 @@ std::array<double, 3> areas(const Problem& p) {
   const std::vector<int> all = division(p);
   const double cell = solution(p).on.grid.cell_area() / p.units.area();
   const auto stick = static_cast<double>(std::count(all.begin(), all.end(), 1));
-  const auto slip = static_cast<double>(std::count(all.begin(), all.end(), 2));
+  const auto slip = static_cast<double>(std::count_if(all.begin(), all.end(), [](int kind) { return kind >= 2; }));
   return {(stick + slip) * cell, stick * cell, slip * cell};
 }
 
 double largest_pressure(const Problem& p) {
   const Plane& all = solution(p).rolling.normal.pressure;
   return *std::max_element(all.begin(), all.end()) * p.units.area();
+}
+
+double largest_temperature(const Problem& p) {
+  const Plane& all = temperatures(solution(p));
+  return *std::max_element(all.begin(), all.end());
 }
 
 double largest_traction(const Problem& p) {
@@ -172,12 +201,21 @@ std::vector<double> field(const Problem& p, int number) {
       return in_order(g, tangential_displacement(s).y, -length);
     case kDisplacementN:
       return in_order(g, normal_displacement(s), length);
+    case kFilmStrength: {
+      if (!s.film.yields()) throw Refused(kOther, "field 11 is of a film that yields");
+      Plane strength(g.size());
+      for (std::size_t k = 0; k < strength.size(); ++k) strength[k] = film_strength(s, k);
+      return in_order(g, strength, stress);
+    }
+    case kTemperature1:
+    case kTemperature2:
+      return in_order(g, temperatures(s), 1);
     case kSlipX:
       return in_order(g, t.slip_x, slip);
     case kSlipY:
       return in_order(g, t.slip_y, slip);
     default:
-      throw Refused(kOther, fmt::format("field {} is not offered: 1 to 5, 7 to 9, 15 and 16 are", number));
+      throw Refused(kOther, fmt::format("field {} is not offered: 1 to 5, 7 to 9, 11, 15, 16, 20 and 21 are", number));
   }
 }
 

@@ -27,6 +27,8 @@ std::array<double, 3> areas(const Problem& problem);
 std::vector<int> division(const Problem& problem);
 double largest_pressure(const Problem& problem);
 double largest_traction(const Problem& problem);
+/// Of both surfaces, which touch and are as warm.
+double largest_temperature(const Problem& problem);
 /// A field by CONTACT's number, in the order of the elements. Throws Refused for those that are not offered.
 std::vector<double> field(const Problem& problem, int number);
 /// A1, B1, AA, BB, RHO, CP, SCALE, BNEG, BPOS, AOB.

@@ -12,6 +12,8 @@ namespace railstrata::cntc {
 namespace {
 
 constexpr double kLeastFriction = 1e-6;
+constexpr double kNoThickness = 1e-12;  // m
+constexpr double kNoStrength = 1e-2;    // of the strength at first: what softening leaves
 
 void require_finite(Numbers values, int code, const char* what) {
   for (const double v : values)
@@ -31,16 +33,46 @@ HalfSpaceMaterial material(double poisson, double shear) {
   return {2 * (1 + poisson) * shear, poisson};
 }
 
+void take_memory(double distance, double velocity, double unit, FallingFriction& law) {
+  if (!(distance >= 0) || !(velocity >= 0))
+    throw Refused(kFriction, fmt::format("MEMDST and MEM_S0 are 0 or more, not {:g} and {:g}", distance, velocity));
+  law.memory_distance = distance * unit;
+  law.memory_velocity = velocity * unit;
+}
+
 /// One of the two terms of CONTACT's falling laws; the other has to be 0.
 FallingFriction falling_law(int digit, Numbers v, double speed_unit) {
   if (v[3] != 0)
     throw Refused(kFriction, "of the falling laws L = 3 and 4 the first term is offered: give 0 for the second");
-  if (v[5] != 0) throw Refused(kFriction, "friction has no memory here: give MEMDST = 0, the instantaneous law");
   FallingFriction out;
   out.form = digit == 3 ? FrictionForm::falling_rational : FrictionForm::falling_exponential;
   out.kinetic_share = v[0] / (v[0] + v[1]);
   out.half_velocity = v[2] * speed_unit;
+  take_memory(v[5], v[6], speed_unit, out);
   return out;
+}
+
+/// L = 5: FSTAT, A, B of FSTAT (A + (1 - A) exp(-B v)).
+FrictionLaw polach_law(Numbers v, double speed_unit) {
+  if (!(v[0] > 0) || !(v[1] >= 0 && v[1] <= 1) || !(v[2] > 0))
+    throw Refused(kFriction, "L = 5 has FSTAT > 0, POLACH_A from 0 to 1 and POLACH_B > 0");
+  FrictionLaw law;
+  law.at_rest = v[0];
+  law.falling.form = FrictionForm::falling_exponential;
+  law.falling.kinetic_share = v[1];
+  law.falling.half_velocity = std::numbers::ln2 / v[2] * speed_unit;
+  return law;
+}
+
+/// L = 6: FREF up to TREF, FREF + DFHEAT from TREF + DTHEAT on.
+FrictionLaw warm_law(Numbers v) {
+  if (!(v[0] > 0) || !(v[0] + v[2] >= 0) || !(v[3] > 0))
+    throw Refused(kFriction, "L = 6 has FREF > 0, FREF + DFHEAT of 0 or more and DTHEAT > 0");
+  if (v[4] != 0) throw Refused(kFriction, "friction by temperature has no memory here: give MEMDST = 0");
+  FrictionLaw law;
+  law.at_rest = v[0];
+  law.by_temperature = {{v[1], 1}, {v[1] + v[3], 1 + v[2] / v[0]}};
+  return law;
 }
 
 /// Numbers of cells, the first two values.
@@ -72,8 +104,6 @@ void set_materials(Problem& p, int digit, Numbers v) {
     throw Refused(kOther,
                   fmt::format("material M = {} is not offered: 0 (elastic) and 4 (with an elastic film) are", digit));
   require_count(v, digit == 0 ? 4 : 8, kOther, fmt::format("M = {}", digit));
-  if (digit == 4 && v[6] > 0)
-    throw Refused(kOther, "a film that yields (TAU_C0 > 0) is not offered with CONTACT's interface: give 0");
   const double stress = 1 / p.units.area();
   Materials& m = p.settings.materials;
   const std::array<HalfSpaceMaterial, 2> bodies{material(v[0], v[2] * stress), material(v[1], v[3] * stress)};
@@ -83,10 +113,36 @@ void set_materials(Problem& p, int digit, Numbers v) {
       throw Refused(kOther, "a film has a modulus GG3 above 0 and a thickness of 0 or more");
     film.shear_modulus = v[4] * stress;
     film.thickness = v[5] * p.units.length;
+    if (v[6] > 0) {  // without a thickness, of no elastic shear
+      film.thickness = std::max(film.thickness, kNoThickness);
+      film.yield_shear = v[6] * stress;
+      film.hardening = v[7] * stress / p.units.length;
+      if (film.hardening < 0) film.residual = kNoStrength * film.yield_shear;
+    }
   }
   m.body = bodies;
   m.film = film;
   p.settings.has_materials = true;
+}
+
+void set_heat(Problem& p, int digit, Numbers v) {
+  if (digit == 1) return;
+  if (digit == 0) {
+    p.settings.heat.reset();
+    return;
+  }
+  if (digit != 3) throw Refused(kOther, fmt::format("temperatures H = {} are not offered: 0, 1 and 3 are", digit));
+  if (v.size() != 8 && v.size() != 9) throw Refused(kOther, "H = 3 takes 8 or 9 numbers");
+  require_finite(v, kOther, "H = 3");
+  const double length = p.units.length;
+  const auto body = [&](std::size_t k) {
+    if (!(v[k + 1] > 0) || !(v[k + 2] > 0) || !(v[k + 3] > 0))
+      throw Refused(kOther, "heat capacities, conductivities and densities are above 0");
+    ThermalBody out;
+    out.base = {v[k + 2] / length, v[k + 3] / (length * length * length), v[k + 1]};
+    return out;
+  };
+  p.settings.heat = ContactHeat{body(4), body(0), v[4], v[0], {}, {}};
 }
 
 void set_layers(Problem& p, int body, int count, Numbers thickness, Numbers young, Numbers poisson) {
@@ -114,7 +170,6 @@ std::string set_friction(Problem& p, int method, Numbers v) {
     throw Refused(kFriction, fmt::format("friction V = {} is of module 1: 0 is offered", method / 10));
   if (digit == 1) return "";  // as before
   FrictionLaw law;
-  law.digit = digit;
   if (digit == 0) {
     require_count(v, 2, kFriction, "L = 0");
     if (!(v[0] >= 0) || !(v[1] >= 0))
@@ -126,9 +181,16 @@ std::string set_friction(Problem& p, int method, Numbers v) {
     if (!(v[0] > 0) || !(v[1] >= 0) || !(v[2] > 0))
       throw Refused(kFriction, "falling friction has FKIN > 0, a first term of 0 or more and SABSH1 > 0");
     law.falling = falling_law(digit, v, p.units.length);
+  } else if (digit == 5) {
+    require_count(v, 3, kFriction, "L = 5");
+    law = polach_law(v, p.units.length);
+  } else if (digit == 6) {
+    require_count(v, 6, kFriction, "L = 6");
+    law = warm_law(v);
   } else {
-    throw Refused(kFriction, fmt::format("friction L = {} is not offered: 0, 3 and 4 are", digit));
+    throw Refused(kFriction, fmt::format("friction L = {} is not offered: 0 and 3 to 6 are", digit));
   }
+  law.digit = digit;
   const bool raised = law.at_rest < kLeastFriction;
   if (raised) law.at_rest = kLeastFriction;
   p.settings.friction = law;

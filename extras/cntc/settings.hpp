@@ -10,11 +10,13 @@ namespace railstrata::cntc {
 
 using Numbers = std::span<const double>;
 
-/// M = 0 and, with a film that is elastic, 4.
+/// H = 0, 1 (as before) and 3, temperatures of steady rolling.
+void set_heat(Problem& problem, int digit, Numbers values);
+/// M = 0 and, with an elastic or elastic-plastic film, 4.
 void set_materials(Problem& problem, int digit, Numbers values);
 /// Layers on body 1 or 2, from the surface down.
 void set_layers(Problem& problem, int body, int count, Numbers thickness, Numbers young, Numbers poisson);
-/// L = 0 (the smaller of fstat and fkin), and the laws of friction/: 3 and 4 with one term and without memory.
+/// L = 0 (the smaller of fstat and fkin), and the laws of friction/: 3 and 4 with one term, 5, 6.
 std::string set_friction(Problem& problem, int method, Numbers values);
 /// IPOTCN -1 to -3 and 1 to 4.
 void set_hertz(Problem& problem, int number, Numbers values);

@@ -10,6 +10,7 @@ MM, SIMPACK, SI = 1934, 1935, 1936
 # i: int by reference or array; d: double by reference or array; s: text.
 PROTOTYPES = {
     "cntc_initializefirst": "iiisssiii", "cntc_initializefirst_new": "iiisssiii", "cntc_initialize": "iiiisi",
+    "cntc_setfileunits": "ii", "cntc_getmaxnumthreads": "i",
     "cntc_readinpfile": "iisii", "cntc_setglobalflags": "iii", "cntc_setflags": "iiiii", "cntc_setmetadata": "iiiid",
     "cntc_setsolverflags": "iiiiiid", "cntc_setmaterialparameters": "iiiid", "cntc_settemperaturedata": "iiiid",
     "cntc_settimestep": "iid", "cntc_setreferencevelocity": "iid", "cntc_setrollingstepsize": "iidd",

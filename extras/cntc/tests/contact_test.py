@@ -370,9 +370,77 @@ class Interface(unittest.TestCase):
         # Full sliding: everywhere the slip is nearly the creepage, 600 mm/s, where half of the fall is done.
         self.assertAlmostEqual(c.forces()[1] / 60000, 0.225, delta=0.004)
         self.assertAlmostEqual(c.field(2)[15, 14], 0.225, delta=0.004)
-        c.set("cntc_setfrictionmethod", 4, [0.15, 0.15, 600, 0, 1000, 0.001, 1])
+        polach = c.forces()[1]
+        c.set("cntc_setfrictionmethod", 5, [0.3, 0.5, math.log(2) / 600])
+        self.assertEqual(c.calculate(), 0, c.error())
+        self.assertAlmostEqual(c.forces()[1] / polach, 1, delta=1e-6)
+        c.set("cntc_setfrictionmethod", 4, [0.15, 0.15, 60, 0, 1000, 1e-6, 1])
+        c.set("cntc_setmaterialparameters", 4, [0.28, 0.28, 82000, 82000, 820, 1.0, 0, 0])
         self.assertEqual(c.calculate(), -33)
         self.assertIn("MEMDST", c.error()[1])
+        self.assertNotIn("friction.", c.error()[1])
+
+    def locomotive(self):
+        """CONTACT's example tractcurv: wheel of 625 mm, a/b = 0.5, 106.7 kN, 10 m/s."""
+        c = Contact(library)
+        c.set("cntc_setmaterialparameters", 0, [0.28, 0.28, 82000, 82000])
+        c.set("cntc_setfrictionmethod", 0, [0.33, 0.33])
+        c.set("cntc_sethertzcontact", -2, [48, 44, 0.0008, 0.5, 1.1])
+        c.call("cntc_setnormalforce", 106700.0)
+        c.call("cntc_setreferencevelocity", 10000.0)
+        return c
+
+    def against_curve(self, c, name, column, most, each=lambda c, row: None):
+        """Rows of a validation set, whose forces CONTACT prints with four digits."""
+        rows = table(SETS / name / "data.csv")
+        self.assertGreater(len(rows), 25)
+        for row in rows:
+            each(c, row)
+            c.call("cntc_setcreepages", -0.01 * float(row["creepage_percent"]), 0.0, 0.0)
+            self.assertGreaterEqual(c.calculate(), 0, c.error())
+            self.assertAlmostEqual(c.forces()[1] / 106700, float(row[column]), delta=most, msg=str(row))
+
+    def test_a_film_under_friction_with_a_memory_is_that_of_tractcurv(self):
+        c = self.locomotive()
+        c.set("cntc_setfrictionmethod", 4, [0.14, 0.19, 1250, 0, 1, 0.003, 1])
+        c.set("cntc_setmaterialparameters", 4, [0.28, 0.28, 82000, 82000, 8200, 1.25, 0, 0])
+        self.against_curve(c, "locomotive_contact", "traction", 4e-4)
+
+    def test_films_that_yield_are_those_of_tractcurve_plast(self):
+        c = self.locomotive()
+        c.set("cntc_sethertzcontact", -2, [44, 44, 0.0008, 0.5, 1.1])
+
+        def film(c, row):
+            c.set("cntc_setmaterialparameters", 4,
+                  [0.28, 0.28, 82000, 82000, 1, 0, 150, float(row["k_MPa_per_mm"])])
+
+        self.against_curve(c, "film_plastic", "traction", 1e-4, film)
+        self.assertIn(3, c.division())
+
+    def test_temperatures_of_a_sliding_wheel(self):
+        c = self.locomotive()
+        steel = [450.0, 50e-3, 7.85e-6]
+        c.set("cntc_settemperaturedata", 3, [0.0, *steel, 0.0, *steel])
+        c.call("cntc_setcreepages", -0.05, 0.0, 0.0)
+        self.assertEqual(c.calculate(), 0, c.error())
+        hot = c.numbers("cntc_getmaximumtemperature", 2)[0]
+        self.assertGreater(hot, 100)
+        cold = c.forces()[1]
+        c.set("cntc_setfrictionmethod", 6, [0.33, 0, -0.19, 400, 0, 1])
+        self.assertEqual(c.calculate(), 0, c.error())
+        self.assertLess(c.numbers("cntc_getmaximumtemperature", 2)[0], hot)
+        self.assertLess(c.forces()[1], 0.97 * cold)
+        c.set("cntc_settemperaturedata", 0, [])
+        self.assertEqual(c.calculate(), -33)
+        self.assertIn("cntc_settemperaturedata", c.error()[1])
+
+    def test_calls_of_programs_in_fortran_answer(self):
+        c = self.contact()
+        threads = c_int(0)
+        library.cntc_getmaxnumthreads(threads)
+        self.assertGreaterEqual(threads.value, 1)
+        library.cntc_setfileunits(c_int(5), (c_int * 5)(61, 62, 63, 64, 65))
+        self.assertEqual(c.calculate(), 0)
 
     def test_border_cells_are_counted(self):
         c = self.contact()
