@@ -61,11 +61,52 @@ std::string in_words_of_contact(std::string text) {
   return text;
 }
 
-bool same_grid(const PatchGrid& a, const PatchGrid& b) {
-  const double near = 1e-3 * std::min(a.dx, a.dy);
-  return a.nx == b.nx && a.ny == b.ny && std::abs(a.dx - b.dx) < 0.1 * near && std::abs(a.dy - b.dy) < 0.1 * near &&
-         std::abs(a.x0 - b.x0) < near && std::abs(a.y0 - b.y0) < near;
+/// By how many elements one grid lies beside another one of the same elements.
+struct Offset {
+  int x = 0, y = 0;
+};
+std::optional<Offset> offset_of(const PatchGrid& g, const PatchGrid& from) {
+  constexpr double kNear = 1e-3;  // of an element
+  const auto same = [](double a, double b) { return std::abs(a - b) < 0.1 * kNear * a; };
+  const double x = (g.x0 - from.x0) / g.dx, y = (g.y0 - from.y0) / g.dy;
+  const Offset out{static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))};
+  if (!same(g.dx, from.dx) || !same(g.dy, from.dy) || std::abs(x - out.x) > kNear || std::abs(y - out.y) > kNear)
+    return {};
+  return out;
 }
+
+/// The state of a potential contact area on another one of the same elements. What lies outside of it is forgotten.
+class Moved {
+ public:
+  Moved(const PatchGrid& to, const PatchGrid& from, Offset by) : to_(to), from_(from), by_(by) {}
+
+  RollingSolution of(const RollingSolution& s) const {
+    RollingSolution out = s;
+    TangentialSolution& t = out.tangential;
+    for (Plane* plane : {&out.normal.pressure, &out.normal.gap, &out.temperature, &t.q_x, &t.q_y, &t.slip_x, &t.slip_y,
+                         &t.cell_slip.x, &t.cell_slip.y, &t.plastic, &t.bound, &t.lost_friction, &t.film_flexibility})
+      *plane = values(*plane);
+    for (Plane& flux : out.flux) flux = values(flux);
+    t.state = values(t.state, ContactState::separated);
+    return out;
+  }
+
+ private:
+  template <class T>
+  std::vector<T> values(const std::vector<T>& old, T outside = {}) const {
+    if (old.empty()) return {};
+    std::vector<T> out(to_.size(), outside);
+    for (int i = 0; i < to_.nx; ++i)
+      for (int j = 0; j < to_.ny; ++j) {
+        const int x = i + by_.x, y = j + by_.y;
+        if (x >= 0 && x < from_.nx && y >= 0 && y < from_.ny) out[to_.index(i, j)] = old[from_.index(x, y)];
+      }
+    return out;
+  }
+
+  const PatchGrid &to_, &from_;
+  Offset by_;
+};
 
 PlanePair extra_slip(const Settings& s, const PatchGrid& g, double unit) {
   if (flag(s, kExtraSlip) == 0) return {};
@@ -183,41 +224,46 @@ class Drive {
     if (forces == 2) c.y.force = bound * settings_.relative_y;
   }
 
-  /// The state before, P = 0; there is none in the first case, and P = 2 always starts anew.
-  const Solved* before(const PatchGrid& g, const std::optional<Solved>& last, bool was_broken) {
+  /// The state before, P = 0, on the elements of now; there is none in the first case, and P = 2 always starts anew.
+  const RollingSolution* before(const PatchGrid& g, std::optional<Solved>& last, bool was_broken) {
     if (flag(settings_, kTime) != 0 || tang_ == kFrictionless || tang_ > kTransient) return nullptr;
     if (was_broken) throw Refused(kOther, "the case before failed: there is no state to go on from, start with P = 2");
     if (!last) {
       remarks_.emplace_back("there is no case before: P = 2 is taken");
       return nullptr;
     }
-    if (!same_grid(g, last->on.grid))
-      throw Refused(kGrid, "a case that goes on from the one before (P = 0) has to have its elements");
-    return &*last;
+    const std::optional<Offset> by = offset_of(g, last->on.grid);
+    if (!by)
+      throw Refused(kGrid,
+                    "a case that goes on from the one before (P = 0) has to have elements of its size, at its places");
+    const bool moves = by->x != 0 || by->y != 0 || g.nx != last->on.grid.nx || g.ny != last->on.grid.ny;
+    if (moves) last->rolling = Moved(g, last->on.grid, *by).of(last->rolling);
+    last->on.grid = g;
+    return &last->rolling;
   }
 
-  void set_history(RollingContact& c, const Solved& next, const PatchGrid& g, const Solved* from) const {
+  void set_history(RollingContact& c, const Solved& next, const PatchGrid& g, const RollingSolution* from) const {
     if (tang_ == kShift || tang_ == kTransient) {
       c.kind = tang_ == kShift ? RollingKind::shift : RollingKind::transient;
       c.step = g.dx;
       if (!from) {
         c.before = {Plane(g.size()), Plane(g.size())};
       } else if (tang_ == kShift) {
-        shift_on(*next.influence, g, from->rolling, c);
+        shift_on(*next.influence, g, *from, c);
       } else {
-        roll_on_one_cell(*next.influence, g, from->rolling, c);
+        roll_on_one_cell(*next.influence, g, *from, c);
       }
     }
   }
 
-  void solve_turned(Solved& next, const std::optional<Solved>& last, bool was_broken, bool turn_it) {
+  void solve_turned(Solved& next, std::optional<Solved>& last, bool was_broken, bool turn_it) {
     const PatchGrid g = turn_it ? turned(next.on.grid) : next.on.grid;
     RollingContact c = contact(next, turn_it);
     if (!c.target.load && *c.target.approach <= *std::min_element(c.gap.begin(), c.gap.end())) {
       apart(next, c);
       return;
     }
-    const Solved* from = before(next.on.grid, last, was_broken);
+    const RollingSolution* from = before(next.on.grid, last, was_broken);
     set_history(c, next, g, from);
     const bool warm = flag(settings_, kEstimate) != 0 && last && last->on.grid.nx == g.nx && last->on.grid.ny == g.ny;
     const RollingSolution* start = warm || from ? &last->rolling : nullptr;

@@ -145,7 +145,8 @@ std::vector<int> division(const Problem& p) {
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {
       const std::size_t k = g.index(i, j);
-      const bool slips = s.rolling.tangential.state[k] == ContactState::slip;
+      const TangentialSolution& t = s.rolling.tangential;
+      const bool slips = t.state[k] == ContactState::slip && (!s.film.yields() || t.slip_x[k] != 0 || t.slip_y[k] != 0);
       const int in_contact = slips ? (yields(s, k) ? 3 : 2) : 1;
       out[static_cast<std::size_t>(i + g.nx * j)] = s.rolling.normal.pressure[k] > 0 ? in_contact : 0;
     }

@@ -1,0 +1,248 @@
+#!/usr/bin/python3
+"""Runs CONTACT's own examples of basic contact (module 3) through the interface and compares what CONTACT printed.
+
+usage: contact_examples.py LIBRARY CHECKOUT [NAME...] [--verbose]   CHECKOUT: a clone of github.com/eve70a/CONTACT
+
+Of every case of CHECKOUT/examples/NAME.inp (all of them unless named) FN, FX, FY, MZ, PMAX and the numbers of elements
+in contact, adhesion and slip are held against NAME.ref_out. Prints a table; a case that is refused counts with the
+reason of its first refusal. Exit code 1 where an accepted case differs by more than the printed digits."""
+import argparse
+import collections
+import math
+import pathlib
+import re
+import sys
+
+import contact_library
+from contact_library import Contact
+
+ROLLING = "CHI DQ VELOC"
+FRICTION = {0: 2, 2: 7, 3: 7, 4: 7, 5: 3, 6: 6}
+SOLVER_LINES = {0: [5], 1: [], 2: [5, 4], 3: [5, 4], 4: [5, 2], 5: [5]}
+CLOSE = 6e-4  # of a number of four digits
+FLAGS = {"P": 1970, "B": 1971, "T": 1972, "N": 1973, "F": 1974, "C": 1978, "E": 1980, "I": 1983}
+
+
+class Unread(Exception):
+    """A form of input that this reader does not know."""
+
+
+def numbers(line):
+    """The numbers before the first word of a line; degrees as radians."""
+    out = []
+    for word in line.split("%")[0].replace(",", " ").split():
+        degrees = re.fullmatch(r"([-+\d.]+)d", word, re.I)
+        try:
+            out.append(math.radians(float(degrees[1])) if degrees else float(re.sub("[dD]", "e", word)))
+        except ValueError:
+            break
+    return out
+
+
+class Refusal(Exception):
+    """What the library does not solve."""
+
+
+class Input:
+    """The lines of a case, comments left out."""
+
+    def __init__(self, text):
+        self.lines = [line for line in text.splitlines() if line.split("%")[0].strip()]
+        self.at = 0
+
+    def word(self):
+        self.at += 1
+        return self.lines[self.at - 1].split()[0]
+
+    def take(self, count):
+        """So many numbers, from as many lines as they fill."""
+        out = []
+        while len(out) < count:
+            found = numbers(self.lines[self.at])
+            if not found:
+                raise Unread(self.lines[self.at])
+            out += found
+            self.at += 1
+        return out[:count]
+
+    def next_case(self):
+        while self.at < len(self.lines):
+            found = re.match(r"\s*(\d)\s+MODULE", self.lines[self.at], re.I)
+            self.at += 1
+            if found:
+                if found[1] == "3":
+                    return True
+                if found[1] == "0":
+                    return False
+                raise Unread("module " + found[1])
+        return False
+
+
+def solver(c, text, digit):
+    """Reads the lines of G and sets EPS."""
+    if digit not in SOLVER_LINES:
+        raise Unread(f"G = {digit}")
+    for k, count in enumerate(SOLVER_LINES[digit]):
+        values = text.take(count)
+        if k == 0:
+            c.call("cntc_setsolverflags", 0, 4, [int(v) for v in values[:4]], 1, [values[4]])
+
+
+def materials(c, text, t, m, heat):
+    if t >= 2:
+        chi, dq, velocity = text.take(3)
+        c.call("cntc_setrollingstepsize", chi, dq)
+        c.call("cntc_setreferencevelocity", velocity)
+    values = text.take(4)
+    if m not in (0, 4):
+        raise Unread(f"M = {m}")
+    c.set("cntc_setmaterialparameters", m, values + (text.take(4) if m == 4 else []))
+    if heat == 3:
+        c.set("cntc_settemperaturedata", 3, text.take(8))
+
+
+def grid(c, text):
+    kind = int(text.take(1)[0])
+    if kind < 0:
+        c.hertz(kind, text.take(5))
+    else:
+        c.grid(kind, text.take(6))
+    return kind
+
+
+def gap(c, text):
+    base, plan = (int(v) for v in text.take(2))
+    if plan not in (0, 1):
+        raise Unread(f"IPLAN = {plan}")
+    if base == 2:
+        head = text.take(5)
+        values = head + text.take(int(head[0]))
+    else:
+        if base not in (1, 3):
+            raise Unread(f"IBASE = {base}")
+        values = text.take({1: 6, 3: 8}[base])
+    c.gap(base, values)
+
+
+def set_case(c, text, kind):
+    """One case: returns IPOTCN; None after a case that could not be read, until one sets everything anew."""
+    p, b, t, n, f, stress = (int(d) for d in text.word().zfill(6))
+    law, d, influence, m, z, e = (int(v) for v in text.word().zfill(6))
+    heat, g, i, *_ = (int(v) for v in text.word().zfill(7))
+    if kind is None and not (law != 1 and d == influence == z == 2):
+        raise Unread("follows one that was not read")
+    c.flags(P=p, T=t, N=n, F=f, B=b, I=i)
+    solver(c, text, g)
+    normal, x, y, spin = text.take(4)
+    c.call("cntc_setnormalforce" if n == 1 else "cntc_setpenetration", normal)
+    c.call("cntc_setcreepages", 0.0 if f >= 1 else x, 0.0 if f == 2 else y, spin)
+    c.call("cntc_settangentialforces", x if f >= 1 else 0.0, y if f == 2 else 0.0)
+    if law != 1:
+        if law not in FRICTION:
+            raise Unread(f"L = {law}")
+        c.set("cntc_setfrictionmethod", law, text.take(FRICTION[law]))
+    if heat == 0:
+        c.set("cntc_settemperaturedata", 0, [])
+    if influence == 2:
+        materials(c, text, t, m, heat)
+    elif influence not in (0, 1):
+        raise Unread(f"C = {influence}")
+    if d == 2:
+        kind = grid(c, text)
+    if z == 2 and kind > 0:
+        gap(c, text)
+    if e == 1:
+        raise Unread("E = 1")
+    return kind
+
+
+def printed(path):
+    """What CONTACT printed of each case, by name."""
+    out = []
+    for case in re.split(r"^ *Case +\d+ *$", path.read_text(errors="replace"), flags=re.M)[1:]:
+        lines = case.splitlines()
+        found = {}
+        for k, line in enumerate(lines):
+            for names in ("FN FX FY MZ", "NPOT NCON NADH NSLIP"):
+                if line.split()[:4] == names.split():
+                    found.update(zip(line.split(), (float(v.replace("D", "E")) for v in numbers_or_nan(lines[k + 1]))))
+            if "PMAX" in line and line.split()[0] == "FN/G":
+                found["PMAX"] = float(numbers_or_nan(lines[k + 1])[4])
+        out.append(found)
+    return out
+
+
+def numbers_or_nan(line):
+    return [w if re.fullmatch(r"[-+\d.]+([eEdD][-+]?\d+)?", w) else "nan" for w in line.split()]
+
+
+def answers(c):
+    fn, fx, fy, mz = c.forces()
+    kinds = collections.Counter(c.division().ravel().tolist())
+    return {"FN": fn, "FX": fx, "FY": fy, "MZ": mz, "PMAX": c.p_max(), "NCON": kinds[1] + kinds[2] + kinds[3],
+            "NADH": kinds[1], "NSLIP": kinds[2]}
+
+
+def differences(found, wanted):
+    scale = abs(wanted.get("FN", 1))
+    out = []
+    for name, value in found.items():
+        if name not in wanted:
+            continue
+        whole = name.startswith("N")
+        allowed = 0 if whole else CLOSE * max(abs(wanted[name]), 0 if name == "PMAX" else 1e-3 * scale)
+        if not abs(value - wanted[name]) <= allowed:
+            out.append(f"{name} {value:.6g} for {wanted[name]:.6g}")
+    return out
+
+
+def run(library, file, verbose):
+    text, wanted = Input(file.read_text(errors="replace")), printed(file.with_suffix(".ref_out"))
+    c, kind, cases, good, off, reasons = Contact(library), 0, 0, 0, 0, []
+    while True:
+        try:
+            if not text.next_case():
+                break
+            cases += 1
+            kind = set_case(c, text, kind)
+            code = c.calculate()
+            if code < 0:
+                raise Refusal(f"{code}: {c.error()[1].splitlines()[0][:110]}")
+            wrong = differences(answers(c), wanted[cases - 1])
+        except Refusal as e:
+            reasons.append(str(e))
+            continue
+        except Unread as e:
+            kind = None
+            reasons.append(str(e))
+            continue
+        good += not wrong
+        off += bool(wrong)
+        if wrong and verbose:
+            print(f"  {file.stem} case {cases}: {', '.join(wrong)}")
+    print(f"{file.stem:20} {cases:5} {good:6} {off:5}  {'; '.join(dict.fromkeys(reasons))[:230]}")
+    return cases, good, off
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("library")
+    parser.add_argument("checkout", type=pathlib.Path)
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--verbose", action="store_true")
+    options = parser.parse_args()
+    library = contact_library.load(options.library)
+    print(f"{'example':20} {'cases':>5} {'equal':>6} {'off':>5}  refused")
+    total = [0, 0, 0]
+    for file in sorted(options.checkout.glob("examples/*.inp")):
+        if options.names and file.stem not in options.names:
+            continue
+        if not re.search(r"^ *3 +MODULE", file.read_text(errors="replace"), re.M | re.I):
+            continue
+        total = [a + b for a, b in zip(total, run(library, file, options.verbose))]
+    print(f"{'all':20} {total[0]:5} {total[1]:6} {total[2]:5}  accepted {total[1] + total[2]} of {total[0]}")
+    return 1 if total[2] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
