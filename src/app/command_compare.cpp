@@ -61,7 +61,7 @@ std::vector<Row> rows_of(const ResultFolder& a, const ResultFolder& b) {
   std::vector<Row> rows;
   for (const ResultColumn& c : table_columns()) {
     const double of_a = a.number(c.path), of_b = b.number(c.path);
-    if (c.path.starts_with("/run/") || (std::isnan(of_a) && std::isnan(of_b))) continue;
+    if (c.path.starts_with("/run/") || c.is_error_bar() || (std::isnan(of_a) && std::isnan(of_b))) continue;
     const ResultNumber* n = find_number(c.path);
     rows.push_back({c, of_a, of_b, std::max(noise_of(a, n), noise_of(b, n)), of_text(a, c), of_text(b, c)});
   }

@@ -24,14 +24,20 @@ std::string padded(std::string text, std::size_t width) {
   return letters < width ? text.append(width - letters, ' ') : text;
 }
 
+/// " ± 6.1" after a value in its unit; empty without an error bar.
+std::string bar_text(double value) { return std::isfinite(value) ? " ± " + significant(value, 2) : std::string(); }
+
 std::string numbers_text(const Summary& s) {
+  const bool bars = std::isfinite(s.contact.error.p_max);
   std::string out;
   for (const ResultNumber& n : result_numbers()) {
     if (!n.shown) continue;
     const double v = shown_value(n, s);
     if (!std::isfinite(v)) continue;
+    const ResultNumber* error = find_error_bar(n);
+    const std::string bar = error ? bar_text(n.unit.factor * error->value(s)) : "";
     out += fmt::format("  {}{:>10} {}{}\n", padded(std::string(n.label), 18), significant(n.unit.factor * v, n.digits),
-                       padded(std::string(n.unit.shown), 7), n.name);
+                       padded(std::string(n.unit.shown) + bar, bars ? 16 : 7), n.name);
   }
   return out + fmt::format("  {}{:>10}\n", padded("F_x/F_z", 18), fixed(s.contact.F_x / s.contact.F_z, 4));
 }
@@ -61,8 +67,8 @@ std::string signed_mm(double metres) {
 }
 
 std::string maximum_text(const StressMaximum& m) {
-  return fmt::format("{:7.1f} MPa at x {}, y {}, depth {} mm", 1e-6 * m.value, signed_mm(m.x), signed_mm(m.y),
-                     fixed(1e3 * m.depth, 2));
+  return fmt::format("{:7.1f} MPa{} at x {}, y {}, depth {} mm", 1e-6 * m.value, bar_text(1e-6 * m.error),
+                     signed_mm(m.x), signed_mm(m.y), fixed(1e3 * m.depth, 2));
 }
 
 /// Zones that the case has; of the wheel only if one of its layers makes more of them than the surface and below.

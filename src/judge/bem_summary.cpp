@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/rotation.hpp"
+#include "judge/cell_errors.hpp"
 #include "judge/check_limits.hpp"
 #include "judge/plausibility.hpp"
 #include "result/patch.hpp"
@@ -12,7 +13,9 @@
 namespace railstrata {
 namespace {
 
-StressMaximum maximum(const StressPeak& p) { return {p.value, p.x, p.y, p.depth, p.at_rim >= p.value}; }
+StressMaximum maximum(const StressPeak& p) {
+  return {.value = p.value, .x = p.x, .y = p.y, .depth = p.depth, .at_rim = p.at_rim >= p.value};
+}
 StressPair pair(const ZonePeaks& z) { return {maximum(z.von_mises), maximum(z.sigma1)}; }
 
 std::optional<StressPair> largest(const std::vector<const std::vector<ZonePeaks>*>& groups) {
@@ -160,6 +163,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   s.title = spec.title;
   s.position = spec.run.rolling && !spec.run.positions.empty() ? spec.run.positions.back() : 0.0;
   s.contact = patch_numbers(spec, r);
+  s.contact.error = cell_errors(spec, r, s.contact);
   if (!r.further.empty()) {
     for (const BemPatch* p : patches_of(r))
       s.patches.push_back(
@@ -178,11 +182,15 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
 }
 
 StressSummary bem_rail_stress(const BemResult& r, const ContactSummary& contact) {
-  return stress_summary(rail_interior(r).peaks(depths_of_interest(r.rail, contact)));
+  StressSummary out = stress_summary(rail_interior(r).peaks(depths_of_interest(r.rail, contact)));
+  add_stress_errors(r, contact, out);
+  return out;
 }
 
 StressSummary bem_wheel_stress(const BemResult& r, const ContactSummary& contact) {
-  return stress_summary(wheel_interior(r).peaks(depths_of_interest(r.wheel, contact)));
+  StressSummary out = stress_summary(wheel_interior(r).peaks(depths_of_interest(r.wheel, contact)));
+  add_stress_errors(r, contact, out);
+  return out;
 }
 
 Summary bem_summary(const CaseSpec& spec, const BemResult& r) {

@@ -48,6 +48,7 @@ Json round_off_json(const RoundOff& r) {
 }
 
 Json number_json(const ResultNumber& n) {
+  const ResultNumber* error = find_error_bar(n);
   return {{"path", n.path().substr(1)},
           {"name", n.name},
           {"label", n.label},
@@ -59,6 +60,7 @@ Json number_json(const ResultNumber& n) {
           {"engine", n.engine == AvailableIn::both_engines ? Json(nullptr) : Json(engine_word_of(n.engine))},
           {"doc", n.doc},
           {"round_off", round_off_json(n.round_off)},
+          {"error_bar", error ? Json(error->path().substr(1)) : Json(nullptr)},
           {"of_all_patches", n.of_all_patches}};
 }
 

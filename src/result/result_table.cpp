@@ -44,6 +44,8 @@ constexpr RoundOff kOfForce{kNoise, kNormalForce}, kOfMoment{kNoise, kNormalForc
     kOfWork{kNoise, kNormalForce, "/contact/approach_m"};
 constexpr RoundOff kOfCreepage{1e-10}, kOfSpin{1e-8}, kOfAngle{1e-9};
 
+constexpr const char* kErrorEnding = "_error";
+
 /// Marks of a number: where it appears and which engine has it. None: in summary.json, from both engines.
 enum Mark : unsigned { kColumn = 1, kShown = 2, kCompared = 4, kFem = 8, kBem = 16, kOfAll = 32 };
 constexpr unsigned kFile = 0, kMain = kColumn | kShown | kCompared;
@@ -144,6 +146,31 @@ std::vector<ResultNumber> transient_numbers() {
               kShown | kBem, kOfApproach),
           row("friction_work", kJoules, contact<&C::friction_work>, "friction work", "Friction work since the start",
               "Of a transient: heat that friction has made on the way", kColumn | kShown | kBem, kOfWork)};
+}
+
+template <auto Member>
+constexpr auto error_of = &at<&Summary::contact, &C::error, Member>;
+
+/// Each has the symbol of its number with kErrorEnding.
+std::vector<ResultNumber> error_numbers() {
+  using E = ContactErrors;
+  return {
+      row("p_max_error", kMPa, error_of<&E::p_max>, "± p_max", "Error bar of the largest pressure",
+          "Half width: what the size of the cells leaves uncertain, 95 % of cases lie within. Null, as all bars, of "
+          "transients, lines, several patches, a given approach and whole cells at the leading edge",
+          kColumn | kBem),
+      row("q_max_error", kMPa, error_of<&E::q_max>, "± q_max", "Error bar of the largest shear", "Likewise",
+          kColumn | kBem),
+      row("slip_area_fraction_error", kShare, error_of<&E::slip_area_fraction>, "± slip area",
+          "Error bar of the slip area", "Likewise", kColumn | kBem),
+      row("F_x_error", kKilonewtons, error_of<&E::F_x>, "± F_x", "Error bar of F_x",
+          "Likewise; null where the case gives the force", kColumn | kBem),
+      row("F_y_error", kKilonewtons, error_of<&E::F_y>, "± F_y", "Error bar of F_y",
+          "Likewise; null where the case gives the lateral force", kColumn | kBem),
+      row("creepage_x_error", kPerMille, error_of<&E::creepage_x>, "± creepage",
+          "Error bar of the longitudinal creepage", "Likewise; null where the case gives the creepage", kColumn | kBem),
+      row("creepage_y_error", kPerMille, error_of<&E::creepage_y>, "± lateral creepage",
+          "Error bar of the lateral creepage", "Likewise; null where no lateral force is given", kColumn | kBem)};
 }
 
 std::vector<ResultNumber> plastic_numbers() {
@@ -324,7 +351,9 @@ constexpr StressColumn kStressColumns[] = {
     {"rail", "surface", "von_mises_max", "value"},    {"rail", "surface", "sigma1_max", "value"},
     {"rail", "subsurface", "von_mises_max", "value"}, {"rail", "subsurface", "von_mises_max", "depth"},
     {"rail", "layer", "von_mises_max", "value"},      {"rail", "layer", "sigma1_max", "value"},
-    {"rail", "interface", "von_mises_max", "value"},  {"rail", "matrix", "von_mises_max", "value"}};
+    {"rail", "interface", "von_mises_max", "value"},  {"rail", "matrix", "von_mises_max", "value"},
+    {"rail", "subsurface", "von_mises_max", "error"}, {"rail", "layer", "von_mises_max", "error"},
+    {"rail", "interface", "von_mises_max", "error"},  {"rail", "matrix", "von_mises_max", "error"}};
 
 template <class Row>
 const Row& row_of(const std::vector<Row>& rows, std::string_view key) {
@@ -374,6 +403,7 @@ std::string ResultNumber::column_name() const {
   return fmt::format("{}{}{}", prefix, symbol, unit.column_ending);
 }
 
+bool ResultColumn::is_error_bar() const { return symbol().ends_with(kErrorEnding); }
 std::string ResultColumn::symbol() const { return name.substr(0, name.size() - shown_unit.column_ending.size()); }
 std::string ResultColumn::key() const { return symbol() + std::string(shown_unit.key_ending); }
 
@@ -391,7 +421,7 @@ const std::vector<ResultNumber>& result_numbers() {
                   "Of the axle along the rail; half-space: the case's last one, of a transient what it has rolled, "
                   "static cases 0")}});
     add("contact", {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
-                    approach_numbers(), transient_numbers()});
+                    approach_numbers(), transient_numbers(), error_numbers()});
     add("damage", {damage_numbers(), heat_numbers()});
     add(kShakedownGroup, {shakedown_numbers()});
     add(kLayersGroup, {layer_numbers()});
@@ -433,7 +463,9 @@ const std::vector<StressNumber>& stress_numbers() {
       {"value", kMPa, &StressMaximum::value, "Largest value"},
       {"x", kMillimetres, &StressMaximum::x, "Its place from the axle in the rolling direction"},
       {"y", kMillimetres, &StressMaximum::y, "Its place from the rigid contact point towards the field side"},
-      {"depth", kMillimetres, &StressMaximum::depth, "Its depth below the surface along the normal"}};
+      {"depth", kMillimetres, &StressMaximum::depth, "Its depth below the surface along the normal"},
+      {"error", kMPa, &StressMaximum::error,
+       "Its error bar, as that of `p_max`; half-spaces, von Mises stresses below the surface"}};
   return numbers;
 }
 
@@ -452,6 +484,14 @@ std::vector<ResultColumn> table_columns() {
 const ResultNumber* find_number(std::string_view path) {
   const std::vector<ResultNumber>& all = result_numbers();
   const auto found = std::find_if(all.begin(), all.end(), [&](const ResultNumber& n) { return n.path() == path; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+const ResultNumber* find_error_bar(const ResultNumber& number) {
+  const std::vector<ResultNumber>& all = result_numbers();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const ResultNumber& n) {
+    return n.group == number.group && n.symbol == number.symbol + kErrorEnding;
+  });
   return found == all.end() ? nullptr : &*found;
 }
 

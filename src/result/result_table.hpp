@@ -55,6 +55,9 @@ const std::vector<ResultNumber>& result_numbers();
 /// The row of a number by its path; null if there is none.
 const ResultNumber* find_number(std::string_view path);
 
+/// The row of a number's error bar, whose symbol ends with "_error"; null if it has none.
+const ResultNumber* find_error_bar(const ResultNumber& number);
+
 /// Below which size a number is round-off; `number` gives others of the same result by path, NaN where there is none.
 double round_off_size(const RoundOff& row, const std::function<double(std::string_view)>& number);
 
@@ -106,7 +109,8 @@ struct ResultColumn {
   int digits = 4;
 
   std::string symbol() const;  ///< "p_max"
-  std::string key() const;     ///< "p_max_Pa", of numbers in SI
+  bool is_error_bar() const;
+  std::string key() const;  ///< "p_max_Pa", of numbers in SI
 };
 
 /// Every column of the tables in their order: contact, stresses of the rail, then the wall time.

@@ -14,6 +14,15 @@ namespace railstrata {
 
 inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN();
 
+/// Half widths of error bars: what the cells leave uncertain (judge/cell_errors.hpp); NaN: no law applies, or the case
+/// gives the number itself.
+struct ContactErrors {
+  double p_max = kNotApplicable, q_max = kNotApplicable;  ///< Pa
+  double slip_area_fraction = kNotApplicable;
+  double F_x = kNotApplicable, F_y = kNotApplicable;  ///< N
+  double creepage_x = kNotApplicable, creepage_y = kNotApplicable;
+};
+
 struct ContactSummary {
   PatchMeasures patch;  ///< of the field alone
   /// N, on the wheel, model frame: pressure and friction of the whole contact together
@@ -28,6 +37,7 @@ struct ContactSummary {
   double friction_work = kNotApplicable;   ///< J, of a transient since its start
   double spin_moment = kNotApplicable;     ///< N m, on the wheel about the normal at the rigid contact point
   double motion_power = kNotApplicable;    ///< W, of the tractions in the cells' rigid slip; half-spaces
+  ContactErrors error;
 };
 
 /// One of several patches of a wheel.
@@ -49,7 +59,8 @@ inline void turn_into_contact_plane(ContactSummary& c, double angle) {
 /// surface along its normal.
 struct StressMaximum {
   double value = kNotApplicable, x = kNotApplicable, y = kNotApplicable, depth = kNotApplicable;
-  bool at_rim = false;  ///< of what was searched: a larger one may lie beyond
+  double error = kNotApplicable;  ///< Pa, as ContactErrors
+  bool at_rim = false;            ///< of what was searched: a larger one may lie beyond
 };
 struct StressPair {
   StressMaximum von_mises, sigma1;

@@ -22,6 +22,7 @@ void summarise(const CaseSpec& spec, const TransientState& last, HalfSpaceSoluti
   s.position = last.distance;
   s.run.steps = last.step;
   ContactSummary& c = s.contact;
+  c.error = {};  // the laws are those of steady rolling
   c.friction_work = last.friction_work;
   if (spec.transient.kind != TransientKind::shift) return;
   c.creepage_x = c.creepage_y = c.spin_per_m = kNotApplicable;
