@@ -13,9 +13,7 @@
 namespace railstrata {
 namespace {
 
-StressMaximum maximum(const StressPeak& p) {
-  return {.value = p.value, .x = p.x, .y = p.y, .depth = p.depth, .at_rim = p.at_rim >= p.value};
-}
+StressMaximum maximum(const StressPeak& p) { return {p.value, p.x, p.y, p.depth, p.at_rim >= p.value, kNotApplicable}; }
 StressPair pair(const ZonePeaks& z) { return {maximum(z.von_mises), maximum(z.sigma1)}; }
 
 std::optional<StressPair> largest(const std::vector<const std::vector<ZonePeaks>*>& groups) {

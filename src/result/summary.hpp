@@ -59,8 +59,8 @@ inline void turn_into_contact_plane(ContactSummary& c, double angle) {
 /// surface along its normal.
 struct StressMaximum {
   double value = kNotApplicable, x = kNotApplicable, y = kNotApplicable, depth = kNotApplicable;
-  double error = kNotApplicable;  ///< Pa, as ContactErrors
   bool at_rim = false;            ///< of what was searched: a larger one may lie beyond
+  double error = kNotApplicable;  ///< Pa, as ContactErrors
 };
 struct StressPair {
   StressMaximum von_mises, sigma1;

@@ -13,6 +13,11 @@ export function numberText(value: number|null|undefined, digits = 4): string {
   return minus(value.toFixed(Math.min(decimals, 8)));
 }
 
+/// An error bar after its value: " ± 6.1"; empty where there is none.
+export function barText(error: number|null|undefined): string {
+  return typeof error === "number" && Number.isFinite(error) ? ` ± ${numberText(error, 2)}` : "";
+}
+
 /// Two digits and a power of ten: "3.1 × 10⁻⁴".
 export function powerText(value: number|null|undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";

@@ -10,6 +10,7 @@ export interface StressMaximum {
   x_m: number|null;
   y_m: number|null;
   depth_m: number|null;
+  error_Pa?: number|null;
 }
 export type Measure = "von_mises_max"|"sigma1_max";
 export type Zones = Record<string, Record<Measure, StressMaximum|null>|null>;

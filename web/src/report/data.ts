@@ -198,6 +198,7 @@ export interface Quantity {
   digits: number;  // significant ones
   shown: boolean;
   round_off: {share: number; of: string[]}|null;  // below share times the numbers at these paths nothing is a result
+  error_bar?: string|null;                        // path of its bar
   comparable: boolean;  // false: a small remainder, or another thing in the other engine: no difference is shown
 }
 

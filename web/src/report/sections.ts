@@ -1,6 +1,6 @@
 // Verdict, numbers and origin: the parts of the page around the patch and its stresses.
 import {details, element, note, table, tableHead, type Cell} from "../dom";
-import {countText, numberText, percentText} from "../text";
+import {barText, countText, numberText, percentText} from "../text";
 import type {BodyName, Values} from "../types";
 import {numberAt, option, type Check, type CheckWords, type Quantity, type Report, type Run} from "./data";
 import {
@@ -110,6 +110,7 @@ export function verdict(report: Report): HTMLElement {
 
 interface Inside {
   value_Pa: number;
+  error_Pa?: number|null;
   depth_m: number;
   zone: string;
 }
@@ -124,7 +125,7 @@ function largestBelowSurface(run: Run, body: BodyName): Inside|null {
   let best: Inside|null = null;
   for (const {key: zone, name} of zones()) {
     const m = zone === "surface" ? null : run.summary.stress[body]?.[zone]?.von_mises_max;
-    if (m && (!best || m.value_Pa > best.value_Pa)) best = {value_Pa: m.value_Pa, depth_m: m.depth_m ?? 0, zone: name};
+    if (m && (!best || m.value_Pa > best.value_Pa)) best = {...m, depth_m: m.depth_m ?? 0, zone: name};
   }
   return best && best.zone === "below the surface" ? {...best, zone: "largest"} : best;
 }
@@ -138,6 +139,12 @@ function shownAt(run: Run, path: string): number|null {
 function digits(run: Run, path: string, most: number): string {
   const value = shownAt(run, path);
   return numberText(value === null ? null : quantityAt(path).unit.factor * value, most);
+}
+
+/// The error bar of a number, in its quantity's unit.
+function barOf(q: Quantity, run: Run): string {
+  const error = q.error_bar ? numberAt(run, q.error_bar) : null;
+  return barText(error === null ? null : q.unit.factor * error);
 }
 
 /// One number large, and small what is to be said of it.
@@ -169,8 +176,8 @@ function cardOf(
 }
 
 function numberTile(runs: Run[], path: string, most = 4): HTMLElement {
-  const {name, unit} = quantityAt(path);
-  return cardOf(runs, name, unit.shown, (run) => digits(run, path, most));
+  const q = quantityAt(path);
+  return cardOf(runs, q.name, q.unit.shown, (run) => digits(run, path, most) + barOf(q, run));
 }
 
 function patchTile(runs: Run[]): HTMLElement {
@@ -192,7 +199,10 @@ function tractionTile(runs: Run[]): HTMLElement {
 /// Of the body that has layers: the rail, unless only the wheel has one.
 function insideTile(runs: Run[]): HTMLElement {
   const body = layeredBody(runs[0]);
-  const text = (run: Run) => numberText(1e-6 * (largestBelowSurface(run, body)?.value_Pa ?? NaN));
+  const text = (run: Run) => {
+    const inside = largestBelowSurface(run, body);
+    return inside ? numberText(1e-6 * inside.value_Pa) + barText(1e-6 * (inside.error_Pa ?? NaN)) : "–";
+  };
   const about = (run: Run) => {
     const inside = largestBelowSurface(run, body);
     return inside ? `${inside.zone}, ${(1e3 * inside.depth_m).toFixed(2)} mm deep` : "";
@@ -223,7 +233,7 @@ export function tiles(runs: Run[], named: boolean): HTMLElement {
 function numberCell(q: Quantity, run: Run): Cell {
   const value = shownAt(run, q.path);
   const text = numberText(value === null ? null : q.unit.factor * value, q.digits);
-  return {text, attributes: {"data-path": q.path, "data-value": String(numberAt(run, q.path))}};
+  return {text: text + barOf(q, run), attributes: {"data-path": q.path, "data-value": String(numberAt(run, q.path))}};
 }
 
 /// None where the second is zero or round-off.

@@ -4,7 +4,7 @@ import {table, type Cell} from "../dom";
 import {columnEdges, rowEdges} from "../edges";
 import type {Figure} from "../figures";
 import {magnitudeScale, signedScale} from "../scale";
-import {fixedText, numberText, percentText, powerText} from "../text";
+import {barText, fixedText, numberText, percentText, powerText} from "../text";
 import type {BodyName, Span, StressMaximum, Values} from "../types";
 import {rowsOf, unpack, type Columns, type Run, type Section, type StressQuantity} from "./data";
 import {linesFigure, type Series} from "./lines";
@@ -303,7 +303,10 @@ function maximumCells(m: StressMaximum|null|undefined): Cell[] {
   if (!m) return [{text: "–"}, {text: ""}];
   const mm = (v: number|null) => (v === null ? "–" : fixedText(1e3 * v, 2));
   return [
-    {text: numberText(1e-6 * m.value_Pa), attributes: {"data-value": String(m.value_Pa)}},
+    {
+      text: numberText(1e-6 * m.value_Pa) + barText(1e-6 * (m.error_Pa ?? NaN)),
+      attributes: {"data-value": String(m.value_Pa)}
+    },
     {text: `${mm(m.x_m)}, ${mm(m.y_m)}, ${mm(m.depth_m)}`, attributes: {class: "place"}},
   ];
 }
