@@ -177,7 +177,8 @@ function cardOf(
 
 function numberTile(runs: Run[], path: string, most = 4): HTMLElement {
   const q = quantityAt(path);
-  return cardOf(runs, q.name, q.unit.shown, (run) => digits(run, path, most) + barOf(q, run));
+  const about = (run: Run) => barOf(q, run) && `${barOf(q, run)} ${q.unit.shown}`.trim();
+  return cardOf(runs, q.name, q.unit.shown, (run) => digits(run, path, most), about);
 }
 
 function patchTile(runs: Run[]): HTMLElement {
@@ -199,13 +200,12 @@ function tractionTile(runs: Run[]): HTMLElement {
 /// Of the body that has layers: the rail, unless only the wheel has one.
 function insideTile(runs: Run[]): HTMLElement {
   const body = layeredBody(runs[0]);
-  const text = (run: Run) => {
-    const inside = largestBelowSurface(run, body);
-    return inside ? numberText(1e-6 * inside.value_Pa) + barText(1e-6 * (inside.error_Pa ?? NaN)) : "–";
-  };
+  const text = (run: Run) => numberText(1e-6 * (largestBelowSurface(run, body)?.value_Pa ?? NaN));
   const about = (run: Run) => {
     const inside = largestBelowSurface(run, body);
-    return inside ? `${inside.zone}, ${(1e3 * inside.depth_m).toFixed(2)} mm deep` : "";
+    if (!inside) return "";
+    const bar = barText(1e-6 * (inside.error_Pa ?? NaN));
+    return `${bar && `${bar} MPa, `}${inside.zone}, ${(1e3 * inside.depth_m).toFixed(2)} mm deep`.trim();
   };
   const name = `${body === "rail" ? "Rail" : "Wheel"}, von Mises below the surface`;
   return cardOf(runs, name, "MPa", text, about);
@@ -262,8 +262,10 @@ export function numbersTable(runs: Run[]): HTMLElement[] {
     rows.push([q.name, q.unit.shown, ...runs.map((run) => numberCell(q, run)), ...difference]);
   }
   const head = ["quantity", "unit", ...runs.map(runLabel), ...(pair ? ["difference"] : [])];
-  const patches = runs.length > 1 ? patchesNote(runs) : null;
-  return [...(patches ? [note(patches)] : []), table("Contact", head, rows, {class: "numbers", id: "contact-numbers"})];
+  const barred = shownQuantities().some((q) => runs.some((run) => barOf(q, run)));
+  const bars = barred ? "±: error bars of half-spaces, what the size of their cells leaves uncertain." : null;
+  const notes = [runs.length > 1 ? patchesNote(runs) : null, bars].flatMap((text) => (text ? [note(text)] : []));
+  return [...notes, table("Contact", head, rows, {class: "numbers", id: "contact-numbers"})];
 }
 
 // ---- origin
