@@ -119,7 +119,8 @@ def draw(options):
             if found <= done:
                 continue
             fine = solved(options.program, settings, max(cell / 4, FINEST))
-            writer.writerow({"case": "; ".join(settings), "cell_mm": cell, **{c: rounded(fine[c]) for c in columns if fine}})
+            numbers = {c: rounded(fine[c]) for c in columns if fine}
+            writer.writerow({"case": "; ".join(settings), "cell_mm": cell, **numbers})
             file.flush()
 
 

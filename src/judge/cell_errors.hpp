@@ -10,7 +10,7 @@
 //   q_max       as p_max, relative, + 0.37 (h / (s L))^1.4: the front of slip, cells behind it counted
 //   slip area   0.22 h/a sqrt(1 - s) + 0.001
 //   forces      0.08 h/r f F_n
-//   creepages   0.13 h/r (|creepage| + f p_max / (2 G)), 1/G the mean of both bodies' compliances
+//   creepages   0.14 h/r (|creepage| + f p_max / (2 G)), 1/G the mean of both bodies' compliances
 //   von Mises   as p_max, relative, + 0.04 x^3 / (1 + x^2), x = h / depth: cells fade with depth
 #include "bem/solve_bem.hpp"
 #include "case/case_spec.hpp"

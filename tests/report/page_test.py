@@ -23,6 +23,12 @@ def summary_of(folder):
     return json.loads((folder / "summary.json").read_text())
 
 
+def at(summary, path):
+    for key in path.split("/"):
+        summary = summary[key]
+    return summary
+
+
 def number_in(text):
     """The first number of a text, as the page writes numbers."""
     found = re.search(r"(−?\d[\d ]*\.?\d*)(?: × 10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?", text)
@@ -199,12 +205,15 @@ class Run(Page):
         self.assertGreater(len(shown), 20)
         units = {"MPa": 1e6, "mm": 1e-3, "mm²": 1e-6, "%": 1e-2, "kN": 1e3, "10⁻³": 1e-3, "1/m": 1, "µm": 1e-6,
                  "nm": 1e-9, "N m": 1, "N": 1, "K": 1, "": 1}
-        summaries, seen = [summary_of(FEM), summary_of(HALF_SPACE)], {}
+        summaries, seen, barred = [summary_of(FEM), summary_of(HALF_SPACE)], {}, set()
         for path, text, unit in shown:
             run = seen[path] = seen.get(path, -1) + 1
-            value = summaries[run]
-            for key in path.split("/"):
-                value = value[key]
+            value = at(summaries[run], path)
+            text, _, bar = text.partition(" ± ")
+            if bar:
+                error = at(summaries[run], re.sub("(_Pa|_N|)$", r"_error\1", path, count=1))
+                self.assertAlmostEqual(number_in(bar) * units[unit], error, delta=0.06 * error, msg=path)
+                barred.add(path)
             if value is None:
                 self.assertEqual(text, "–", path)
             elif text == "0":  # also for what round-off leaves
@@ -212,6 +221,8 @@ class Run(Page):
                                                          or "force" in path or "moment" in path else 1e-3), path)
             else:
                 self.assertAlmostEqual(number_in(text) * units[unit], value, delta=6e-4 * abs(value), msg=path)
+        self.assertEqual(barred, {"contact/p_max_Pa", "contact/q_max_Pa", "contact/slip_area_fraction", "contact/F_y_N",
+                                  "contact/creepage_x"})
 
     def test_the_maxima_are_those_of_the_summary_with_their_places(self):
         rows = self.js(

@@ -49,8 +49,8 @@ TEST(SummaryJson, KeepsItsKeys) {
   expect_keys(j["stress"], "rail wheel ");
   expect_keys(j["stress"]["wheel"], "surface subsurface layer interface matrix ");
   EXPECT_EQ(j["stress"]["rail"]["surface"].dump(),
-            R"({"von_mises_max":{"value_Pa":1.0,"x_m":2.0,"y_m":3.0,"depth_m":4.0},)"
-            R"("sigma1_max":{"value_Pa":5.0,"x_m":6.0,"y_m":7.0,"depth_m":8.0}})");
+            R"({"von_mises_max":{"value_Pa":1.0,"x_m":2.0,"y_m":3.0,"depth_m":4.0,"error_Pa":null},)"
+            R"("sigma1_max":{"value_Pa":5.0,"x_m":6.0,"y_m":7.0,"depth_m":8.0,"error_Pa":null}})");
   expect_keys(j["energy"], "closure hourglass_share ");
   expect_keys(j["run"],
               "engine wall_s preload_wall_s output_wall_s elements nodes steps dt_s stable_step_s unscaled_step_s "
