@@ -199,6 +199,8 @@ TEST(TransientCase, RollingFromRestArrivesAtTheSteadyAnswerAndSteadyRollingStays
                  on = follow(driven + "[transient]\nkind = \"rolling\"\nstart = \"steady\"\ndistance = \"5 mm\"\n",
                              0.5e-3);
   const TransientRow& end = rest.rows().back();
+  EXPECT_TRUE(steady.error.p_max > 0 && std::isnan(rest.solution.summary.contact.error.p_max))
+      << "error bars are those of steady rolling";
   EXPECT_NEAR(end.creepage_x / steady.creepage_x, 1, 2e-4);
   EXPECT_NEAR(end.lateral_force / steady.lateral_force, 1, 2e-4);
   EXPECT_NEAR(end.q_max / steady.patch.q_max, 1, 1e-3);
