@@ -22,7 +22,7 @@ class Bends {
  private:
   double p(int column, int station) const {
     const bool inside = column >= 0 && column < f_.columns && station >= 0 && station < f_.stations;
-    return inside ? f_.p[static_cast<std::size_t>(column + f_.columns * station)] : 0;
+    return inside ? f_.p[column + f_.columns * station] : 0;
   }
   double at(int column, int station) const {
     const double twice = 2 * p(column, station);
@@ -38,7 +38,7 @@ double pressure_error(const ContactField& f) {
   double highest = 0, most = 0;
   for (int s = 0; s < f.stations; ++s)
     for (int c = 0; c < f.columns; ++c) {
-      const double p = f.p[static_cast<std::size_t>(c + f.columns * s)];
+      const double p = f.p[c + f.columns * s];
       if (!(p > 0)) continue;
       most = std::max(most, p);
       highest = std::max(highest, p + kShare * bends.around(c, s));
