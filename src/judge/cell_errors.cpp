@@ -46,6 +46,12 @@ double pressure_error(const ContactField& f) {
   return highest - most;
 }
 
+/// Friction as the cases behind the laws had it: at most falling with slip, at most an elastic film.
+bool knows_friction(const FrictionSpec& f, const ThirdBodySpec& film) {
+  return f.lateral_table.empty() && !f.lateral_coefficient && f.temperature_table.empty() && f.memory_distance == 0 &&
+         !film.yield_shear && film.modulus_by_pressure == 0 && film.temperature_table.empty();
+}
+
 double shear_compliance(const LayeredHalfSpace& body) { return 1 / body.substrate.shear(); }
 
 }  // namespace
@@ -59,7 +65,7 @@ ContactErrors cell_errors(const CaseSpec& spec, const BemResult& r, const Contac
   if (!has_cell_errors(spec, r)) return out;
   out.p_max = pressure_error(r.field);
   const double friction = spec.drive.friction_coefficient, cell = r.grid.dx, slip = c.patch.slip_area_fraction;
-  if (!(friction > 0)) return out;
+  if (!(friction > 0) || !knows_friction(spec.friction, spec.third_body)) return out;
   if (slip > 0)
     out.q_max = c.patch.q_max * (out.p_max / c.patch.p_max + 0.37 * std::pow(cell / (slip * c.patch.length), 1.4));
   out.slip_area_fraction = 0.22 * cell / (0.5 * shorter_axis(c.patch)) * std::sqrt(std::max(0.0, 1 - slip)) + 1e-3;

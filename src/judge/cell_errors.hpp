@@ -22,6 +22,7 @@ namespace railstrata {
 /// cell. Of a transient the caller has to know.
 bool has_cell_errors(const CaseSpec& spec, const BemResult& result);
 
+/// With friction by place, direction, temperature or memory, or a film that yields, of p_max alone.
 ContactErrors cell_errors(const CaseSpec& spec, const BemResult& result, const ContactSummary& contact);
 
 /// Of the von Mises stresses below the surface, by the bar of p_max; of none where that is NaN.

@@ -92,6 +92,12 @@ TEST(CellErrors, AreOfWhatTheCaseDoesNotGive) {
   const ContactErrors of_forces = contact_of("drive.lateral_traction_coefficient=0.05").error,
                       of_creepages = contact_of("drive.creepage=-0.001").error,
                       frictionless = contact_of("drive.friction_coefficient=0; drive.traction_coefficient=0").error;
+  for (const char* other :
+       {"friction.lateral_coefficient=0.3",
+        "third_body.thickness=0.02 mm; third_body.shear_modulus=5 GPa; third_body.yield_shear=0.3 GPa"}) {
+    const ContactErrors of_p_alone = contact_of(other).error;
+    EXPECT_TRUE(of_p_alone.p_max > 0 && std::isnan(of_p_alone.q_max) && std::isnan(of_p_alone.creepage_x)) << other;
+  }
   EXPECT_TRUE(std::isnan(of_forces.F_x) && std::isnan(of_forces.F_y));
   EXPECT_TRUE(of_forces.creepage_x > 0 && of_forces.creepage_y > 0);
   EXPECT_TRUE(of_creepages.F_x > 0 && of_creepages.F_y > 0);
