@@ -21,8 +21,8 @@ class Refusal(FromOutside):
 class InTheCase(Refusal):
     def test_an_unknown_key(self):
         self.answers('[drive]\nsped = "20 m/s"\n', "FOLDER/case.toml:2:1: error: unknown key drive.sped",
-                     "did you mean speed? keys of [drive]: speed, traction_coefficient, tractive_force, "
-                     "friction_coefficient, torque_ramp, creepage_start, creepage, lateral_force, "
+                     "did you mean speed? keys of [drive]: speed, rail_rotation, traction_coefficient, tractive_force, "
+                     "friction_coefficient, torque_ramp, creepage_start, creepage, wheel_rotation, lateral_force, "
                      "lateral_traction_coefficient, lateral_creepage, spin")
 
     def test_a_wrong_unit(self):
