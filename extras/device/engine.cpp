@@ -76,6 +76,7 @@ std::string describe(Fault fault) {
 
 std::string not_on_a_device(const RollingSystem& system, bool local_steps) {
   if (local_steps) return "local time steps";
+  if (system.on_ring()) return "rail that is a ring";
   for (const Body& b : system.bodies)
     if (!b.plastic.empty()) return "materials that yield";
   return {};

@@ -25,10 +25,7 @@ void refuse_on_ring(const CaseSpec& spec, std::vector<BeyondEngine>& out) {
          "give rail_shape = \"block\": a disc as wide as its profile, block_height thick down to its bore");
   refuse(g.cant != 0, "geometry.cant", "the ring's axle is parallel to the wheel's",
          "give cant = 0.0, or solve the case with `railstrata bem`");
-  refuse(g.yaw != 0, "geometry.yaw", "the wheel's search follows a straight rail", kWithHalfSpaces);
   refuse(spec.run.plasticity, "run.plasticity", "elements of a ring that turns stay elastic", "take it out");
-  refuse(spec.run.device == ComputeDevice::gpu, "run.device", "its kernels know a straight rail",
-         "give device = \"cpu\"");
   refuse(spec.run.time_step_method == TimeStepMethod::local, "run.time_step_method", "inner steps know a straight rail",
          "give time_step_method = \"auto\"");
 }

@@ -45,8 +45,10 @@ MortarContact::MortarContact(ContactSurface rail, ContactSurface wheel)
 // The ring is met as the wheel is, about its own axle.
 Vec3 MortarContact::rail_point(const Field& u, int c, int j, double wy, double wx) const {
   if (rail_.rises)
-    return wheel_point(rail_, rail_sin_, rail_cos_, SurfaceField{u, rail_}, {0, 0, 0, rail_psi_}, rail_turned_,
-                       Hit{.column = c, .station = j, .weight_y = wy, .weight_t = wx, .offset = {}, .inside = true});
+    return in_wheel_axes(
+        wheel_,
+        wheel_point(rail_, rail_sin_, rail_cos_, SurfaceField{u, rail_}, {0, 0, 0, rail_psi_}, rail_turned_,
+                    Hit{.column = c, .station = j, .weight_y = wy, .weight_t = wx, .offset = {}, .inside = true}));
   return in_wheel_axes(wheel_, mortar_law::rail_point(rail_, SurfaceField{u, rail_}, c, j, wy, wx));
 }
 

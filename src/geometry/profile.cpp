@@ -88,6 +88,16 @@ Profile Profile::from_points(ProfileKind kind, std::string name, const std::vect
   return out;
 }
 
+Profile Profile::upturned() const {
+  Profile out = *this;
+  out.kind_ = kind_ == ProfileKind::rail ? ProfileKind::wheel : ProfileKind::rail;
+  for (ProfileSegment& g : out.segments_)
+    for (Vec2* p : {&g.p0, &g.p1, &g.centre}) p->z = -p->z;
+  for (std::vector<Vec2>* values : {&out.p_, &out.d2_})
+    for (Vec2& v : *values) v.z = -v.z;
+  return out;
+}
+
 double Profile::s_min() const { return s_.front(); }
 double Profile::s_max() const { return s_.back(); }
 

@@ -44,6 +44,9 @@ class Profile {
   /// times the length of their chords, or that misses neighbours by more than they lie apart.
   static Profile from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points);
 
+  /// The same curve upside down, z reversed: a rail's as that of a wheel, with the material above it, and back.
+  Profile upturned() const;
+
   ProfileKind kind() const { return kind_; }
   const std::string& name() const { return name_; }
   double s_min() const;

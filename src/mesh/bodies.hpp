@@ -47,8 +47,7 @@ SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const Ra
 
 /// Rail that is a disc, its axle parallel to y at the depth `radius` below the origin, as wide as its profile;
 /// block_height is the thickness of the ring, down to the bore. It is a wheel that stands on its head: revolved about
-/// the axle, station angles pi - x/radius. Takes profiles that are a plane or one arc, and rails without a cant. Throws
-/// CaseError if the way is longer than a turn.
+/// the axle, station angles pi - x/radius. Rails without a cant. Throws CaseError if the way is longer than a turn.
 SweptBody mesh_ring_rail(const Profile& profile, double radius, const RailMeshSpec& spec, const MeshSizes& sizes);
 
 /// Wheel: full ring of rim, web and hub (or a disc: rim of constant inner radius down to the bore) revolved about the

@@ -1,12 +1,8 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/faults.hpp"
-#include "geometry/profile_names.hpp"
 #include "mesh/bodies.hpp"
 
 namespace railstrata {
@@ -14,11 +10,7 @@ namespace {
 
 constexpr double kRimOfRing = 0.6;  // what is meshed like a wheel's rim; below it the coarser stations of a plate
 
-void check_ring(const Profile& profile, double radius, const RailMeshSpec& spec) {
-  if (!profile.primitive())
-    throw CaseError(
-        fmt::format("finite elements mesh a ring of an arc or a plane, not of the profile '{}'", profile.name()),
-        "give geometry.rail_profile as arc:R=300 mm or flat, or solve the case with `railstrata bem`");
+void check_ring(double radius, const RailMeshSpec& spec) {
   if (spec.block_height >= radius)
     throw CaseError(fmt::format("a ring of {:g} mm around its axle has no room for {:g} mm of material", 1e3 * radius,
                                 1e3 * spec.block_height),
@@ -33,10 +25,7 @@ void check_ring(const Profile& profile, double radius, const RailMeshSpec& spec)
 }  // namespace
 
 SweptBody mesh_ring_rail(const Profile& profile, double radius, const RailMeshSpec& spec, const MeshSizes& sizes) {
-  check_ring(profile, radius, spec);
-  const double curvature = profile.at(0).curvature;
-  const Profile upturned = circular_profile(
-      ProfileKind::wheel, curvature == 0 ? std::numeric_limits<double>::infinity() : 1 / curvature, profile.y_max());
+  check_ring(radius, spec);
   WheelMeshSpec ring;
   ring.shape = WheelShape::disc;
   ring.contact_s = spec.contact_s;
@@ -45,7 +34,7 @@ SweptBody mesh_ring_rail(const Profile& profile, double radius, const RailMeshSp
   ring.section.rim_thickness = kRimOfRing * spec.block_height;
   ring.section.bore_radius = radius - spec.block_height;
   ring.layers = spec.layers;
-  SweptBody body = mesh_wheel(upturned, radius, {0, 0, -radius}, ring, sizes);
+  SweptBody body = mesh_wheel(profile.upturned(), radius, {0, 0, -radius}, ring, sizes);
   body.name = "rail";
   body.contact_at = std::numbers::pi;
   return body;

@@ -49,6 +49,7 @@ RunEstimate estimate_run(const Model& model) {
   e.memory_bytes = peak_memory() + preload_memory(system);
   if (e.steps == 0) return e;
   e.card = device::device_need(system, plan);
+  if (system.on_ring()) return e;
   for (int ranks : {2, 4}) {
     const RankNeed need = rank_need(model, ranks);
     if (need.ranks < ranks) break;

@@ -786,8 +786,8 @@ TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
   const LoadedCase film = parse_case("[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"100 MPa\"\n", "a.toml");
   EXPECT_TRUE(film.not_in_fem.empty());
   const LoadedCase ring =
-      parse_case("[geometry]\nrail_radius = \"300 mm\"\nyaw = 0.01\n[run]\nplasticity = true\n", "a.toml");
-  ASSERT_EQ(ring.not_in_fem.size(), 4u);  // rail_shape and cant are defaults, and count
+      parse_case("[geometry]\nrail_radius = \"300 mm\"\ncant = 0.01\n[run]\nplasticity = true\n", "a.toml");
+  ASSERT_EQ(ring.not_in_fem.size(), 3u);  // rail_shape and cant are defaults, and count
   EXPECT_EQ(ring.not_in_fem[2].where, "a.toml:3:7");
   EXPECT_TRUE(ring.not_in_fem[0].message.starts_with("geometry.rail_shape with geometry.rail_radius is not in this"));
   EXPECT_EQ(parse_case("[geometry]\nrail_radius = \"-600 mm\"\nrail_shape = \"block\"\ncant = 0.0\n", "a.toml")

@@ -321,5 +321,24 @@ TEST(ProfileFromPoints, defects_are_named) {
   EXPECT_NE(arc_points_error(points).find("does not cover y = 0"), std::string::npos);
 }
 
+// Of segments and of points: heights and normals change their sign, arc lengths, kinks' knots and curvatures stay.
+TEST(Profile, UpturnedIsTheSameCurveAsOfTheOtherBody) {
+  std::vector<Vec2> points;
+  for (double y = -20e-3; y < 20.1e-3; y += 1e-3) points.push_back({y, -y * y / 0.4});
+  for (const Profile& p :
+       {builtin_profile(ProfileKind::rail, "CN60"), Profile::from_points(ProfileKind::rail, "points", points)}) {
+    const Profile up = p.upturned();
+    EXPECT_EQ(up.kind(), ProfileKind::wheel);
+    for (double s = p.s_min(); s < p.s_max(); s += 0.37e-3) {
+      const ProfilePoint a = p.at(s), b = up.at(s);
+      EXPECT_EQ(b.position.y, a.position.y);
+      EXPECT_EQ(b.position.z, -a.position.z);
+      EXPECT_NEAR(b.outward.y, a.outward.y, 1e-15);
+      EXPECT_NEAR(b.outward.z, -a.outward.z, 1e-15);
+      EXPECT_NEAR(b.curvature, a.curvature, 1e-9 * std::abs(a.curvature));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace railstrata

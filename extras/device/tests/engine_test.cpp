@@ -196,6 +196,9 @@ TEST(SlowEngine, TakesAnInitialStress) {
 TEST(Engine, WhatItCannotTakeIsSaid) {
   EXPECT_EQ(not_on_a_device(small_system(small_case()), false), "");
   EXPECT_EQ(not_on_a_device(small_system(small_case()), true), "local time steps");
+  CaseSpec ring = small_case();
+  ring.geometry.rail_radius = 0.43;
+  EXPECT_EQ(not_on_a_device(small_system(ring), false), "rail that is a ring");
   EmulatedDevice device;
   const RollingSystem system = small_system(thinly_layered(small_case(), TimeStepMethod::local));
   Stepper stepper(system, solve_preload(system, 1e-2));
