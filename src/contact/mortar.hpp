@@ -13,7 +13,8 @@
 // knock.
 //
 // A yawed wheel is met in its own axes: rail points, normals and the axle's travel are turned back about the vertical
-// through the axle's start, and all that follows is that of a straight wheel.
+// through the axle's start, and all that follows is that of a straight wheel. A rail that is a ring has its points and
+// normals on circles about its own axle, as the wheel has.
 //
 // Search: both surfaces are sweeps, so the wheel's facet under a rail point follows from the wheel's angle; a small
 // tangential correction is carried from step to step.

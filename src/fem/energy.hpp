@@ -11,7 +11,7 @@ struct EnergyBalance {
   double weight = 0;  ///< potential of gravity, and of what holds the rail's ends
   double spring = 0;  ///< suspension springs, with their static force
   double torque_work = 0;
-  double guide_work = 0;      ///< of the forces on the axle that keep or push it sideways, or keep its speed
+  double guide_work = 0;      ///< of what keeps or pushes the axle sideways, keeps its speed, or turns a ring
   double friction = 0;        ///< dissipated by sliding
   double contact_normal = 0;  ///< lost in the normal direction of the contact
   double damping = 0;         ///< run-up damping

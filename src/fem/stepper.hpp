@@ -8,7 +8,8 @@
 //   x(n) = V t e_x + R(n) (X + d(n)),   w(n+1/2) = (D d(n+1) - d(n))/dt
 //   w(n+1/2) = D^T w(n-1/2) + dt (R^T a + 2 (1 - cos omega dt)/dt^2 P X),   d(n+1) = D^T (d(n) + dt w(n+1/2))
 // (P: projector normal to the axle). It is the same scheme exactly, and d stays as small as the deformation and the
-// drift from uniform rolling: no digits are lost to the rigid motion, not even by elements in single precision.
+// drift from uniform rolling: no digits are lost to the rigid motion, not even by elements in single precision. A rail
+// that is a ring is followed likewise about its own axle, with the spin -V/R; both frames then travel nowhere.
 //
 // Nodes whose forces come from their elements alone are updated as soon as a tile has finished their forces, while
 // everything is in cache, those between chains when all have run; running surface and tied lines follow the contact.
