@@ -15,6 +15,8 @@ from __future__ import annotations
 
 from . import _bridge, damage
 from .case import Case, _thread_count, schema, shipped_data
+from .contact import Contact, ContactForces
+from .creep_table import CreepTable, open_table
 from .errors import CaseError, CheckWarning, Diagnostic, MachineError, NumericalError
 from .law import DrivenPath, MaterialFit, calibrate, material
 from .patch import Patch, PatchState
@@ -33,8 +35,8 @@ def threads(count: int = 0) -> int:
 
 
 __all__ = [
-    "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Diagnostic", "DrivenPath", "FolderResult",
-    "MachineError", "MaterialFit", "NumericalError", "PassesResult", "Patch", "PatchState", "Peak", "Peaks", "Result",
-    "Table", "bem", "calibrate", "damage", "material", "open", "passes", "resume", "run", "schema", "shakedown",
-    "shipped_data", "sweep", "threads", "von_mises",
+    "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Contact", "ContactForces", "CreepTable",
+    "Diagnostic", "DrivenPath", "FolderResult", "MachineError", "MaterialFit", "NumericalError", "PassesResult",
+    "Patch", "PatchState", "Peak", "Peaks", "Result", "Table", "bem", "calibrate", "damage", "material", "open",
+    "open_table", "passes", "resume", "run", "schema", "shakedown", "shipped_data", "sweep", "threads", "von_mises",
 ]

@@ -64,20 +64,46 @@ class Answer:
     """What a call has found, by name. Given to a later call it stands for what the call has made."""
 
     def __init__(self, memory: _Memory, text: bytes) -> None:
-        self._memory = memory
+        self._memory: Optional[_Memory] = memory
 
         def seen(entry: dict) -> Any:
             return np.asarray(_View(memory, entry)) if "__array__" in entry else entry
 
-        self._found: dict = json.loads(text, object_hook=seen)
+        self._found: dict[str, Any] = json.loads(text, object_hook=seen)
 
     @property
     def address(self) -> int:
         """Of the call."""
+        if self._memory is None:
+            raise RuntimeError("a result that was pickled has its numbers and arrays alone: solve the case again for "
+                               "stresses inside the bodies and for a folder")
         return self._memory.address
+
+    def __reduce__(self) -> Any:
+        """Pickled by its numbers and arrays; what the call has made stays behind."""
+        return _unpickled, (self._found,)
+
+    def __deepcopy__(self, memo: Any) -> "Answer":
+        """Nobody changes it."""
+        return self
 
     def __getitem__(self, name: str) -> Any:
         return self._found[name]
+
+
+def _unpickled(found: dict[str, Any]) -> Answer:
+    answer = Answer.__new__(Answer)
+    answer._memory, answer._found = None, found
+    _read_only(found)
+    return answer
+
+
+def _read_only(found: Any) -> None:
+    if isinstance(found, np.ndarray):
+        found.setflags(write=False)
+    elif isinstance(found, (list, dict)):
+        for one in found.values() if isinstance(found, dict) else found:
+            _read_only(one)
 
 
 def _plain(value: Any) -> Any:

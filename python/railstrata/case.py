@@ -1,19 +1,21 @@
 """Cases: the contents of a case file."""
 from __future__ import annotations
 
-import json
+import math
 import operator
 import os
 from pathlib import Path
-from typing import Any, Mapping, Optional, Union
+from typing import Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bridge
 from .errors import CaseError, Diagnostic
 
-Value = Union[str, int, float, bool, list]
+Value = Union[str, int, float, bool, "os.PathLike[str]", Sequence[Any], Mapping[str, Any]]
 Length = Union[float, str]
+PathLike = Union[str, "os.PathLike[str]"]
+AnyCase = Union["Case", str, "os.PathLike[str]"]
 
 
 def shipped_data() -> Optional[Path]:
@@ -28,7 +30,7 @@ def shipped_data() -> Optional[Path]:
     return None
 
 
-def _file_of(path: Union[str, os.PathLike]) -> Path:
+def _file_of(path: PathLike) -> Path:
     if not isinstance(path, (str, os.PathLike)) or isinstance(os.fspath(path), bytes):
         raise TypeError(f"a path is wanted, as text or pathlib.Path, not {path!r:.60}")
     if not os.fspath(path):
@@ -44,26 +46,32 @@ def _file_of(path: Union[str, os.PathLike]) -> Path:
     return wanted
 
 
-def _text_of(value: Value, key: str) -> str:
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(json.dumps(v) if isinstance(v, str) else _text_of(v, key) for v in value) + "]"
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value)) if isinstance(value, float) else str(value)
-    if isinstance(value, (str, int, np.integer)):
-        return str(value)
+def _value_of(value: Any, key: str) -> Any:
+    """A value as the library reads it; it writes the SI unit of the key after a number."""
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    remedy = "leave the key out for its default" if value is None else "give a text with a unit, a number, or a list"
+    if isinstance(value, (list, tuple)):
+        return [_value_of(one, key) for one in value]
+    if isinstance(value, dict):
+        return {name: _value_of(one, f"{key}.{name}") for name, one in value.items()}
+    if isinstance(value, np.floating):
+        value = float(str(value))  # 0.1 of single precision is meant as 0.1
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{key}: a finite number is wanted, not {value}")
+    if isinstance(value, (str, bool, int, float, np.bool_, np.integer)):
+        return value
+    remedy = "leave the key out for its default" if value is None else "give a number in SI, a text with a unit, a list"
     raise TypeError(f"{key}: {type(value).__name__} is no value of a case: {remedy}")
 
 
-def _overrides(changes: Optional[Mapping[str, Value]]) -> list[str]:
+def _overrides(changes: Optional[Mapping[str, Value]]) -> list[Any]:
     if changes is not None and not hasattr(changes, "items"):
         raise TypeError(f'changes: a dict of keys and values is wanted, {{"layer.0.thickness": "2 mm"}}, '
                         f"not {type(changes).__name__}")
-    return [f"{key}={_text_of(value, key)}" for key, value in (changes or {}).items()]
+    for key in changes or {}:
+        if not isinstance(key, str) or not key or "=" in key:
+            raise TypeError(f'changes: {key!r:.60} is no key; keys are texts, "layer.0.thickness"')
+    return [[key, _value_of(value, key)] for key, value in (changes or {}).items()]
 
 
 def _metres(value: Length, what: str) -> float:
@@ -92,7 +100,7 @@ def _thread_count(value: int) -> int:
     return count
 
 
-def _case_of(given: Union["Case", str, os.PathLike]) -> "Case":
+def _case_of(given: AnyCase) -> "Case":
     """A case as it is, or that of a path."""
     if isinstance(given, Case):
         return given
@@ -107,11 +115,11 @@ class Case:
         rs.Case("cases/paper/base.toml", {"layer.0.thickness": "2 mm", "layer.0.young_ratio": 2})
 
     path: a case file, a folder with a case.toml, or the name of a shipped case ("cases/quick"). changes: keys and
-    values as `railstrata ... --set` takes them, with units in quotes; numbers for what has no unit. Raises CaseError
-    with every fault of the file at once.
+    values; a number is SI ({"vehicle.wheel_load": 80e3} is 80 kN), a text has a unit ("80 kN"), also inside lists.
+    Cases with the same resolved options are equal. Raises CaseError with every fault of the file at once.
     """
 
-    def __init__(self, path: Union[str, os.PathLike], changes: Optional[Mapping[str, Value]] = None) -> None:
+    def __init__(self, path: PathLike, changes: Optional[Mapping[str, Value]] = None) -> None:
         self._loaded = _bridge.call("load_case", file=str(_file_of(path)), overrides=_overrides(changes))
 
     @classmethod
@@ -163,7 +171,14 @@ class Case:
                 raise KeyError(f"{key}: the case has no such key; rs.schema() lists all of them") from None
         return value
 
-    def __reduce__(self) -> tuple:
+    def __eq__(self, other: object) -> bool:
+        """Whether every option is the same; profile files by their paths."""
+        return self.toml == other.toml if isinstance(other, Case) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.toml)
+
+    def __reduce__(self) -> Any:
         """Pickled by its text: other processes (multiprocessing "spawn") and copies read the same case again."""
         return _parsed, (self._loaded["source"], self._loaded["file"], self._loaded["overrides"])
 
@@ -171,13 +186,13 @@ class Case:
         return f"railstrata.Case({self.file!r}: {self.title})"
 
 
-def _parsed(source: str, file: str, overrides: list[str]) -> Case:
+def _parsed(source: str, file: str, overrides: list[Any]) -> Case:
     case = Case.__new__(Case)
     case._loaded = _bridge.call("parse_case", text=source, name=file, overrides=overrides)
     return case
 
 
-def schema() -> dict:
+def schema() -> dict[str, Any]:
     """Every key of a case file with its unit, range and meaning, as a JSON schema."""
     return _bridge.call("schema")["schema"]
 

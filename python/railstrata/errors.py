@@ -2,16 +2,33 @@
 from __future__ import annotations
 
 import builtins
+import re
 from dataclasses import dataclass
+
+_SET = re.compile(r"""--set (?P<key>[\w.-]+)=(?P<value>"[^"\n]*"|'[^'\n]*'|(?:(?! or --set |: |\n).)*)""")
+_WORDS = (
+    ("write --set table.key=value, e.g. ", "write "), ("choose another with --out", "choose another folder"),
+    ("choose another folder with --out", "choose another folder"), ("with --force", "with force=True"),
+    ("what --set gives", "what the changes give"), ("the --set", "the changes"), ("the --cell", "the cell"),
+    ("the --roll-length", "the roll_length"), ("with --engine fem", 'with engine="fem"'),
+    ("set one of the two bits", "give one of the two"), ("rs_state.given has both", "a state has one of"),
+    ("rs_state gives", "the state gives"), ("rs_state.", ""), ("call rs_solve first", "call solve first"),
+)
+
+
+def _change(found: re.Match[str]) -> str:
+    """An override as the dict that it came from."""
+    value = found["value"].strip("\"'")
+    plain = re.fullmatch(r"[-+\d.eE]+|true|false|\[.*|\{.*", value)
+    return f'{{"{found["key"]}": ' + (f"{value}}}" if plain else f'"{value}"}}')
 
 
 def _in_python(text: str) -> str:
-    """Remedies that name options of the program, in the words of this package."""
-    for option, argument in (("choose another with --out", "choose another folder"),
-                             ("choose another folder with --out", "choose another folder"),
-                             ("with --force", "with force=True")):
+    """Messages that name options of the program, or members of the C interface, in the words of this package."""
+    for option, argument in _WORDS:
         text = text.replace(option, argument)
-    return text
+    text = re.sub(r"\bRS_(LOAD|APPROACH|CREEPAGE_[XY]|FORCE_[XY])\b", lambda bit: bit[1].lower(), text)
+    return _SET.sub(_change, text)
 
 
 @dataclass(frozen=True)
@@ -31,7 +48,7 @@ class CaseError(ValueError):
 
     def __init__(self, text: str, diagnostics: list[Diagnostic] | None = None) -> None:
         super().__init__(_in_python(text))
-        self.diagnostics = [Diagnostic(d.message, _in_python(d.remedy), d.where)
+        self.diagnostics = [Diagnostic(_in_python(d.message), _in_python(d.remedy), _in_python(d.where))
                             for d in diagnostics or [Diagnostic(text)]]
 
 
@@ -47,7 +64,7 @@ class MachineError(OSError):
         super().__init__(f"{text}\n    remedy: {self.remedy}" if remedy else text)
 
 
-def raised(kind: str, text: str, remedy: str, diagnostics: list) -> BaseException:
+def raised(kind: str, text: str, remedy: str, diagnostics: list[list[str]]) -> BaseException:
     """The exception of a fault that the library reports: one of these classes, or one of Python's own by its name."""
     if kind == "CaseError":
         return CaseError(text, [Diagnostic(*one) for one in diagnostics])
@@ -55,7 +72,8 @@ def raised(kind: str, text: str, remedy: str, diagnostics: list) -> BaseExceptio
         return MachineError(text, remedy)
     if kind == "NumericalError":
         return NumericalError(text)
-    return getattr(builtins, kind)(text)
+    made: BaseException = getattr(builtins, kind)(text)
+    return made
 
 
 class CheckWarning(UserWarning):

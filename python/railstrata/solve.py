@@ -10,13 +10,12 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _bridge
-from .case import Case, Length, Value, _case_of, _metres, _text_of, _thread_count
+from .case import AnyCase, Length, PathLike, Value, _case_of, _metres, _thread_count, _value_of
 from .errors import CheckWarning
 from .results import BemResult, FolderResult, open_result
 from .table import Table
 
 Progress = Union[bool, Callable[..., None]]
-AnyCase = Union[Case, str, os.PathLike]
 
 
 class _Bar:
@@ -95,7 +94,7 @@ def shakedown(case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0) -> Bem
 
 
 def run(
-    case: AnyCase, folder: Union[str, os.PathLike], *, force: bool = False, checkpoint_every: float = 600.0,
+    case: AnyCase, folder: PathLike, *, force: bool = False, checkpoint_every: float = 600.0,
     max_time: float = 0.0, progress: Progress = False,
 ) -> FolderResult:
     """Runs a case by finite elements into a result folder, as `railstrata run` does; minutes to hours.
@@ -112,7 +111,7 @@ def run(
 
 
 def resume(
-    folder: Union[str, os.PathLike], *, checkpoint_every: float = 600.0, max_time: float = 0.0,
+    folder: PathLike, *, checkpoint_every: float = 600.0, max_time: float = 0.0,
     progress: Progress = False,
 ) -> FolderResult:
     """Goes on with an interrupted run of a folder, to the bits of a run in one go."""
@@ -121,7 +120,7 @@ def resume(
     )
 
 
-def _finish(where: Union[str, os.PathLike], progress: Progress, function: str, **arguments: Any) -> FolderResult:
+def _finish(where: PathLike, progress: Progress, function: str, **arguments: Any) -> FolderResult:
     follow = _callback(progress, "rolling", True)
     try:
         done = _bridge.work(function, follow, **arguments)
@@ -150,14 +149,16 @@ def sweep(
     """Half-space solutions of every combination of values, side by side on all threads (`railstrata sweep`).
 
     varied: keys of the case and their values, {"layer.0.thickness": ["1 mm", "3 mm"]}; the last key changes fastest.
-    A text or a number alone is one value, or a range like "0.5:3 mm:6"; words and ranges are those of
-    `railstrata sweep`. A case that cannot be solved has a "fault" (a column); CaseError: a key without values, or
-    all cases refused.
+    Numbers are SI. A text or a number alone is one value, or a range like "0.5:3 mm:6"; words and ranges are those of
+    `railstrata sweep`. A case that cannot be solved has a "fault" (a column). ValueError: no key; CaseError: a key
+    without values, or all cases refused.
     """
     if not hasattr(varied, "items"):
         raise TypeError('varied: a dict of keys and their values is wanted, {"layer.0.thickness": ["1 mm", "3 mm"]}')
+    if not varied:
+        raise ValueError('varied: no key is given; {"layer.0.thickness": ["1 mm", "3 mm"]}, or rs.bem for one solution')
     case = _case_of(case)
-    keys = [(key, [_text_of(v, key) for v in _listed(values)]) for key, values in varied.items()]
+    keys = [(key, [_value_of(v, key) for v in _listed(values)]) for key, values in varied.items()]
     swept = _bridge.work(
         "sweep", _callback(progress, "sweep", False), case=case._loaded, varied=keys, cell=_metres(cell, "cell"),
         stresses=bool(stresses),
@@ -165,6 +166,5 @@ def sweep(
     rows = swept["rows"]
     for note in dict.fromkeys(note for row in rows for note in row["static_notes"]):
         warnings.warn(note, CheckWarning, stacklevel=2)
-    return Table([key for key, _ in keys], swept["columns"], [
-        (row["values"], row["summary"], row["fault"]) for row in rows
-    ])
+    axes = [(key, unit, count) for (key, _), (unit, count) in zip(keys, swept["axes"])]
+    return Table(axes, swept["columns"], [(row["values"], row["summary"], row["fault"]) for row in rows])

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import html
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Any, Iterator, Optional
 
 import numpy as np
 
@@ -10,9 +10,10 @@ from .patch import needs
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
 
 
-def _at(summary: Optional[dict], path: str) -> Any:
+def _at(summary: Optional[dict[str, Any]], path: str) -> Any:
     value: Any = summary
     for part in path.strip("/").split("/"):
         if isinstance(value, dict):
@@ -24,17 +25,30 @@ def _at(summary: Optional[dict], path: str) -> Any:
     return value
 
 
+def _column(values: list[Any]) -> Any:
+    """Numbers as an array, NaN where a text has none; texts and lists as they are."""
+    if all(isinstance(v, bool) for v in values) or all(type(v) is int for v in values):
+        return np.array(values)
+    if all(v is None or (isinstance(v, (int, float)) and not isinstance(v, bool)) for v in values):
+        return np.array([float("nan") if v is None else v for v in values], float)
+    return values
+
+
 class Table:
     """Rows of a sweep: the varied keys, then the main numbers with the unit in their names, then "fault".
 
-    table["p_max_MPa"] is a column as an array; len(table) the number of cases; `summaries` what each case's
-    summary.json would hold (None where it could not be solved).
+    table["p_max_MPa"] is a column as an array; len(table) the number of cases; iteration gives a dict a case;
+    `summaries` what each case's summary.json would hold (None where it could not be solved). Columns of keys hold
+    numbers in SI, also where texts with units were given; `units` has their units ("" of a plain number).
     """
 
-    def __init__(self, keys: list[str], columns: list, rows: list) -> None:
-        self.keys = keys
-        self.summaries = [summary for _, summary, _ in rows]
-        self._columns: dict[str, Any] = {key: [values[k] for values, _, _ in rows] for k, key in enumerate(keys)}
+    def __init__(self, axes: list[tuple[str, str, int]], columns: list[Any], rows: list[Any]) -> None:
+        self.keys = [key for key, _, _ in axes]
+        self.units = {key: unit for key, unit, _ in axes}
+        self._shape = tuple(count for _, _, count in axes)
+        self.summaries: list[Optional[dict[str, Any]]] = [summary for _, summary, _ in rows]
+        self._columns: dict[str, Any] = {
+            key: _column([values[k] for values, _, _ in rows]) for k, key in enumerate(self.keys)}
         for name, path, factor in columns:
             found = [_at(summary, path) for summary in self.summaries]
             self._columns[name] = np.array([float("nan") if v is None else v * factor for v in found], float)
@@ -46,14 +60,40 @@ class Table:
         return list(self._columns)
 
     def __getitem__(self, name: str) -> Any:
+        """A column; KeyError names those that are there."""
+        if name not in self._columns:
+            raise KeyError(f"{name!r} is no column: {', '.join(self._columns)}")
         return self._columns[name]
+
+    def __contains__(self, name: object) -> bool:
+        """Whether there is a column of this name."""
+        return name in self._columns
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        """The cases, each a dict of the columns."""
+        return ({name: column[k] for name, column in self._columns.items()} for k in range(len(self)))
 
     def __len__(self) -> int:
         return len(self.summaries)
 
     def to_dataframe(self) -> "pandas.DataFrame":
-        """The table in pandas."""
-        return needs("pandas", "python3-pandas").DataFrame(self._columns)
+        """The table in pandas, a row a case; units of the keys in `attrs["units"]`."""
+        frame = needs("pandas", "python3-pandas").DataFrame(self._columns)
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """The sweep as a grid: a dimension a key with its SI unit, a variable a number, so that
+        `table.to_xarray().p_max_MPa.plot()` labels itself."""
+        xarray = needs("xarray", "python3-xarray")
+        coordinates = {}
+        for k, key in enumerate(self.keys):
+            along = tuple(slice(None) if other == k else 0 for other in range(len(self.keys)))
+            values = np.array(self._columns[key]).reshape(self._shape)[along]
+            coordinates[key] = (key, values, {"units": self.units[key]})
+        data = {name: (self.keys, np.array(self._columns[name]).reshape(self._shape))
+                for name in self._columns if name not in self.keys}
+        return xarray.Dataset(data, coordinates)
 
     def __repr__(self) -> str:
         return f"<railstrata.Table: {len(self)} cases over {', '.join(self.keys)}>"

@@ -6,12 +6,12 @@ import json
 import os
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, TypeVar, Union, overload
 
 import numpy as np
 
 from . import _bridge
-from .case import Case, Length, _case_of, _metres
+from .case import AnyCase, Length, PathLike, _case_of, _metres
 from .errors import CaseError, CheckWarning, Diagnostic
 from .patch import needs
 from .results import FolderResult
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-PathLike = Union[str, os.PathLike]
 _TABLES = ("passes", "residual", "profile", "loops", "along")
 
 
@@ -154,7 +153,7 @@ class PassesResult:
 
 
 def passes(
-    case: Union[Case, PathLike], folder: PathLike, passes: int = 20, *, engine: str = "bem", cell: Length = 0.25e-3,
+    case: AnyCase, folder: PathLike, passes: int = 20, *, engine: str = "bem", cell: Length = 0.25e-3,
     roll_length: Length = 0.0, resume: bool = False, force: bool = False, checkpoint_every: float = 600.0,
     page: bool = False, progress: Progress = False,
 ) -> PassesResult:
@@ -207,11 +206,26 @@ def passes(
     return PassesResult(folder)
 
 
-def open_folder(folder: PathLike) -> Union[FolderResult, PassesResult]:
+_Kind = TypeVar("_Kind", FolderResult, PassesResult)
+
+
+@overload
+def open_folder(folder: PathLike) -> Union[FolderResult, PassesResult]: ...
+
+
+@overload
+def open_folder(folder: PathLike, kind: type[_Kind]) -> _Kind: ...
+
+
+def open_folder(folder: PathLike, kind: Optional[type[Any]] = None) -> Any:
     """The results of a folder: of `railstrata run` and `bem` a FolderResult, of `railstrata passes` a PassesResult.
-    CaseError: it holds no finished result."""
+
+    kind: the class that is wanted, so that a type checker knows it: rs.open("results/base", rs.FolderResult); TypeError
+    where the folder holds the other. CaseError: it holds no finished result.
+    """
     if not isinstance(folder, (str, os.PathLike)):
         raise TypeError(f"a folder is wanted, as text or pathlib.Path, not {folder!r:.60}")
-    if (Path(folder) / "passes.json").exists():
-        return PassesResult(folder)
-    return FolderResult(folder)
+    found = PassesResult(folder) if (Path(folder) / "passes.json").exists() else FolderResult(folder)
+    if kind is not None and not isinstance(found, kind):
+        raise TypeError(f"{folder} holds a {type(found).__name__}, not a {kind.__name__}")
+    return found

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "bridge/functions.hpp"
+#include "bridge/values.hpp"
 #include "case/case_file.hpp"
 #include "case/case_schema.hpp"
 #include "case/toml_document.hpp"
@@ -28,9 +29,11 @@ void answer_case(Call& call, LoadedCase loaded) {
   call.make(std::make_shared<LoadedCase>(std::move(loaded)));
 }
 
-void load(Call& call) { answer_case(call, load_case(call.text("file"), call.texts("overrides"))); }
+void load(Call& call) { answer_case(call, load_case(call.text("file"), overrides_of(call.argument("overrides")))); }
 
-void parse(Call& call) { answer_case(call, parse_case(call.text("text"), call.text("name"), call.texts("overrides"))); }
+void parse(Call& call) {
+  answer_case(call, parse_case(call.text("text"), call.text("name"), overrides_of(call.argument("overrides"))));
+}
 
 Json value_of(const toml::node& node) {
   Json out;

@@ -14,6 +14,7 @@ const Functions& functions();
 
 // Functions of the bridge, one list for each source file.
 Functions case_functions();
+Functions contact_functions();
 Functions damage_functions();
 Functions folder_functions();
 Functions half_space_functions();
@@ -21,5 +22,6 @@ Functions material_functions();
 Functions pass_functions();
 Functions run_functions();
 Functions sweep_functions();
+Functions table_functions();
 
 }  // namespace railstrata::bridge

@@ -316,9 +316,12 @@ double parse_quantity(std::string_view whole, const Dimension& expected) {
 }
 
 std::string format_quantity(double value, const Dimension& dimension) {
-  const std::string_view shown = customary(dimension).units.front();
+  // Of a unit that is a power of ten of SI: moving the decimal point of the shortest text keeps it exact.
+  const auto& units = customary(dimension).units;
+  const std::string_view shown = *std::find_if(units.begin(), units.end(), [&](std::string_view unit) {
+    return unit.empty() || parse_unit(unit, dimension).factor == 1;
+  });
   if (shown.empty() || !std::isfinite(value)) return fmt::format("{}", value);
-  // Customary units are powers of ten of SI: moving the decimal point of the shortest text keeps it exact.
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.begin(), buffer.end(), value, std::chars_format::scientific).ptr;
   const std::string_view shortest(buffer.data(), static_cast<std::size_t>(end - buffer.data()));

@@ -38,20 +38,6 @@ std::string word_of(const std::string& key) {
   return key;
 }
 
-/// The option of "table.option" or "table.index.option".
-const Option* option_of(const std::string& key) {
-  const std::size_t last = key.rfind('.');
-  if (last == std::string::npos) return nullptr;
-  std::string table = key.substr(0, last);
-  if (const std::size_t dot = table.rfind('.'); dot != std::string::npos)
-    if (table.find_first_not_of("0123456789", dot + 1) == std::string::npos) table.resize(dot);
-  const OptionTable* found = find_table(table);
-  if (!found) return nullptr;
-  for (const Option& option : found->options)
-    if (option.key == key.substr(last + 1)) return &option;
-  return nullptr;
-}
-
 bool is_number(const Option* option) {
   if (!option || !option->slot) return false;
   const Slot slot = any_slot(*option);
@@ -62,16 +48,27 @@ struct UnitWord {
   Dimension dimension;
   const char* unit;
 };
-const UnitWord kUnits[] = {{dimension::kNumber, ""},       {dimension::kLength, "m"}, {dimension::kForce, "N"},
-                           {dimension::kPressure, "Pa"},   {dimension::kMass, "kg"},  {dimension::kTime, "s"},
-                           {dimension::kSpeed, "m/s"},     {dimension::kSpin, "1/m"}, {dimension::kSlope, ""},
-                           {dimension::kDensity, "kg/m3"}, {dimension::kRate, "1/s"}, {dimension::kHardness, "HV"}};
-
-std::string unit_of(const Option& option) {
-  for (const UnitWord& u : kUnits)
-    if (u.dimension == option.dimension) return u.unit;
-  return "SI";
-}
+const UnitWord kUnits[] = {{dimension::kNumber, ""},
+                           {dimension::kLength, "m"},
+                           {dimension::kForce, "N"},
+                           {dimension::kPressure, "Pa"},
+                           {dimension::kMass, "kg"},
+                           {dimension::kTime, "s"},
+                           {dimension::kSpeed, "m/s"},
+                           {dimension::kSpin, "1/m"},
+                           {dimension::kSlope, ""},
+                           {dimension::kDensity, "kg/m3"},
+                           {dimension::kRate, "1/s"},
+                           {dimension::kHardness, "HV"},
+                           {dimension::kAcceleration, "m/s2"},
+                           {dimension::kStiffness, "N/m"},
+                           {dimension::kDamping, "N s/m"},
+                           {dimension::kPressureGradient, "Pa/m"},
+                           {dimension::kToughness, "Pa m^0.5"},
+                           {dimension::kConductivity, "W/(m K)"},
+                           {dimension::kHeatCapacity, "J/(kg K)"},
+                           {dimension::kTemperature, "K"},
+                           {dimension::kRotation, "rad/s"}};
 
 std::vector<std::string> split(std::string_view text, char by) {
   std::vector<std::string> out;
@@ -213,7 +210,7 @@ NumberAxis number_axis(const std::string& option, const std::string& text) {
   const std::string name = fmt::format("{} {}", option, text);
   NumberAxis out{{axis_key(said.word), {}}, {}, {}, {}};
   out.word = word_of(out.key);
-  const Option* found = option_of(out.key);
+  const Option* found = option_of_key(out.key);
   if (!found) {
     const std::vector<std::string> words = axis_words();
     const std::string near = nearest_word(out.word, words);
@@ -223,7 +220,7 @@ NumberAxis number_axis(const std::string& option, const std::string& text) {
   }
   AxisNumbers numbers(name, *found);
   if (!is_number(found)) numbers.refuse(fmt::format("{} is no number", out.key));
-  out.unit = unit_of(*found);
+  out.unit = si_unit(*found);
   out.at = numbers(said.values);
   if (out.at.size() < 2) numbers.refuse("an axis has two values or more");
   if (std::adjacent_find(out.at.begin(), out.at.end(), std::greater_equal<>()) != out.at.end())
@@ -242,6 +239,25 @@ void require_values(const Axis& axis) {
 
 }  // namespace
 
+const Option* option_of_key(const std::string& key) {
+  const std::size_t last = key.rfind('.');
+  if (last == std::string::npos) return nullptr;
+  std::string table = key.substr(0, last);
+  if (const std::size_t dot = table.rfind('.'); dot != std::string::npos)
+    if (table.find_first_not_of("0123456789", dot + 1) == std::string::npos) table.resize(dot);
+  const OptionTable* found = find_table(table);
+  if (!found) return nullptr;
+  for (const Option& option : found->options)
+    if (option.key == key.substr(last + 1)) return &option;
+  return nullptr;
+}
+
+std::string si_unit(const Option& option) {
+  for (const UnitWord& u : kUnits)
+    if (u.dimension == option.dimension) return u.unit;
+  throw std::logic_error("dimension without an SI unit");
+}
+
 std::vector<std::string> axis_words() {
   std::vector<std::string> out;
   for (const Word& w : kWords) out.emplace_back(w.word);
@@ -255,7 +271,7 @@ std::string axis_key(const std::string& word) {
 }
 
 std::string axis_text(const NumberAxis& axis, double value) {
-  return format_quantity(value, option_of(axis.key)->dimension);
+  return format_quantity(value, option_of_key(axis.key)->dimension);
 }
 
 std::pair<double, std::string> axis_value(const std::string& text) {
@@ -274,7 +290,7 @@ double decade_share(int k, int n) {
 
 Axis make_axis(const std::string& word, std::vector<std::string> values) {
   Axis out{axis_key(word), std::move(values)};
-  const Option* option = option_of(out.key);
+  const Option* option = option_of_key(out.key);
   if (out.values.size() != 1 || !is_range(out.values.front()) || !is_number(option)) return out;
   const std::string range(trimmed(out.values.front(), " \t\"'"));
   const std::vector<double> numbers = AxisNumbers(fmt::format("{}={}", word, range), *option)(range);

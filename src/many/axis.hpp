@@ -8,6 +8,8 @@
 
 namespace railstrata {
 
+struct Option;
+
 /// A key and its values, as an override takes them ("0.2 mm", with or without quotes).
 struct Axis {
   std::string key;
@@ -26,6 +28,12 @@ std::vector<std::string> axis_words();
 
 /// The key of a word; a key is its own.
 std::string axis_key(const std::string& word);
+
+/// The option of "table.option" or "table.index.option"; null if there is none.
+const Option* option_of_key(const std::string& key);
+
+/// The SI unit of an option's numbers as names of columns and tables have it: "N", "kg/m3"; "" of a plain number.
+std::string si_unit(const Option& option);
 
 /// The axis of a word or key. One value that stands for several is expanded: "from:to:count" at equal distances, "log
 /// from:to:count" at equal ratios, "+-largest:count", odd, through 0 and by equal ratios over two and a half decades to

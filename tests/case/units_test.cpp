@@ -69,9 +69,9 @@ TEST(Units, HundredKilometresPerHourAreTheirSiValueToRoundOff) {
 TEST(Units, WhatIsShownReadsBackToTheSameBits) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> exponent(-9, 12);
-  for (const Dimension& d :
-       {kNumber, kLength, kMass, kTime, kSpeed, kRate, kAcceleration, kPressure, kDensity, kStiffness, kDamping, kSlope,
-        kToughness, kConductivity, kHeatCapacity, kTemperature, kHardness})
+  for (const Dimension& d : {kNumber,       kLength,      kMass,      kTime,     kSpeed, kRate,      kAcceleration,
+                             kPressure,     kDensity,     kStiffness, kDamping,  kSlope, kToughness, kConductivity,
+                             kHeatCapacity, kTemperature, kHardness,  kRotation, kSpin,  kForce,     kPressureGradient})
     for (int i = 0; i < 500; ++i) {
       const double value = std::pow(10.0, exponent(random));
       EXPECT_EQ(parse_quantity(format_quantity(value, d), d), value) << format_quantity(value, d);

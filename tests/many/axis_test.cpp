@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "case/option_table.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -32,6 +33,22 @@ TEST(Axis, TakesAWordForAKeyAndARangeForItsValues) {
   EXPECT_EQ(axes[4].values, (std::vector<std::string>{"arc:R=430 mm:2"})) << "a text";
   EXPECT_THROW(parse_axes("--vary", {"load=log -1:1 kN:3"}), CaseError);
   EXPECT_THROW(parse_axes("--vary", {"friction=0.1,0.2", "drive.friction_coefficient=0.3"}), CaseError);
+}
+
+TEST(Axis, ARangeOfRotationsKeepsItsUnit) {
+  const std::vector<Axis> axes = parse_axes("--vary", {"drive.wheel_rotation=10:20 rad/s:2"});
+  EXPECT_EQ(axes[0].values, (std::vector<std::string>{"10 rad/s", "20 rad/s"}));
+}
+
+TEST(Axis, EveryOptionAndColumnHasAnSiUnit) {
+  EXPECT_EQ(si_unit(*option_of_key("layer.0.thickness")), "m");
+  EXPECT_EQ(si_unit(*option_of_key("drive.friction_coefficient")), "");
+  EXPECT_EQ(option_of_key("layer.0.thicknes"), nullptr);
+  for (const OptionTable& table : case_tables())
+    for (const Option& option : table.options) {
+      EXPECT_NO_THROW(si_unit(option)) << table.name << '.' << option.key;
+      for (const Option& column : option.columns) EXPECT_NO_THROW(si_unit(column)) << option.key << '.' << column.key;
+    }
 }
 
 TEST(Axis, AKeyWithoutValuesIsRefused) {

@@ -1,0 +1,149 @@
+"""Contacts that are solved state by state, as a vehicle's time integration asks for them."""
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _bridge
+from .case import AnyCase, Length, _case_of, _metres, _thread_count
+from .errors import CheckWarning
+from .patch import Patch
+
+
+@dataclass(frozen=True)
+class ContactForces:
+    """What a contact gives, SI; NaN: does not apply. Of several patches: forces of all, the rest of the one with the
+    largest pressure.
+
+    force: N, (F_x, F_y, F_z) on the wheel, model frame. normal_force, lateral_force: N, along the contact normal and
+    across it, on the wheel. spin_moment: N m, on the wheel about the contact normal. creepage_x, creepage_y: as given,
+    or found for the forces. spin: 1/m. approach: m. contact_angle: rad. p_max, q_max: Pa. patch_area, slip_area: m².
+    dissipation: W. patches: contacts that share the load. cells: with pressure, of the first patch. iterations:
+    products with the influence matrix. ok: whether every check holds; remarks: those that do not, and notes.
+    """
+
+    force: tuple[float, float, float]
+    normal_force: float
+    lateral_force: float
+    spin_moment: float
+    creepage_x: float
+    creepage_y: float
+    spin: float
+    approach: float
+    contact_angle: float
+    p_max: float
+    q_max: float
+    patch_area: float
+    slip_area: float
+    dissipation: float
+    patches: int
+    cells: int
+    iterations: int
+    ok: bool
+    remarks: tuple[str, ...]
+
+
+def _number(value: Any, what: str) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what}: a number in SI units is wanted, not {value!r:.40}") from None
+    if not math.isfinite(number):
+        raise ValueError(f"{what}: a finite number is wanted, not {number}")
+    return number
+
+
+class Contact:
+    """One wheel on one rail, solved again and again for other positions, loads and creepages; half-spaces
+    [Kalker1990].
+
+        contact = rs.Contact("cases/paper/base.toml", cell="0.5 mm")
+        for y in (0, 1e-3, 2e-3):
+            forces = contact.solve(lateral_shift=y, load=80e3, creepage_x=-0.001)
+            forces.force, forces.p_max
+
+    case: a Case, or the path of one; profiles and influence functions are made once. A history in time ([transient])
+    is refused. cell: m, or a text with a unit, side of the cells, 0.02e-3 to 5e-3. threads: of a solution, 0 for all;
+    on cells as coarse as a vehicle's program takes, 1 is hardly slower. Solutions start from the one before; their
+    numbers then depend on it in the sixth digit (`forget` ends that). Python threads may share a contact: they wait for
+    each other. A pickled contact is made anew from its case. Raises CaseError.
+    """
+
+    def __init__(self, case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0) -> None:
+        self._given = (_case_of(case), _metres(cell, "cell"), _thread_count(threads))
+        self._contact = _bridge.call("open_contact", case=self._given[0]._loaded, cell=self._given[1])
+
+    @property
+    def case(self) -> Any:
+        """The case that the states change."""
+        return self._given[0]
+
+    def solve(
+        self, *, load: Optional[float] = None, approach: Optional[float] = None,
+        lateral_shift: Optional[float] = None, yaw: Optional[float] = None, roll: Optional[float] = None,
+        speed: Optional[float] = None, friction: Optional[float] = None, creepage_x: Optional[float] = None,
+        creepage_y: Optional[float] = None, spin: Optional[float] = None, force_x: Optional[float] = None,
+        force_y: Optional[float] = None,
+    ) -> ContactForces:
+        """Solves the case with what is given changed; all else is as in the case, not as in the last call.
+
+        load: N, vertical, on the rail; or approach: m, of the bodies along the contact normal: the load is a result.
+        lateral_shift: m, of the wheel to the field side. yaw, roll: tangents of the angle of attack and of the
+        wheelset's roll. speed: m/s. friction: coefficient at rest. creepage_x: (V - omega r) / V, negative drives, or
+        force_x: N, on the wheel. creepage_y, or force_y: N, lateral friction on the wheel in the contact plane. spin:
+        1/m; without it that of the geometry. Ranges are those of the keys (docs/case-reference.md). Raises CaseError
+        (out of range, both of a pair, no contact, forces beyond friction), NumericalError, MachineError, Ctrl-C stops
+        it; warns with CheckWarning where a check fails.
+        """
+        given = {
+            "load": load, "approach": approach, "lateral_shift": lateral_shift, "yaw": yaw, "roll": roll,
+            "speed": speed, "friction": friction, "creepage_x": creepage_x, "creepage_y": creepage_y, "spin": spin,
+            "force_x": force_x, "force_y": force_y,
+        }
+        solved = _bridge.work(
+            "solve_contact", contact=self._contact, threads=self._given[2],
+            state={name: _number(value, name) for name, value in given.items() if value is not None},
+        )
+        found = dict(solved["forces"])
+        found["force"] = tuple(map(float, found["force"]))
+        remarks = tuple(solved["remarks"].splitlines())
+        numbers = {name: float(value) if isinstance(value, str) else value for name, value in found.items()}
+        if not numbers["ok"]:
+            for remark in (r for r in remarks if r.startswith("check ")):
+                warnings.warn(remark, CheckWarning, stacklevel=2)
+        return ContactForces(**numbers, remarks=remarks)
+
+    def patch(self, index: int = 0) -> Patch:
+        """A patch of the last solution, that of the largest pressure first: copies, (stations, columns). CaseError: no
+        solution, no such patch."""
+        found = _bridge.call("patch_of_contact", contact=self._contact, patch=index)
+        arrays = {name: found[name] for name in ("x", "y", "z", "area", "p", "q_x", "q_y", "slip_x", "slip_y")}
+        return Patch({**arrays, "state": found["state"].astype(np.uint8), "slip_is_distance": False})
+
+    def stresses(self, points: Any, body: str = "rail") -> "np.ndarray[Any, np.dtype[np.float64]]":
+        """(n, 6) stresses [Pa] of the last solution at (n, 3) points, as `result.rail.at` of rs.bem has them: x, y,
+        depth [m] from the rigid contact point; components xx, yy, zz, xy, yz, xz. body: "rail" or "wheel". CaseError:
+        no solution, a point above the surface or far away; ValueError: no such body, another shape."""
+        if body not in ("rail", "wheel"):
+            raise ValueError('body: "rail" or "wheel"')
+        stresses: "np.ndarray[Any, np.dtype[np.float64]]" = _bridge.work(
+            "stress_of_contact", contact=self._contact, body=body, points=_bridge.numbers(points))["stresses"]
+        return stresses
+
+    def forget(self) -> None:
+        """The next solution starts from nothing and has the bits of a new contact's first."""
+        _bridge.call("forget_contact", contact=self._contact)
+
+    def __reduce__(self) -> Any:
+        return _made_anew, self._given
+
+    def __repr__(self) -> str:
+        return f"<railstrata.Contact {self._given[0].title!r}, cell {1e3 * self._given[1]:g} mm>"
+
+
+def _made_anew(case: Any, cell: float, threads: int) -> Contact:
+    return Contact(case, cell, threads=threads)

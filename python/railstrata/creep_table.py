@@ -1,0 +1,84 @@
+"""Creep-force tables read back."""
+from __future__ import annotations
+
+import os
+import warnings
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _bridge
+from .errors import CheckWarning
+from .patch import needs
+
+if TYPE_CHECKING:
+    import xarray
+
+Numbers = Union[float, "np.ndarray[Any, np.dtype[np.float64]]"]
+
+
+class CreepTable:
+    """A creep-force table of `railstrata creep-table` (docs/creep-table.md): numbers over axes, multilinear between.
+
+        table = rs.open_table("results/quick-table/creep_table.h5")
+        table.at(creepage_x=-0.001, creepage_y=0)["force_x"]
+
+    axes: name -> values, SI. numbers: name -> values over all axes, in the order of `axes`; NaN where a contact has no
+    answer. units: of both, "" of a plain number. Arrays are read-only views.
+    """
+
+    def __init__(self, file: Union[str, "os.PathLike[str]"]) -> None:
+        if not isinstance(file, (str, os.PathLike)):
+            raise TypeError(f"a file is wanted, as text or pathlib.Path, not {file!r:.60}")
+        self.file = os.fspath(file)
+        self._table = _bridge.call("open_table", file=self.file)
+        self.axes: dict[str, Any] = {name: at for name, _, at in self._table["axes"]}
+        self.numbers: dict[str, Any] = {name: values for name, _, values in self._table["numbers"]}
+        self.units: dict[str, str] = {
+            name: unit for name, unit, _ in [*self._table["axes"], *self._table["numbers"]]}
+
+    def at(self, point: Optional[Mapping[str, Any]] = None, **axes: Any) -> dict[str, Numbers]:
+        """The numbers at a point, or at many: linear along every axis while the others rest, some ten nanoseconds for
+        every corner of a cell.
+
+        point, axes: a value for every axis, SI; arrays are broadcast against each other, the numbers have their shape.
+        point is for names that are no words of Python, {"layer.0.thickness": 1e-3}. A number is NaN where a corner
+        around has no answer. Values beyond an axis are taken at its end, with a CheckWarning. TypeError: an axis is
+        missing or unknown; ValueError: NaN, shapes that do not fit.
+        """
+        given = {**(point or {}), **axes}
+        wrong = [f"no {name}" for name in self.axes if name not in given]
+        wrong += [f"{name} is no axis" for name in given if name not in self.axes]
+        if wrong:
+            raise TypeError(f"{', '.join(wrong)}; the axes are {', '.join(self.axes)}")
+        values = np.broadcast_arrays(*(np.asarray(given[name], np.float64) for name in self.axes))
+        shape = values[0].shape
+        found = _bridge.call("look_up", table=self._table,
+                             points=_bridge.numbers(np.stack([v.ravel() for v in values], axis=1)))
+        if found["beyond"]:
+            warnings.warn(f"{found['beyond']} values lie beyond their axis and are taken at its end", CheckWarning,
+                          stacklevel=2)
+        columns = found["found"].T
+        return {name: float(column[0]) if shape == () else column.reshape(shape)
+                for name, column in zip(self.numbers, columns)}
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """The whole table as a dataset: a dimension an axis, a variable a number, with units."""
+        xarray = needs("xarray", "python3-xarray")
+        names = list(self.axes)
+        return xarray.Dataset(
+            {name: (names, values, {"units": self.units[name]}) for name, values in self.numbers.items()},
+            {name: (name, at, {"units": self.units[name]}) for name, at in self.axes.items()},
+        )
+
+    def __reduce__(self) -> Any:
+        return CreepTable, (self.file,)
+
+    def __repr__(self) -> str:
+        shape = " x ".join(str(len(at)) for at in self.axes.values())
+        return f"<railstrata.CreepTable {shape} over {', '.join(self.axes)}: {', '.join(self.numbers)}>"
+
+
+def open_table(file: Union[str, "os.PathLike[str]"]) -> CreepTable:
+    """The creep-force table of a file, creep_table.h5. CaseError: no such file, no table; MachineError: no HDF5."""
+    return CreepTable(file)
