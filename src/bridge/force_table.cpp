@@ -17,7 +17,7 @@ struct OpenTable {
 
 void open_table(Call& call) {
   const auto opened = std::make_shared<OpenTable>(read_force_table(call.text("file")));
-  Json &axes = call.answer["axes"] = Json::array(), &numbers = call.answer["numbers"] = Json::array();
+  Json axes = Json::array(), numbers = Json::array();
   std::vector<std::size_t> shape;
   for (const TableAxis& axis : opened->table.axes) {
     shape.push_back(axis.at.size());
@@ -25,6 +25,7 @@ void open_table(Call& call) {
   }
   for (const TableNumber& n : opened->table.numbers)
     numbers.push_back({n.name, n.unit, Call::view(n.values.data(), shape)});
+  call.answer = {{"axes", axes}, {"numbers", numbers}};
   call.make(opened);
 }
 

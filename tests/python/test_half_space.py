@@ -6,9 +6,12 @@ import os
 import pickle
 import signal
 import subprocess
+import sys
+import tempfile
 import threading
 import time
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -170,6 +173,119 @@ def test_ctrl_c_stops_a_solution_soon(case):
     with pytest.raises(KeyboardInterrupt):
         rs.bem(case, cell=0.03e-3)
     assert time.monotonic() - pressed[0] < 5  # a loaded machine; 0.1 s on a free one
+
+
+def test_numbers_of_a_case_are_in_si_units(case):
+    """Alone, in lists and in tables; a text has its unit."""
+    def resolved(changes):
+        return case.with_(changes).toml
+
+    for numbers, texts in (
+        ({"vehicle.wheel_load": 80e3}, {"vehicle.wheel_load": "80 kN"}),
+        ({"geometry.lateral_shift": 0.001}, {"geometry.lateral_shift": "1 mm"}),
+        ({"geometry.lateral_shift": np.float32(0.001)}, {"geometry.lateral_shift": "1 mm"}),
+        ({"run.positions": [0.3, 0.4]}, {"run.positions": ["300 mm", "40 cm"]}),
+        ({"material.rail.young": int(207e9)}, {"material.rail.young": "207 GPa"}),
+        ({"drive.wheel_rotation": 70.0}, {"drive.wheel_rotation": "70 rad/s"}),
+        ({"layer": [{"thickness": 3e-3, "young": 400e9}]}, {"layer": '[{thickness = "3 mm", young = "400 GPa"}]'}),
+        ({"geometry.cant": 0.025, "drive.friction_coefficient": 0.3, "run.rolling": True},
+         {"geometry.cant": "1:40", "drive.friction_coefficient": "0.3", "run.rolling": "true"}),
+        ({"material.rail.strength_table": [[0, 400e6], [5e-3, 300e6]]},
+         {"material.rail.strength_table": '[["0 mm", "400 MPa"], ["5 mm", "300 MPa"]]'}),
+    ):
+        assert resolved(numbers) == resolved(texts) != case.toml, numbers
+    shifted = rs.Case("cases/quick", {"geometry.lateral_shift": 1e-3})
+    assert shifted.with_({"drive.speed": 20})["drive.speed"] == "20 m/s"
+
+
+def test_faults_of_a_change_speak_of_the_dict_and_not_of_the_command_line(case):
+    for changes, words in (
+        ({"geometry.lateral_shift": 5.0}, '"geometry.lateral_shift": "5000 mm"}: .*between -50 mm and 50 mm'),
+        ({"speed": 3}, 'names no table\n.*write {"mesh.element_size": "2 mm"} or {"layer.0.thickness": "0.5 mm"}'),
+        ({"run.positions.0": "1 m"}, 'give the whole list, e.g. {"run.positions": ["0.1 m", "0.3 m"]}'),
+        ({"layer.0.thickness": "1 kg"}, 'write a length'),
+    ):
+        with pytest.raises(rs.CaseError, match=words.replace("{", r"\{").replace("[", r"\[")) as caught:
+            case.with_(changes)
+        said = [str(caught.value), *(text for d in caught.value.diagnostics for text in (d.message, d.remedy, d.where))]
+        assert not [text for text in said if "--" in text]
+    with pytest.raises(ValueError, match="drive.speed: a finite number"):
+        case.with_({"drive.speed": float("inf")})
+    with pytest.raises(TypeError, match="is no key"):
+        case.with_({3: 1})
+
+
+def test_cases_with_the_same_options_are_equal(case):
+    assert rs.Case("cases/quick") == case == rs.Case.from_text(case.toml, case.file)
+    assert len({case, rs.Case("cases/quick"), case.with_({"drive.speed": 20})}) == 2
+    assert case != case.with_({"drive.speed": 20}) and case != "cases/quick"
+
+
+def test_results_are_pickled_with_their_numbers_and_arrays(result):
+    again = pickle.loads(pickle.dumps(result))
+    assert again.summary == result.summary and again.notes == result.notes and again.peaks() == result.peaks()
+    for name in ("p", "q_x", "slip_y", "state", "x"):
+        assert (getattr(again.patch, name) == getattr(result.patch, name)).all()
+    assert not again.patch.p.flags.writeable and (pickle.loads(pickle.dumps(result.patch)).p == result.patch.p).all()
+    for lost in (lambda: again.rail.at([[0, 0, 1e-3]]), lambda: again.wheel.axes, lambda: again.save("nowhere")):
+        with pytest.raises(RuntimeError, match="solve the case again"):
+            lost()
+
+
+def test_a_deep_copy_of_a_result_keeps_the_inside_of_the_bodies(result):
+    twin = copy.deepcopy(result)
+    twin.summary["title"] = "another"
+    assert result.title != "another"
+    assert (twin.rail.at([[0, 0, 1e-3]]) == result.rail.at([[0, 0, 1e-3]])).all()
+
+
+def test_a_spawned_process_gives_results_back(case):
+    program = ("import multiprocessing, railstrata as rs\n"
+               "def solve(case): return rs.bem(case, 1e-3, stresses=False)\n"
+               "if __name__ == '__main__':\n"
+               "    with multiprocessing.get_context('spawn').Pool(1) as pool:\n"
+               "        [found] = pool.map(solve, [rs.Case('cases/quick')])\n"
+               "    print(repr(found.p_max), found.patch.p.max())\n")
+    with tempfile.TemporaryDirectory() as folder:
+        script = Path(folder) / "pool.py"
+        script.write_text(program)
+        done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)
+    here = rs.bem(case, 1e-3, stresses=False)
+    assert done.stdout.split() == [repr(here.p_max), str(here.patch.p.max())]
+
+
+def test_a_sweep_keeps_numbers_and_turns_units_into_si(case):
+    varied = {"load": ["80 kN", "8 t"], "layer.0.thickness": [1e-3, 3e-3], "run.plasticity": False}
+    table = rs.sweep(case, varied, "1 mm")
+    gravity = 9.81  # vehicle.gravity by default
+    assert table["load"] == pytest.approx([80e3, 80e3, 8000 * gravity, 8000 * gravity], rel=1e-12)
+    assert list(table["layer.0.thickness"]) == [1e-3, 3e-3, 1e-3, 3e-3]
+    assert table["run.plasticity"].dtype == bool
+    assert table.units == {"load": "N", "layer.0.thickness": "m", "run.plasticity": ""}
+    frame = table.to_dataframe()
+    assert frame["layer.0.thickness"].dtype == np.float64 and frame.attrs["units"]["load"] == "N"
+    assert [row["layer.0.thickness"] for row in table] == list(table["layer.0.thickness"]) and len(table) == 4
+    assert "p_max_MPa" in table and "p_max" not in table
+    with pytest.raises(KeyError, match="'p_max' is no column: load"):
+        table["p_max"]
+    grid = table.to_xarray().p_max_MPa
+    assert grid.dims == ("load", "layer.0.thickness", "run.plasticity")
+    assert grid["layer.0.thickness"].attrs["units"] == "m"
+    assert (grid.values.ravel() == table["p_max_MPa"]).all()
+    assert float(grid.sel({"layer.0.thickness": 3e-3}).isel(load=0)) == table["p_max_MPa"][1]
+
+
+def test_words_and_refused_values_of_a_sweep(case):
+    words = rs.sweep(case, {"material.rail.grade": ["R260", "R350HT"]}, "1 mm")
+    assert words["material.rail.grade"] == ["R260", "R350HT"]
+    assert list(words.to_xarray()["material.rail.grade"].values) == ["R260", "R350HT"]
+    refused = rs.sweep(case, {"layer.0.thickness": ["1 mm", "1 kg"]}, "1 mm")
+    assert refused["layer.0.thickness"][0] == 1e-3 and np.isnan(refused["layer.0.thickness"][1])
+    assert refused["fault"][0] == "" and "unit of a length" in refused["fault"][1]
+    spread = rs.sweep(case, {"layer.0.thickness": "1:3 mm:3"}, "1 mm")
+    assert spread["layer.0.thickness"] == pytest.approx([1e-3, 2e-3, 3e-3], rel=1e-12)
+    with pytest.raises(ValueError, match="no key is given"):
+        rs.sweep(case, {})
 
 
 @pytest.mark.parametrize("none", [[], np.array([]), ()])

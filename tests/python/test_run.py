@@ -32,7 +32,9 @@ def test_history_and_patch_are_there(in_one_go):
     history = in_one_go.history
     assert len(history) > 1 and any("F_x" in name for name in history.columns)
     assert in_one_go.patch.p.max() > 1e8
-    assert rs.open(in_one_go.folder).p_max == in_one_go.p_max
+    assert rs.open(in_one_go.folder).p_max == rs.open(in_one_go.folder, rs.FolderResult).p_max == in_one_go.p_max
+    with pytest.raises(TypeError, match="holds a FolderResult, not a PassesResult"):
+        rs.open(in_one_go.folder, rs.PassesResult)
 
 
 @pytest.mark.slow
