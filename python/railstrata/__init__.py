@@ -31,7 +31,7 @@ __version__: str = _bridge.call("version")["version"]
 
 def threads(count: int = 0) -> int:
     """The number of threads that solvers called from this Python thread use; sets it if `count` is positive."""
-    return _bridge.call("threads", count=_thread_count(count))["threads"]
+    return int(_bridge.call("threads", count=_thread_count(count))["threads"])
 
 
 __all__ = [

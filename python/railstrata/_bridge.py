@@ -6,11 +6,18 @@ import json
 import math
 import os
 from pathlib import Path
-from typing import Any, Callable, Optional
+from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
 
 from . import errors
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+else:
+    Array = np.ndarray
 
 # Threads that spin long while they wait take the core from those that work. Read when OpenMP comes with the library.
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
@@ -40,7 +47,7 @@ _library = _loaded()
 class _Memory:
     """What a call holds, and the arrays that it was given: freed with the last array or answer that looks at it."""
 
-    def __init__(self, address: int, given: dict) -> None:
+    def __init__(self, address: int, given: dict[str, Any]) -> None:
         self.address, self._given = address, given
         self._forget = _library.railstrata_forget
 
@@ -51,7 +58,7 @@ class _Memory:
 class _View:
     """What numpy makes an array of that keeps the memory alive."""
 
-    def __init__(self, memory: _Memory, entry: dict) -> None:
+    def __init__(self, memory: _Memory, entry: dict[str, Any]) -> None:
         self._memory = memory
         strides = entry.get("strides")
         self.__array_interface__ = {
@@ -66,7 +73,7 @@ class Answer:
     def __init__(self, memory: _Memory, text: bytes) -> None:
         self._memory: Optional[_Memory] = memory
 
-        def seen(entry: dict) -> Any:
+        def seen(entry: dict[str, Any]) -> Any:
             return np.asarray(_View(memory, entry)) if "__array__" in entry else entry
 
         self._found: dict[str, Any] = json.loads(text, object_hook=seen)
@@ -123,7 +130,7 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def _arguments(arguments: dict) -> bytes:
+def _arguments(arguments: dict[str, Any]) -> bytes:
     return json.dumps(_plain(arguments), default=_refused, ensure_ascii=False).encode(errors="surrogateescape")
 
 
@@ -131,7 +138,7 @@ def _refused(value: Any) -> Any:
     raise TypeError(f"{value!r:.60} is no number, text or array")
 
 
-def numbers(values: Any) -> np.ndarray:
+def numbers(values: Any) -> Array:
     """An array as the library reads it: doubles in one piece."""
     return np.ascontiguousarray(values, np.float64)
 
@@ -157,7 +164,9 @@ def work(function: str, progress: Optional[Callable[..., None]] = None, /, **arg
         try:
             if _library.railstrata_wait(memory.address, _LOOK_EVERY):
                 break
-            told = _library.railstrata_progress(memory.address) if progress is not None and raised is None else None
+            if progress is None or raised is not None:
+                continue
+            told = _library.railstrata_progress(memory.address)
             if told:
                 progress(*json.loads(told))
         except BaseException as error:

@@ -9,13 +9,15 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ._bridge import Array
+
 from .patch import Patch
 
 # Colours of the pressure, low to high: steps of viridis.
 _COLOURS = np.array([(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)], float)
 
 
-def _png(pixels: np.ndarray) -> bytes:
+def _png(pixels: Array) -> bytes:
     """An RGBA picture (rows, columns, 4) of bytes as a PNG file."""
     rows, columns = pixels.shape[:2]
 
@@ -27,13 +29,14 @@ def _png(pixels: np.ndarray) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b"")
 
 
-def _pressure_pixels(p: np.ndarray) -> np.ndarray:
+def _pressure_pixels(p: Array) -> Array:
     """Rolling direction to the right, y upwards; separated points are transparent."""
     share = p / p.max() if p.max() > 0 else p
     place = np.linspace(0, 1, len(_COLOURS))
     rgb = np.stack([np.interp(share, place, _COLOURS[:, k]) for k in range(3)], axis=-1)
     alpha = np.where(p > 0, 255, 0)[..., None]
-    return np.concatenate([rgb, alpha], axis=-1).round().astype(np.uint8).transpose(1, 0, 2)[::-1]
+    pixels: Array = np.concatenate([rgb, alpha], axis=-1).round().astype(np.uint8).transpose(1, 0, 2)[::-1]
+    return pixels
 
 
 def patch_figure(patch: Patch) -> str:

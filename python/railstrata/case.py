@@ -77,7 +77,7 @@ def _overrides(changes: Optional[Mapping[str, Value]]) -> list[Any]:
 def _metres(value: Length, what: str) -> float:
     """A length: a number of metres, or a text with its unit."""
     if isinstance(value, str):
-        return _bridge.call("length", what=what, text=value)["metres"]
+        return float(_bridge.call("length", what=what, text=value)["metres"])
     try:
         return float(value)
     except (TypeError, ValueError):
@@ -137,22 +137,22 @@ class Case:
     @property
     def title(self) -> str:
         """The case's title."""
-        return self._loaded["title"]
+        return str(self._loaded["title"])
 
     @property
     def file(self) -> str:
         """The file it was read from, as given."""
-        return self._loaded["file"]
+        return str(self._loaded["file"])
 
     @property
     def toml(self) -> str:
         """The case with every option written out; reads back to the same numbers."""
-        return self._loaded["toml"]
+        return str(self._loaded["toml"])
 
     @property
     def notes(self) -> list[str]:
         """What is allowed and yet worth knowing."""
-        return self._loaded["notes"]
+        return list(self._loaded["notes"])
 
     @property
     def not_in_fem(self) -> list[Diagnostic]:
@@ -173,7 +173,7 @@ class Case:
 
     def __eq__(self, other: object) -> bool:
         """Whether every option is the same; profile files by their paths."""
-        return self.toml == other.toml if isinstance(other, Case) else NotImplemented
+        return isinstance(other, Case) and self.toml == other.toml
 
     def __hash__(self) -> int:
         return hash(self.toml)
@@ -194,7 +194,7 @@ def _parsed(source: str, file: str, overrides: list[Any]) -> Case:
 
 def schema() -> dict[str, Any]:
     """Every key of a case file with its unit, range and meaning, as a JSON schema."""
-    return _bridge.call("schema")["schema"]
+    return dict(_bridge.call("schema")["schema"])
 
 
 __all__ = ["Case", "CaseError", "schema", "shipped_data"]

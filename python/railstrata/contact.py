@@ -9,6 +9,7 @@ from typing import Any, Optional
 import numpy as np
 
 from . import _bridge
+from ._bridge import Array
 from .case import AnyCase, Length, _case_of, _metres, _thread_count
 from .errors import CheckWarning
 from .patch import Patch
@@ -124,13 +125,13 @@ class Contact:
         arrays = {name: found[name] for name in ("x", "y", "z", "area", "p", "q_x", "q_y", "slip_x", "slip_y")}
         return Patch({**arrays, "state": found["state"].astype(np.uint8), "slip_is_distance": False})
 
-    def stresses(self, points: Any, body: str = "rail") -> "np.ndarray[Any, np.dtype[np.float64]]":
+    def stresses(self, points: Any, body: str = "rail") -> Array:
         """(n, 6) stresses [Pa] of the last solution at (n, 3) points, as `result.rail.at` of rs.bem has them: x, y,
         depth [m] from the rigid contact point; components xx, yy, zz, xy, yz, xz. body: "rail" or "wheel". CaseError:
         no solution, a point above the surface or far away; ValueError: no such body, another shape."""
         if body not in ("rail", "wheel"):
             raise ValueError('body: "rail" or "wheel"')
-        stresses: "np.ndarray[Any, np.dtype[np.float64]]" = _bridge.work(
+        stresses: Array = _bridge.work(
             "stress_of_contact", contact=self._contact, body=body, points=_bridge.numbers(points))["stresses"]
         return stresses
 

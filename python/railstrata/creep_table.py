@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
 import numpy as np
 
 from . import _bridge
+from ._bridge import Array
 from .errors import CheckWarning
 from .patch import needs
 
 if TYPE_CHECKING:
     import xarray
 
-Numbers = Union[float, "np.ndarray[Any, np.dtype[np.float64]]"]
+Numbers = Union[float, Array]
 
 
 class CreepTable:
@@ -64,12 +65,13 @@ class CreepTable:
 
     def to_xarray(self) -> "xarray.Dataset":
         """The whole table as a dataset: a dimension an axis, a variable a number, with units."""
-        xarray = needs("xarray", "python3-xarray")
+        module = needs("xarray", "python3-xarray")
         names = list(self.axes)
-        return xarray.Dataset(
+        whole: xarray.Dataset = module.Dataset(
             {name: (names, values, {"units": self.units[name]}) for name, values in self.numbers.items()},
             {name: (name, at, {"units": self.units[name]}) for name, at in self.axes.items()},
         )
+        return whole
 
     def __reduce__(self) -> Any:
         return CreepTable, (self.file,)

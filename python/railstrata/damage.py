@@ -27,6 +27,10 @@ def _value(function: str, /, **arguments: Any) -> Any:
     return float(found) if isinstance(found, str) else found
 
 
+def _number(function: str, /, **arguments: Any) -> float:
+    return float(_value(function, **arguments))
+
+
 class TGamma(NamedTuple):
     """J per m rolled, the same as N."""
     without_spin: float
@@ -58,12 +62,13 @@ class Planes(NamedTuple):
     jiang_sehitoglu: Optional[Plane]
 
 
-def _rows(arrays: dict) -> dict:
+def _rows(arrays: dict[str, Any]) -> dict[str, Any]:
     return {name: _bridge.numbers(values) for name, values in arrays.items()}
 
 
 def _plane(value: float, normal: Sequence[float], *cycle: float) -> Plane:
-    return Plane(float(value), tuple(normal), *map(float, cycle))
+    x, y, z = normal
+    return Plane(float(value), (x, y, z), *map(float, cycle))
 
 
 def t_gamma(
@@ -89,12 +94,12 @@ def rcf_damage(
     wear_removes: whether the last slope continues.
     """
     points = function if isinstance(function, str) else [(float(at), float(damage)) for at, damage in function]
-    return _value("rcf_damage", t_gamma=t_gamma, function=points, wear_removes=bool(wear_removes))
+    return _number("rcf_damage", t_gamma=t_gamma, function=points, wear_removes=bool(wear_removes))
 
 
 def brr_wear(t_gamma: float, wheel_diameter: float) -> float:
     """British Rail Research's wear number: m² of the profile per m rolled (1 mm²/km = 1e-9) [PearceSherratt1991]."""
-    return _value("brr_wear", t_gamma=t_gamma, wheel_diameter=wheel_diameter)
+    return _number("brr_wear", t_gamma=t_gamma, wheel_diameter=wheel_diameter)
 
 
 def surface_fatigue_index(
@@ -102,7 +107,7 @@ def surface_fatigue_index(
 ) -> float:
     """FI_surf = mu - 2 pi a b k/(3 F_z) of an elliptic patch, semi-axes in m; above 0: surface fatigue
     [EkbergKaboAndersson2002]."""
-    return _value(
+    return _number(
         "surface_fatigue_index", a=a, b=b, load=load, utilised_friction=utilised_friction,
         cyclic_shear_yield=cyclic_shear_yield,
     )
@@ -113,7 +118,7 @@ def subsurface_fatigue_index(
     residual_hydrostatic: float = 0.0,
 ) -> float:
     """FI_sub = F_z (1 + mu²)/(4 pi a b) + c sigma_h, Pa [EkbergKaboAndersson2002]."""
-    return _value(
+    return _number(
         "subsurface_fatigue_index", a=a, b=b, load=load, utilised_friction=utilised_friction,
         dang_van_constant=dang_van_constant, residual_hydrostatic=residual_hydrostatic,
     )
@@ -121,7 +126,7 @@ def subsurface_fatigue_index(
 
 def usfd_rate(t_gamma_per_area: float) -> float:
     """kg lost per m rolled and m² of surface, from |q·s|/V in Pa [LewisDwyerJoyce2004]; 1 µg/(m mm²) is 1e-3."""
-    return _value("usfd_rate", t_gamma_per_area=t_gamma_per_area)
+    return _number("usfd_rate", t_gamma_per_area=t_gamma_per_area)
 
 
 def usfd_depth(
@@ -129,7 +134,7 @@ def usfd_depth(
 ) -> float:
     """m worn off a streamline per passage: tractions [Pa] and slip [m/s] of its cells of length dx [m]."""
     rows = {"q_x": q_x, "q_y": q_y, "slip_x": slip_x, "slip_y": slip_y}
-    return _value("usfd_depth", **_rows(rows), dx=dx, speed=speed, density=density)
+    return _number("usfd_depth", **_rows(rows), dx=dx, speed=speed, density=density)
 
 
 def archard_depth(
@@ -140,7 +145,7 @@ def archard_depth(
     hardness: Pa (9.80665e6 HV). scale: multiplies every coefficient, for lubrication.
     """
     rows = {"p": p, "slip_x": slip_x, "slip_y": slip_y}
-    return _value("archard_depth", **_rows(rows), dx=dx, speed=speed, hardness=hardness, scale=scale)
+    return _number("archard_depth", **_rows(rows), dx=dx, speed=speed, hardness=hardness, scale=scale)
 
 
 def dang_van(cycle: Any, c: float, residual: Sequence[float] = _NO_STRESS) -> DangVan:
@@ -163,15 +168,17 @@ def critical_plane(
         "critical_plane", cycle=_bridge.numbers(cycle), young=young, poisson=poisson, fatemi_socie=fatemi_socie,
         jiang_sehitoglu=jiang_sehitoglu, residual=tuple(residual),
     )
-    return Planes(*(None if plane is None else _plane(*plane) for plane in found))
+    first, *others = (None if plane is None else _plane(*plane) for plane in found)
+    assert first is not None  # of constants that every call gives
+    return Planes(first, *others)
 
 
 def critical_flaw(toughness: float, sigma_1: float) -> float:
     """m, depth of the edge crack that runs under a stress [Pa] at a toughness [Pa √m]; infinite without tension."""
-    return _value("critical_flaw", toughness=toughness, sigma_1=sigma_1)
+    return _number("critical_flaw", toughness=toughness, sigma_1=sigma_1)
 
 
-def grade(name: str) -> dict:
+def grade(name: str) -> dict[str, Any]:
     """Strengths of a steel by its name ("R260"): (low, high) in Pa and HBW, None where nothing is known."""
     found = _value("grade", name=name)
     return {key: tuple(value) if isinstance(value, list) else value for key, value in found.items()}

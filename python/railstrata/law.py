@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
 import numpy as np
 
 from . import _bridge
+from ._bridge import Array
 from .case import Case, _case_of, _file_of
 from .errors import CheckWarning
 from .patch import needs
@@ -17,11 +18,11 @@ if TYPE_CHECKING:
     import pandas
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "xz")
-PathLike = Union[str, os.PathLike]
+PathLike = Union[str, "os.PathLike[str]"]
 Card = Union[Case, PathLike]
 
 
-def _columns(given: Any, names: Mapping[str, Any]) -> list[tuple[str, np.ndarray]]:
+def _columns(given: Any, names: Mapping[str, Any]) -> list[tuple[str, Array]]:
     """Names and numbers of what maps names to columns (a dict, a DataFrame), in SI units."""
     out = []
     for name in given.keys():
@@ -43,7 +44,7 @@ def _given(what: Any, names: Mapping[str, Any], of_array: Any) -> Any:
 
 
 def _path(what: Any, letter: str, names: Mapping[str, Any]) -> Any:
-    def of_array(values: Any) -> list[tuple[str, np.ndarray]]:
+    def of_array(values: Any) -> list[tuple[str, Array]]:
         numbers = np.asarray(values, float)
         if numbers.ndim != 2 or numbers.shape[1] != 6:
             raise ValueError("a path: an array of shape (points, 6) is wanted, components xx, yy, zz, xy, yz, xz; or a "
@@ -56,7 +57,7 @@ def _path(what: Any, letter: str, names: Mapping[str, Any]) -> Any:
 def _curve(what: Any, kind: str) -> Any:
     names = dict.fromkeys(("strain", "plastic_strain", "stress"))
 
-    def of_array(values: Any) -> list[tuple[str, np.ndarray]]:
+    def of_array(values: Any) -> list[tuple[str, Array]]:
         numbers = np.asarray(values, float)
         if numbers.ndim != 2 or numbers.shape[1] != 2:
             raise ValueError(f"{kind}: an array of shape (points, 2) is wanted, strain and stress [Pa]")
@@ -69,7 +70,7 @@ def _curve(what: Any, kind: str) -> Any:
     return _given(what, names, of_array)
 
 
-def _law(found: dict) -> dict:
+def _law(found: dict[str, Any]) -> dict[str, Any]:
     return {**found, "backstresses": [tuple(term) for term in found["backstresses"]]}
 
 
@@ -84,11 +85,11 @@ class DrivenPath:
     def __init__(self, driven: _bridge.Answer, on_the_way: bool = False) -> None:
         self._driven = driven
         states = driven["on_the_way" if on_the_way else "states"]
-        self.strain: np.ndarray = states["strain"]
-        self.stress: np.ndarray = states["stress"]
-        self.plastic_strain: np.ndarray = states["plastic_strain"]
-        self.p: np.ndarray = states["p"]
-        self.dissipated: np.ndarray = states["dissipated"]
+        self.strain: Array = states["strain"]
+        self.stress: Array = states["stress"]
+        self.plastic_strain: Array = states["plastic_strain"]
+        self.p: Array = states["p"]
+        self.dissipated: Array = states["dissipated"]
 
     @property
     def on_the_way(self) -> "DrivenPath":
@@ -97,24 +98,26 @@ class DrivenPath:
         return DrivenPath(self._driven, True)
 
     @property
-    def net(self) -> np.ndarray:
+    def net(self) -> Array:
         """(cycles, 6) what each time through the rows adds to the plastic strain: ratchetting."""
-        return self._driven["net"]
+        net: Array = self._driven["net"]
+        return net
 
     @property
-    def p_of_cycle(self) -> np.ndarray:
+    def p_of_cycle(self) -> Array:
         """(cycles,) plastic strain accumulated in each time through the rows."""
-        return self._driven["p_of_cycle"]
+        strain: Array = self._driven["p_of_cycle"]
+        return strain
 
     @property
-    def law(self) -> dict:
+    def law(self) -> dict[str, Any]:
         """The law that was driven: young, yield_strength, saturation (Q) [Pa], rate (b), backstresses [(C, gamma)]."""
         return _law(self._driven["law"])
 
     @property
     def notes(self) -> list[str]:
         """Which numbers of the law are estimates, and by what."""
-        return self._driven["notes"]
+        return list(self._driven["notes"])
 
     def to_dataframe(self) -> "pandas.DataFrame":
         """The table that `railstrata material` writes, in its units (MPa)."""
@@ -183,7 +186,7 @@ class MaterialFit:
     """
 
     def __init__(self, found: _bridge.Answer) -> None:
-        self.law: dict = _law(found["law"])
+        self.law: dict[str, Any] = _law(found["law"])
         self.card: str = found["card"]
         self.error: float = found["error"]
         self.largest_error: float = found["largest_error"]

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._bridge import Array
+
 if TYPE_CHECKING:
     import pandas
     import xarray
@@ -46,68 +48,73 @@ class Patch:
     Stations run along the rail (x, rolling direction), columns across it (y). Tractions act on the rail.
     """
 
-    def __init__(self, arrays: dict) -> None:
+    def __init__(self, arrays: dict[str, Any]) -> None:
         self._arrays = arrays
 
+    def _array(self, name: str) -> Array:
+        found: Array = self._arrays[name]
+        return found
+
     @property
-    def x(self) -> np.ndarray:
+    def x(self) -> Array:
         """m, from the wheel's axle in the rolling direction."""
-        return self._arrays["x"]
+        return self._array("x")
 
     @property
-    def y(self) -> np.ndarray:
+    def y(self) -> Array:
         """m, lateral, model frame."""
-        return self._arrays["y"]
+        return self._array("y")
 
     @property
-    def z(self) -> np.ndarray:
+    def z(self) -> Array:
         """m, height, model frame."""
-        return self._arrays["z"]
+        return self._array("z")
 
     @property
-    def area(self) -> np.ndarray:
+    def area(self) -> Array:
         """m², of the surface that each point stands for."""
-        return self._arrays["area"]
+        return self._array("area")
 
     @property
-    def p(self) -> np.ndarray:
+    def p(self) -> Array:
         """Pa, pressure."""
-        return self._arrays["p"]
+        return self._array("p")
 
     @property
-    def q_x(self) -> np.ndarray:
+    def q_x(self) -> Array:
         """Pa, longitudinal traction on the rail."""
-        return self._arrays["q_x"]
+        return self._array("q_x")
 
     @property
-    def q_y(self) -> np.ndarray:
+    def q_y(self) -> Array:
         """Pa, lateral traction on the rail."""
-        return self._arrays["q_y"]
+        return self._array("q_y")
 
     @property
-    def slip_x(self) -> np.ndarray:
+    def slip_x(self) -> Array:
         """m/s, longitudinal slip of the wheel's surface over the rail's; m where slip_is_distance."""
-        return self._arrays["slip_x"]
+        return self._array("slip_x")
 
     @property
-    def slip_y(self) -> np.ndarray:
+    def slip_y(self) -> Array:
         """m/s, lateral slip; m where slip_is_distance."""
-        return self._arrays["slip_y"]
+        return self._array("slip_y")
 
     @property
-    def state(self) -> np.ndarray:
+    def state(self) -> Array:
         """PatchState of each point, uint8."""
-        return self._arrays["state"]
+        return self._array("state")
 
     @property
     def slip_is_distance(self) -> bool:
         """Of a shift, which has no speed: slip stands in m, over its last increment."""
-        return self._arrays["slip_is_distance"]
+        return bool(self._arrays["slip_is_distance"])
 
     @property
     def shape(self) -> tuple[int, int]:
         """(stations, columns)"""
-        return self.p.shape
+        stations, columns = self.p.shape
+        return stations, columns
 
     def _unit(self, name: str) -> str:
         return "m" if name.startswith("slip") and self.slip_is_distance else _UNITS[name]
@@ -123,7 +130,7 @@ class Patch:
 
         x and y are those of the middle column and station; the points themselves stand in `x_point`, `y_point`, `z`.
         """
-        xarray = needs("xarray", "python3-xarray")
+        module = needs("xarray", "python3-xarray")
         stations, columns = self.shape
         names = [name for name in _UNITS if name not in ("x", "y")]
         data = {
@@ -136,7 +143,8 @@ class Patch:
             "x": ("x", self.x[:, columns // 2], {"units": "m", "long_name": "along the rail, from the axle"}),
             "y": ("y", self.y[stations // 2, :], {"units": "m", "long_name": "across the rail"}),
         }
-        return xarray.Dataset(data, coordinates)
+        dataset: xarray.Dataset = module.Dataset(data, coordinates)
+        return dataset
 
     def __repr__(self) -> str:
         return f"railstrata.Patch({self.shape[0]} x {self.shape[1]} points, p_max {self.p.max() / 1e6:.1f} MPa)"

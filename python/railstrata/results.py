@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 
 from . import _bridge, _html
+from ._bridge import Array
 from .patch import Patch, needs
 
 if TYPE_CHECKING:
     import pandas
 
-PathLike = Union[str, os.PathLike]
+PathLike = Union[str, "os.PathLike[str]"]
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Check:
     limit: Optional[float]
 
 
-def _peak(entry: dict) -> Peak:
+def _peak(entry: dict[str, Any]) -> Peak:
     return Peak(*(float("nan") if entry[k] is None else entry[k] for k in ("value_Pa", "x_m", "y_m", "depth_m")))
 
 
@@ -58,24 +59,24 @@ class Result:
 
     def __init__(self, found: _bridge.Answer) -> None:
         self._found = found
-        self.summary: dict = found["summary"]
+        self.summary: dict[str, Any] = found["summary"]
 
     def number(self, path: str) -> float:
         """A number of the summary by its path, "contact.p_max_Pa"; NaN where it does not apply. KeyError: no such."""
         value: Any = self.summary
         for part in path.split("."):
             value = value[int(part)] if isinstance(value, list) else value[part]
-        return float("nan") if value is None else value
+        return float("nan") if value is None else float(value)
 
     @property
     def title(self) -> str:
         """The case's title."""
-        return self.summary["title"]
+        return str(self.summary["title"])
 
     @property
     def engine(self) -> str:
         """"fem" or "bem"."""
-        return self.summary["run"]["engine"]
+        return str(self.summary["run"]["engine"])
 
     @property
     def p_max(self) -> float:
@@ -115,7 +116,7 @@ class Result:
     @property
     def force(self) -> tuple[float, float, float]:
         """N, (F_x, F_y, F_z) on the wheel, model frame."""
-        return tuple(self.number(f"contact.F_{axis}_N") for axis in "xyz")
+        return self.number("contact.F_x_N"), self.number("contact.F_y_N"), self.number("contact.F_z_N")
 
     @property
     def normal_force(self) -> float:
@@ -159,17 +160,17 @@ class Result:
         return Peaks(_peak(entry["von_mises_max"]), _peak(entry["sigma1_max"]))
 
     @property
-    def shakedown(self) -> Optional[dict]:
+    def shakedown(self) -> Optional[dict[str, Any]]:
         """The summary's shakedown factors, where the case gives strengths; else None."""
         return self.summary.get("shakedown")
 
     @property
-    def damage(self) -> Optional[dict]:
+    def damage(self) -> Optional[dict[str, Any]]:
         """The summary's indices of wear, rolling contact fatigue and heat; `railstrata.damage` has them one by one."""
         return self.summary.get("damage")
 
     @property
-    def fatigue(self) -> Optional[list]:
+    def fatigue(self) -> Optional[list[Any]]:
         """The summary's fatigue below the surface by body, where the case gives the data for it; else None."""
         return self.summary.get("fatigue")
 
@@ -204,7 +205,7 @@ class Body:
     def __init__(self, run: _bridge.Answer, name: str, patch: int) -> None:
         self._run, self.name, self._patch = run, name, patch
 
-    def at(self, points: Any, below_interface: bool = False) -> np.ndarray:
+    def at(self, points: Any, below_interface: bool = False) -> Array:
         """(n, 6) stresses [Pa] at (n, 3) points (x, y, depth) [m]. Points of one depth cost one plane together, some 10
         ms; each distinct depth costs one. On an interface those of the material above, or below if asked. ValueError: a
         point above the surface, or more than ten lengths of the patch's grid away from it (fewer with layers and small
@@ -213,25 +214,27 @@ class Body:
         if points.ndim == 2 and points.shape[1] == 3 and np.any(points[:, 2] < 0):
             raise ValueError(f"points: row {int(np.argmax(points[:, 2] < 0))} lies above the surface: depths count "
                              "downwards, from 0")
-        return _bridge.work(
+        stresses: Array = _bridge.work(
             "stresses_at", run=self._run, body=self.name, patch=self._patch, points=points,
             below_interface=bool(below_interface),
         )["stresses"]
+        return stresses
 
-    def plane(self, depth: float, below_interface: bool = False) -> np.ndarray:
+    def plane(self, depth: float, below_interface: bool = False) -> Array:
         """(6, nx, ny) stresses [Pa] at a depth [m], in the cells of `axes`."""
-        return _bridge.work(
+        stresses: Array = _bridge.work(
             "stress_plane", run=self._run, body=self.name, patch=self._patch, depth=float(depth),
             below_interface=bool(below_interface),
         )["stresses"]
+        return stresses
 
     @property
-    def axes(self) -> tuple[np.ndarray, np.ndarray]:
+    def axes(self) -> tuple[Array, Array]:
         """m, x and y of the cells of `plane`."""
         grid = _bridge.call("grid", run=self._run, patch=self._patch)
         return grid["x"], grid["y"]
 
-    def section(self, depths: Any, y: float = 0.0) -> np.ndarray:
+    def section(self, depths: Any, y: float = 0.0) -> Array:
         """(6, nx, depths) stresses [Pa] in the plane y = const [m], at the x of `axes` and at these depths [m]."""
         depths = np.atleast_1d(np.asarray(depths, float))
         x = self.axes[0]
@@ -242,14 +245,15 @@ class Body:
         return f"<railstrata.Body {self.name}>"
 
 
-def von_mises(stress: np.ndarray, axis: int = -1) -> np.ndarray:
+def von_mises(stress: Array, axis: int = -1) -> Array:
     """von Mises stress of components xx, yy, zz, xy, yz, xz along an axis: sqrt(3/2 s:s)."""
     parts = np.asarray(stress, float)
     if parts.ndim == 0 or not -parts.ndim <= axis < parts.ndim or parts.shape[axis] != 6:
         raise ValueError(f"stress: six components xx, yy, zz, xy, yz, xz are wanted along axis {axis}, the shape is "
                          f"{parts.shape}")
     xx, yy, zz, xy, yz, xz = np.moveaxis(parts, axis, 0)
-    return np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + yz**2 + xz**2))
+    mises: Array = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + yz**2 + xz**2))
+    return mises
 
 
 class BemResult(Result):
@@ -258,7 +262,7 @@ class BemResult(Result):
     @property
     def notes(self) -> list[str]:
         """What the user should know: a grown grid, …"""
-        return self._found["notes"]
+        return list(self._found["notes"])
 
     @property
     def rail(self) -> Body:

@@ -5,17 +5,18 @@ import os
 import sys
 import time
 import warnings
-from typing import Any, Callable, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Mapping, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 
 from . import _bridge
 from .case import AnyCase, Length, PathLike, Value, _case_of, _metres, _thread_count, _value_of
 from .errors import CheckWarning
-from .results import BemResult, FolderResult, open_result
+from .results import BemResult, FolderResult, Result, open_result
 from .table import Table
 
 Progress = Union[bool, Callable[..., None]]
+_Result = TypeVar("_Result", bound=Result)
 
 
 class _Bar:
@@ -35,6 +36,9 @@ class _Bar:
         sys.stderr.write(f"\r{phase:8s} {100 * fraction:5.1f} %{end}      ")
         sys.stderr.flush()
 
+    def of_pass(self, number: int, fraction: float) -> None:
+        self(f"pass {number}", fraction)
+
     def end(self) -> None:
         sys.stderr.write("\n")
 
@@ -48,7 +52,7 @@ def _callback(progress: Progress, name: str, with_phase: bool) -> Optional[Calla
     return bar if with_phase else lambda fraction: bar(name, fraction)
 
 
-def _say(result: Any, notes: Sequence[str] = ()) -> Any:
+def _say(result: _Result, notes: Sequence[str] = ()) -> _Result:
     for check in result.checks:
         if not check.ok:
             warnings.warn(f"check {check.name} fails: {check.value} beyond {check.limit}", CheckWarning, stacklevel=3)

@@ -85,15 +85,16 @@ class Table:
     def to_xarray(self) -> "xarray.Dataset":
         """The sweep as a grid: a dimension a key with its SI unit, a variable a number, so that
         `table.to_xarray().p_max_MPa.plot()` labels itself."""
-        xarray = needs("xarray", "python3-xarray")
+        module = needs("xarray", "python3-xarray")
         coordinates = {}
         for k, key in enumerate(self.keys):
-            along = tuple(slice(None) if other == k else 0 for other in range(len(self.keys)))
-            values = np.array(self._columns[key]).reshape(self._shape)[along]
+            values = np.moveaxis(np.array(self._columns[key]).reshape(self._shape), k, -1)
+            values = values.reshape(-1, self._shape[k])[0]
             coordinates[key] = (key, values, {"units": self.units[key]})
         data = {name: (self.keys, np.array(self._columns[name]).reshape(self._shape))
                 for name in self._columns if name not in self.keys}
-        return xarray.Dataset(data, coordinates)
+        grid: xarray.Dataset = module.Dataset(data, coordinates)
+        return grid
 
     def __repr__(self) -> str:
         return f"<railstrata.Table: {len(self)} cases over {', '.join(self.keys)}>"

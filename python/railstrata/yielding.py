@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Optional, TypeVar, Union, overload
 import numpy as np
 
 from . import _bridge
+from ._bridge import Array
 from .case import AnyCase, Length, PathLike, _case_of, _metres
 from .errors import CaseError, CheckWarning, Diagnostic
 from .patch import needs
@@ -37,33 +38,33 @@ class PassesResult:
     def __init__(self, folder: PathLike) -> None:
         self.folder = Path(folder)
         try:
-            self.summary: dict = json.loads((self.folder / "passes.json").read_text(encoding="utf-8"))
+            self.summary: dict[str, Any] = json.loads((self.folder / "passes.json").read_text(encoding="utf-8"))
         except FileNotFoundError:
             raise CaseError(f"{folder} holds no passes", [Diagnostic(
                 f"{folder} holds no passes", "name a folder of railstrata passes or rs.passes", str(folder))]) from None
         except json.JSONDecodeError as error:
             raise CaseError(f"{self.folder / 'passes.json'}: {error}") from None
-        self._tables: dict[str, dict[str, np.ndarray]] = {}
+        self._tables: dict[str, dict[str, Array]] = {}
 
     @property
     def title(self) -> str:
         """The case's title."""
-        return self.summary["title"]
+        return str(self.summary["title"])
 
     @property
     def method(self) -> str:
         """"stationary" or "rolled" (by the finite elements)."""
-        return self.summary.get("method", "rolled")
+        return str(self.summary.get("method", "rolled"))
 
     @property
     def passes(self) -> int:
         """Passes so far."""
-        return self.summary["passes"]
+        return int(self.summary["passes"])
 
     @property
     def kind(self) -> str:
         """"elastic shakedown", "plastic shakedown", "ratchetting" or "transient: no claim yet"."""
-        return self.summary["class"]
+        return str(self.summary["class"])
 
     @property
     def verdict(self) -> str:
@@ -73,9 +74,9 @@ class PassesResult:
     @property
     def net_strain_per_pass(self) -> float:
         """|E^p_n - E^p_(n-1)| of the last pass where it is largest, per pass: what grows."""
-        return self.summary["net_strain_per_pass"]
+        return float(self.summary["net_strain_per_pass"])
 
-    def table(self, name: str = "passes") -> dict[str, np.ndarray]:
+    def table(self, name: str = "passes") -> dict[str, Array]:
         """A table of the folder: "passes" (a row a pass), "residual" (a row a point of the section), "profile" (its
         column with the largest plastic strain), "loops" and "along" (stationary method). Columns: docs/passes.md.
         KeyError: no such table."""
@@ -92,7 +93,7 @@ class PassesResult:
         """Names of the columns of passes.csv."""
         return list(self.table())
 
-    def __getitem__(self, column: str) -> np.ndarray:
+    def __getitem__(self, column: str) -> Array:
         """A column of passes.csv, a number a pass: result["net_strain"]."""
         return self.table()[column]
 
@@ -108,7 +109,7 @@ class PassesResult:
         """A table in pandas."""
         return needs("pandas", "python3-pandas").DataFrame(self.table(name))
 
-    def section(self, column: str = "sigma_xx_MPa") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def section(self, column: str = "sigma_xx_MPa") -> tuple[Array, Array, Array]:
         """(y [m], depth [m], values (y, depth)) of a column of residual.csv in the section after the last pass; NaN
         where the section has no point. y and depth as in docs/passes.md."""
         points = self.table("residual")
@@ -123,11 +124,11 @@ class PassesResult:
 
     def to_xarray(self) -> "xarray.Dataset":
         """The section after the last pass: dimensions y and depth [m], a variable a column of residual.csv."""
-        xarray = needs("xarray", "python3-xarray")
+        module = needs("xarray", "python3-xarray")
         names = [n for n in self.table("residual") if n not in ("y_mm", "depth_mm")]
         sections = {name: self.section(name) for name in names}
         y, depth, _ = sections[names[0]]
-        out = xarray.Dataset({n: (("y", "depth"), values) for n, (_, _, values) in sections.items()},
+        out: xarray.Dataset = module.Dataset({n: (("y", "depth"), values) for n, (_, _, values) in sections.items()},
                              {"y": y, "depth": depth}, {"title": self.title, "verdict": self.verdict})
         out["y"].attrs["units"] = out["depth"].attrs["units"] = "m"
         for name in names:
@@ -186,11 +187,9 @@ def passes(
         case = case.with_({"run.plasticity": True, "run.rolling": True})
     follow = _callback(progress, "", True)
     bar = follow if isinstance(follow, _Bar) else None
-    if bar is not None:
-        follow = lambda number, fraction: bar(f"pass {number}", fraction)  # noqa: E731
     try:
         done = _bridge.work(
-            "passes", follow, case=case._loaded, folder=str(folder), rolled=engine == "fem", passes=passes,
+            "passes", follow if bar is None else bar.of_pass, case=case._loaded, folder=str(folder), rolled=engine == "fem", passes=passes,
             resume=bool(resume), force=bool(force), page=bool(page), cell=_metres(cell, "cell"),
             roll_length=_metres(roll_length, "roll_length"), checkpoint_every=float(checkpoint_every),
         )
