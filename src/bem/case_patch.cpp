@@ -200,8 +200,9 @@ void fill_heat(const CaseSpec& spec, CasePatch& patch, const HertzContact& estim
                     peclet, kLeastPeclet));
 }
 
-/// The problem on a grid that stands.
-void fill_problem(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, CasePatch& patch) {
+}  // namespace
+
+void set_problem(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, CasePatch& patch) {
   RollingContact& contact = patch.contact;
   contact.gap = patch.profile.gap;
   contact.target = target;
@@ -221,15 +222,13 @@ void fill_problem(const CaseSpec& spec, const Placement& placement, const Normal
   contact.speed = spec.drive.speed;
 }
 
-}  // namespace
-
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                           const NormalTarget& target, const PatchRoom& room) {
   CasePatch patch = bodies_of(spec);
   patch.grid = grid_for(spec, placement, options, target, room);
   InfluenceCache own;
   fit_grid(placement, target, room, options, options.cache ? *options.cache : own, patch);
-  fill_problem(spec, placement, target, patch);
+  set_problem(spec, placement, target, patch);
   return patch;
 }
 
@@ -239,7 +238,7 @@ CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Place
   patch.grid = grid;
   InfluenceCache own;
   gap_and_influence(placement, options.cache ? *options.cache : own, patch);
-  fill_problem(spec, placement, target, patch);
+  set_problem(spec, placement, target, patch);
   return patch;
 }
 

@@ -63,6 +63,9 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
 CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement,
                         const BemOptions& options, const NormalTarget& target);
 
+/// Gives a patch on its grid and its profiles' gap the problem of a case.
+void set_problem(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, CasePatch& patch);
+
 /// Whether the patch has no ring of cells to spare.
 bool reaches_edge(const PatchGrid& grid, const Plane& pressure);
 

@@ -87,6 +87,31 @@ void NewtonStep::solve(double accuracy, double close) {
         [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, accuracy, 120, space_, close);
 }
 
+/// TangentialState::lateral_slip by the slip.
+void NewtonStep::prepare_steer() {
+  steer_.assign(2 * s_.n, 0.0);
+  if (s_.given.to_own_place.empty()) return;
+  s_.for_both([&](std::size_t i) {
+    const double change = s_.given.to_own_place[i], size = magnitude(s_.slip[i], s_.slip[s_.n + i]);
+    if (s_.set[i] != kSlip || change == 0 || size == 0 || size >= 9 * std::abs(change)) return;
+    steer_[i] = std::copysign(s_.slip[i] / (9 * size), change * s_.slip[i]);
+    steer_[s_.n + i] = std::copysign(s_.slip[s_.n + i] / (9 * size), change * s_.slip[s_.n + i]);
+  });
+}
+
+const Plane& NewtonStep::derivative(const Plane& change) {
+  constexpr double kAccuracy = 1e-7;
+  prepare_slip_cells();
+  prepare_steer();
+  prepare_border();
+  right_side_ = change;
+  s_.for_both([&](std::size_t i) { project(i, right_side_[i], right_side_[s_.n + i]); });
+  for (std::size_t c = 2 * s_.n; c < right_side_.size(); ++c) right_side_[c] *= force_row_;
+  gmres([&](const Plane& in, Plane& out) { product(in, out); },
+        [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, kAccuracy, 120, space_);
+  return step_;
+}
+
 /// out = A in: L dq - creepage, projected, plus the diagonal of slip; then the sums of dq for the given forces.
 void NewtonStep::product(const Plane& in, Plane& out) {
   s_.L.apply(in.data());
@@ -96,6 +121,7 @@ void NewtonStep::product(const Plane& in, Plane& out) {
   if (s_.varying) change_bound([&](std::size_t i) { return std::pair(s_.L.x(i) - creep[0], s_.L.y(i) - creep[1]); });
   const Components force = s_.for_both_summed(in.data(), [&](std::size_t i) {
     double x = s_.L.x(i) - creep[0], y = s_.L.y(i) - creep[1];
+    if (!steer_.empty()) y += steer_[i] * x + steer_[s_.n + i] * y;
     project(i, x, y);
     const double d = s_.set[i] == kSlip ? diagonal_[i] : 0.0;
     out[i] = x + d * in[i];

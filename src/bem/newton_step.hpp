@@ -31,6 +31,9 @@ class NewtonStep {
   /// the linear system; close: a slip that may be left in every cell, 0: `accuracy` alone ends it. Cells that leave
   /// the circle are kLoosened.
   void take(double accuracy, double close = 0);
+  /// Change of the tractions, then of the given forces' creepages, that takes back a change of the slip (two planes) and
+  /// of the given forces (missing_force), sets as they stand; slipping cells turn on their circle. Without VaryingBound.
+  const Plane& derivative(const Plane& change);
 
  private:
   using Components = std::array<double, 2>;
@@ -39,6 +42,7 @@ class NewtonStep {
   void add_row_along(std::size_t i, const Plane& in, Plane& out) const;
   double next_carried(std::size_t i) const;
   void prepare_slip_cells();
+  void prepare_steer();
   void project(std::size_t i, double& x, double& y) const;
   void solve(double accuracy, double close);
   void product(const Plane& in, Plane& out);
@@ -50,6 +54,7 @@ class NewtonStep {
 
   TangentialState& s_;
   Plane normal_, diagonal_;  // of slipping cells: unit traction; (s.n)/g
+  Plane steer_;  // of derivative(): change of lateral_slip beyond that of the slip itself, by the slip's x and y
   Plane step_, right_side_, integral_;
   std::vector<int> directions_;
   double force_row_;  // a force residual weighs like a slip residual

@@ -35,7 +35,8 @@ class ActiveSetSolver {
         d_(n_),
         Ad_(n_),
         ones_(n_),
-        active_(n_, 0) {}
+        active_(n_, 0),
+        tolerance_(options.tolerance) {}
 
   NormalSolution solve(const Plane& start) {
     if (start.empty())
@@ -47,16 +48,34 @@ class ActiveSetSolver {
     double reduce = 1e-2;
     for (int outer = 0; outer < options_.max_outer; ++outer) {
       const double scale = gap_range();
-      const double left = conjugate_gradients(reduce, options_.tolerance * scale);
-      const int changed = update_active_set(options_.tolerance * scale);
-      if (changed == 0 && left <= options_.tolerance * scale) return solution();
+      if (outer == 0 && !start.empty()) follow(scale);
+      const double left = conjugate_gradients(reduce, tolerance_ * scale);
+      const int changed = update_active_set(tolerance_ * scale);
+      if (changed == 0 && left <= tolerance_ * scale) return solution();
       reduce = changed == 0 ? 1e-4 : changed < 8 ? 1e-3 : 1e-2;
     }
     throw NumericalError(
         "the normal contact problem did not converge; the gap may be flat or wildly rough on the scale of a cell");
   }
 
+  /// The equations of the cells in contact are linear: those of changes have the form of those of the solution.
+  NormalSolution derivative(const Plane& pressure) {
+    constexpr double kReduce = 1e-9;
+    for (std::size_t i = 0; i < n_; ++i) active_[i] = pressure[i] > 0;
+    conjugate_gradients(kReduce, 0);
+    return solution();
+  }
+
  private:
+  /// Sharpens the tolerance for a start that is close already.
+  void follow(double scale) {
+    if (options_.share_of_first >= 1) return;
+    influence_.normal(p_.data(), displacement_.data());
+    ++iterations_;
+    const double first = compute_residual() / scale;
+    tolerance_ = std::min(tolerance_, std::max(NormalOptions::kRoundOff, options_.share_of_first * first));
+  }
+
   bool load_given() const { return target_.load.has_value(); }
 
   /// p ~ sqrt(depth of rigid interpenetration). For a given load the depth is right when u_n is the gap's mirror image:
@@ -260,6 +279,7 @@ class ActiveSetSolver {
   Plane p_, displacement_;              // u_n(p)
   Plane residual_, z_, d_, Ad_, ones_;  // of the conjugate gradients; ones_: preconditioned indicator of active cells
   Mask active_;
+  double tolerance_;
   double approach_ = 0, ones_sum_ = 1;
   int iterations_ = 0;
 };
@@ -272,6 +292,11 @@ NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid&
   if (target.load && !(*target.load > 0))
     throw CaseError("the load must press the bodies together", "give a positive load", "vehicle.wheel_load");
   return ActiveSetSolver(influence, grid, gap, target, options).solve(start);
+}
+
+NormalSolution normal_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
+                                 const NormalSolution& solution, const Plane& gap, NormalTarget target) {
+  return ActiveSetSolver(influence, grid, gap, target, {}).derivative(solution.pressure);
 }
 
 }  // namespace railstrata

@@ -21,7 +21,10 @@ struct NormalTarget {
 struct NormalOptions {
   double tolerance =
       1e-7;  ///< largest violation of the contact conditions, relative to the range of the gap over the patch
+  double share_of_first = 1;  ///< from a start, what may be left of the violation that it has in this problem, 0 to 1:
+                              ///< below 1 small changes of a problem are followed too; as far as round-off allows
   int max_outer = 200;
+  static constexpr double kRoundOff = 1e-11;  ///< of both problems' tolerances
 };
 
 struct NormalSolution {
@@ -38,5 +41,10 @@ struct NormalSolution {
 /// NumericalError when the iteration does not end.
 NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap,
                             NormalTarget target, const NormalOptions& options = {}, const Plane& start = {});
+
+/// Change of a solution with the gap and the target, cells in contact as they are: pressure and approach per unit of an
+/// input of which gap [m] and target change by `gap` and `target`; `gap` of the result is that of the empty cells.
+NormalSolution normal_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
+                                 const NormalSolution& solution, const Plane& gap, NormalTarget target);
 
 }  // namespace railstrata

@@ -48,6 +48,17 @@ struct RollingSolution {
 RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
                               const RollingOptions& options = {}, const RollingSolution* start = nullptr);
 
+/// Change of a solution per unit of an input, sets as they are. Steady rolling without `heat` and bounds that vary with
+/// slip.
+struct RollingDerivative {
+  NormalSolution normal;  ///< pressure, approach and load
+  TangentialDerivative tangential;
+};
+/// more, less: the problem with the input larger and smaller by `step`, so small that tractions hardly change.
+RollingDerivative rolling_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
+                                     const RollingContact& contact, const RollingSolution& solution,
+                                     const RollingContact& more, const RollingContact& less, double step);
+
 /// Makes `contact` the transient step in which the wheel rolls on by one cell (dx) from the state `before`. Gap and
 /// load may change from step to step too.
 void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,

@@ -132,7 +132,9 @@ class WheelOnPatches {
         modulus_(modulus_of(spec)),
         along_{spec.drive.creepage.value_or(0), 0},
         across_{spec.drive.lateral_creepage.value_or(yaw_creepage(members_.front().contact())), 0} {
-    options_.rolling.tangential.tolerance = std::min(options_.rolling.tangential.tolerance, kSharp);
+    options_.rolling.tangential.tolerance =
+        std::min(options_.rolling.tangential.tolerance, kSharp * options_.balance);
+    options_.rolling.tangential.share_of_first = options_.rolling.normal.share_of_first = 1;  // starts are its own
     options_.cache = options.cache ? options.cache : &cache_;
   }
 
@@ -141,7 +143,7 @@ class WheelOnPatches {
     for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
       const Eigen::MatrixXd bent = depressions();
       const double moved = solve_at(descent, bent);
-      if (std::abs(vertical() - weight_) <= kClosure * weight_ && moved <= kMoved * weight_) return;
+      if (std::abs(vertical() - weight_) <= kClosure * options_.balance * weight_ && moved <= options_.balance * weight_) return;
       descent += step(descent, bent);
     }
     throw CaseError("no descent of the wheel balances the weight on its contacts: friction wedges the wheel",
@@ -173,9 +175,9 @@ class WheelOnPatches {
   }
 
  private:
-  static constexpr double kClosure = 5e-7, kMoved = 1e-5;  // of the weight
-  static constexpr double kSharp = 1e-7;                   // of friction: forces are to be known better than they close
-  static constexpr double kNoWidth = 1e-13;                // of a creepage
+  static constexpr double kClosure = 0.05;   // of BemOptions::balance
+  static constexpr double kSharp = 0.01;     // of the same, of friction: forces are known better than they close
+  static constexpr double kNoWidth = 1e-13;  // of a creepage
   static constexpr int kMostIterations = 60;
 
   static bool carries(const Member& m, int column) {
@@ -378,7 +380,7 @@ class WheelOnPatches {
       return excess_now();
     };
     double a = sought.creepage, at_a = excess_at(a);
-    const double close = 0.5 * kClosure * weight_;
+    const double close = 0.5 * kClosure * options_.balance * weight_;
     if (std::abs(at_a) <= close) return;
     double step = sought.compliance > 0 ? 1.5 * std::abs(at_a) * sought.compliance : 1e-4, b = a, at_b = at_a;
     while (at_a * at_b > 0) {

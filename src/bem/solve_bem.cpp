@@ -208,7 +208,7 @@ void solve_under(double normal, double weight, const CaseSpec& spec, const Place
 /// positive.
 LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
                                   const BemOptions& options, double weight) {
-  constexpr double kTolerance = 1e-5, kWedged = 0.02;
+  constexpr double kWedged = 0.02;
   constexpr int kMostIterations = 20;
   const RigidContact& contact = placement.contact;
   const double cosine = std::cos(contact.angle), sine = std::sin(contact.angle);
@@ -220,7 +220,7 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placeme
   for (;; ++out.load_iterations) {
     solve_under(normal, weight, spec, placement, room, options, out);
     const double excess = normal * cosine - out.solution.tangential.force_y * sine - weight;
-    if (std::abs(excess) <= kTolerance * weight) return out;
+    if (std::abs(excess) <= options.balance * weight) return out;
     if (out.load_iterations > 1) slope = (excess - previous_excess) / (normal - previous_normal);
     out.wedged = !(slope > kWedged * cosine) || out.load_iterations == kMostIterations;
     if (out.wedged) return out;
@@ -258,7 +258,6 @@ SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const B
 /// Under a given approach the vertical force F_z is a result. Forces of the drive count over it: F_z and they are found
 /// in turn, from the frictionless contact on.
 SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  constexpr double kTolerance = 1e-5;
   constexpr int kMostIterations = 40;
   const RigidContact& contact = placement.contact;
   require_one_plane(placement, *spec.vehicle.approach, "vehicle.approach",
@@ -275,7 +274,7 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
     const double before = vertical;
     vertical = std::cos(contact.angle) * solution.normal.load - std::sin(contact.angle) * solution.tangential.force_y;
     const bool driven = patch.contact.x.force.value_or(0) != 0 || patch.contact.y.force.value_or(0) != 0;
-    if (!driven || std::abs(vertical - before) <= kTolerance * std::abs(vertical)) return out;
+    if (!driven || std::abs(vertical - before) <= options.balance * std::abs(vertical)) return out;
     if (out.load_iterations == kMostIterations)
       throw CaseError("the forces over the load that comes out do not settle under this approach",
                       "lower the traction coefficients, or give a load instead of vehicle.approach",

@@ -10,6 +10,7 @@
 
 #include "bem/cell_slip.hpp"
 #include "bem/newton_step.hpp"
+#include "bem/normal_problem.hpp"
 #include "bem/patch_part.hpp"
 #include "core/faults.hpp"
 
@@ -40,20 +41,23 @@ class Solver {
     s_.follow_slip();
     double error = violation();
     const bool continued = start && start->extrapolated;
-    for (; error > options_.tolerance && outer_ < options_.max_outer; ++outer_) {
+    const double goal =
+        start ? std::min(options_.tolerance, std::max(NormalOptions::kRoundOff, options_.share_of_first * error))
+              : options_.tolerance;
+    for (; error > goal && outer_ < options_.max_outer; ++outer_) {
       const bool stand = changed == 0 && (outer_ > 0 || (continued && error < kClose * options_.tolerance));
       if (!stand)
         newton_.take(kCoarse);
       else if (continued)
-        newton_.take(kSharp, 0.4 * options_.tolerance * scale_);
+        newton_.take(kSharp, 0.4 * goal * scale_);
       else
-        newton_.take(std::clamp(0.3 * options_.tolerance / error, kSharp, kCoarse));
+        newton_.take(std::clamp(0.3 * goal / error, kSharp, kCoarse));
       s_.update_slip();
       changed = update_sets();
       s_.follow_slip();
       error = violation();
     }
-    if (error <= options_.tolerance || options_.partial) return solution();
+    if (error <= goal || options_.partial) return solution();
     if (s_.varying && !newton_.directions().empty())
       throw CaseError(
           fmt::format("no steady state was found under the given force: {} may not carry it",
@@ -285,7 +289,69 @@ void add_film(const TangentialSolution& s, Plane& u_x, Plane& u_y) {
   }
 }
 
+/// A solution in a problem beside its own: sets stand, slipping cells are on their bound.
+void take_over(const TangentialSolution& s, TangentialState& state) {
+  for (std::size_t i = 0; i < state.n; ++i) {
+    if (s.state[i] == ContactState::separated) continue;
+    const double y = s.q_y[i] / state.problem.lateral_share, size = magnitude(s.q_x[i], y);
+    const bool slips = s.state[i] == ContactState::slip && size > 0;
+    const double scale = slips ? state.bound[i] / size : 1.0;
+    state.set[i] = slips ? kSlip : kStick;
+    state.q[i] = scale * s.q_x[i];
+    state.q[state.n + i] = scale * y;
+  }
+  if (state.problem.x.force) state.creepage[0] = s.creepage_x;
+  if (state.problem.y.force) state.creepage[1] = state.problem.lateral_share * s.creepage_y;
+  state.update_slip();
+}
+
+TangentialDerivative derivative_on(const InfluenceOperator& influence, const PatchGrid& grid,
+                                   const TangentialProblem& problem, const TangentialSolution& s,
+                                   const TangentialProblem& more, const TangentialProblem& less, double step) {
+  TangentialState here(influence, grid, problem), up(influence, grid, more), down(influence, grid, less);
+  for (TangentialState* state : {&here, &up, &down}) take_over(s, *state);
+  const std::size_t n = here.n;
+  const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
+  NewtonStep newton(here);
+  Plane change(2 * n + newton.directions().size());
+  for (std::size_t i = 0; i < n; ++i) {
+    change[i] = slope(up.slip[i], down.slip[i]);
+    change[n + i] = slope(up.lateral_slip(i), down.lateral_slip(i));
+  }
+  for (std::size_t c = 0; c < newton.directions().size(); ++c)
+    change[2 * n + c] = slope(up.missing_force(newton.directions()[c]), down.missing_force(newton.directions()[c]));
+  const Plane& turned = newton.derivative(change);
+  TangentialDerivative d{Plane(n), Plane(n)};
+  for (std::size_t k = 0; k < n; ++k) {
+    d.q_x[k] = turned[k] + slope(up.q[k], down.q[k]);
+    d.q_y[k] = here.traction_y(turned[n + k]) + slope(up.traction_y(up.q[n + k]), down.traction_y(down.q[n + k]));
+    d.moment += (grid.x(static_cast<int>(k) / grid.ny) * d.q_y[k] - grid.y(static_cast<int>(k) % grid.ny) * d.q_x[k]) *
+                grid.cell_area();
+  }
+  d.force_x = sum(d.q_x) * grid.cell_area();
+  d.force_y = sum(d.q_y) * grid.cell_area();
+  d.creepage_x = problem.x.force ? 0.0 : slope(more.x.creepage, less.x.creepage);
+  d.creepage_y = problem.y.force ? 0.0 : slope(more.y.creepage, less.y.creepage);
+  for (std::size_t c = 0; c < newton.directions().size(); ++c)
+    (newton.directions()[c] ? d.creepage_y : d.creepage_x) =
+        newton.directions()[c] ? here.slip_y(turned[2 * n + c]) : turned[2 * n + c];
+  return d;
+}
+
 }  // namespace
+
+TangentialDerivative tangential_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
+                                           const TangentialProblem& problem, const TangentialSolution& solution,
+                                           const TangentialProblem& more, const TangentialProblem& less, double step) {
+  const std::optional<PatchPart> part = tight_part_with(grid, problem.traction_bound);
+  if (!part) return derivative_on(influence, grid, problem, solution, more, less, step);
+  TangentialDerivative d =
+      derivative_on(*influence.part(part->nx, part->ny), part->grid(), taken(*part, problem), taken(*part, solution),
+                    taken(*part, more), taken(*part, less), step);
+  d.q_x = part->put(d.q_x);
+  d.q_y = part->put(d.q_y);
+  return d;
+}
 
 TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid,
                                     const TangentialProblem& problem, const TangentialOptions& options,

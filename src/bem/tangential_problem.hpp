@@ -77,6 +77,7 @@ struct TangentialProblem : RollingConditions {
 struct TangentialOptions {
   double tolerance = 1e-5;  ///< of the slip conditions, relative to the largest rigid slip (history counts with a
                             ///< hundredth), and of a given force, relative to friction
+  double share_of_first = 1;  ///< from a start, what may be left of the violation that it has here: see NormalOptions
   int max_outer = 80;
   bool partial = false;  ///< true: after max_outer steps what was reached is the answer, not an error
 };
@@ -106,6 +107,18 @@ struct TangentialSolution {
 TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid,
                                     const TangentialProblem& problem, const TangentialOptions& options = {},
                                     const TangentialSolution* start = nullptr);
+
+/// Change of a solution per unit of an input, sets of sticking and slipping cells as they are. Of steady rolling without
+/// a bound that varies with slip (VaryingBound::needed).
+struct TangentialDerivative {
+  Plane q_x, q_y;                         ///< Pa
+  double creepage_x = 0, creepage_y = 0;  ///< of given forces
+  double force_x = 0, force_y = 0, moment = 0;
+};
+/// more, less: the problem with the input larger and smaller by `step`.
+TangentialDerivative tangential_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
+                                           const TangentialProblem& problem, const TangentialSolution& solution,
+                                           const TangentialProblem& more, const TangentialProblem& less, double step);
 
 /// Values of cells after the wheel has rolled on by one cell; new ones are zero.
 Plane rolled_on(const PatchGrid& grid, const Plane& values);

@@ -3,64 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "capi/contact.hpp"
 #include "capi/guarded.hpp"
-#include "capi/next_start.hpp"
-#include "capi/railstrata.h"
 #include "capi/state_of_case.hpp"
-#include "case/case_file.hpp"
 #include "io/provenance.hpp"
 #include "judge/bem_summary.hpp"
-#include "model/model.hpp"
 #include "runs/solve_half_space.hpp"
 #include "runs/solve_settings.hpp"
 
 using namespace railstrata;
 
-/// The case with its profiles read once, what solutions share, and the last one.
-struct rs_contact {
-  LoadedCase loaded;
-  Placement placement;
-  BemOptions options;
-  InfluenceCache cache;
-  capi::NextStart start;
-  std::optional<BemResult> last;
-  ContactSummary numbers;
-  std::string remarks;
-};
-
+namespace railstrata::capi {
 namespace {
-
-rs_contact* new_contact(LoadedCase loaded) {
-  const CaseSpec spec = half_space_case(loaded.spec);
-  if (spec.transient.kind != TransientKind::none)
-    throw CaseError("a history in time (transient) is not offered by the C interface", "use the program or Python",
-                    loaded.file.string());
-  Placement placement = place(spec, loaded.folder());
-  loaded.spec = spec;
-  return new rs_contact{std::move(loaded), std::move(placement), {}, {}, {}, {}, {}, {}};
-}
-
-std::vector<std::string> texts(const char* const* overrides, int count) {
-  if (count < 0 || (count > 0 && !overrides)) throw CaseError("the list of overrides is missing", "give count = 0");
-  return {overrides, overrides + count};
-}
-
-/// The placement of the case's profiles where a state has moved the wheel.
-Placement placed(const rs_contact& contact, const CaseSpec& spec) {
-  const GeometrySpec &now = spec.geometry, &was = contact.loaded.spec.geometry;
-  if (now.lateral_shift == was.lateral_shift && now.yaw == was.yaw && now.roll == was.roll) return contact.placement;
-  Placement out = contact.placement;
-  out.track.lateral_shift = now.lateral_shift;
-  out.track.yaw = now.yaw;
-  out.track.roll = now.roll;
-  out.contact = place_wheel(out.wheel, out.rail, out.track);
-  return out;
-}
 
 int cells_with_pressure(const ContactField& field) {
   int count = 0;
@@ -68,11 +26,12 @@ int cells_with_pressure(const ContactField& field) {
   return count;
 }
 
-void fill(const BemResult& result, const Summary& summary, rs_forces& out) {
+}  // namespace
+
+rs_forces forces_of(const BemResult& result, const Summary& summary) {
   const ContactSummary& c = summary.contact;
-  const std::size_t size = out.size;
-  out = {};
-  out.size = size;
+  rs_forces out{};
+  out.size = sizeof(rs_forces);
   out.force_x = c.F_x;
   out.force_y = c.F_y;
   out.force_z = c.F_z;
@@ -94,6 +53,60 @@ void fill(const BemResult& result, const Summary& summary, rs_forces& out) {
   out.iterations = result.effort.iterations;
   out.checks_hold = 1;
   for (const Check& check : summary.checks) out.checks_hold &= check.ok ? 1 : 0;
+  return out;
+}
+
+void set_tolerance(BemOptions& options, double t) {
+  options.rolling.tangential.tolerance = options.rolling.coupling_tolerance = options.balance = t;
+  options.rolling.normal.tolerance = 0.01 * t;
+}
+
+void require(const rs_contact* contact) {
+  if (!contact) throw CaseError("the contact is NULL", "make one with rs_contact_new");
+}
+
+Placement placed(const rs_contact& contact, const CaseSpec& spec) {
+  const GeometrySpec &now = spec.geometry, &was = contact.loaded.spec.geometry;
+  if (now.lateral_shift == was.lateral_shift && now.yaw == was.yaw && now.roll == was.roll) return contact.placement;
+  Placement out = contact.placement;
+  out.track.lateral_shift = now.lateral_shift;
+  out.track.yaw = now.yaw;
+  out.track.roll = now.roll;
+  answer([&] { out.contact = place_wheel(out.wheel, out.rail, out.track); });
+  return out;
+}
+
+const BemPatch& patch_of(const rs_contact* contact, int patch) {
+  if (!contact || !contact->last) throw CaseError("there is no solution", contact && contact->state ? "the wheel of the last state is lifted" : "call rs_solve first");
+  const BemResult& result = *contact->last;
+  const int count = static_cast<int>(1 + result.further.size());
+  if (patch < 0 || patch >= count)
+    throw CaseError(fmt::format("there is no patch {}", patch), fmt::format("give 0 to {}", count - 1));
+  return patch == 0 ? result : result.further[static_cast<std::size_t>(patch - 1)];
+}
+
+}  // namespace railstrata::capi
+
+namespace {
+
+using capi::patch_of;
+using capi::require;
+
+rs_contact* new_contact(LoadedCase loaded) {
+  const CaseSpec spec = half_space_case(loaded.spec);
+  if (spec.transient.kind != TransientKind::none)
+    throw CaseError("a history in time (transient) is not offered by the C interface", "use the program or Python",
+                    loaded.file.string());
+  Placement placement = place(spec, loaded.folder());
+  loaded.spec = spec;
+  return new rs_contact{std::move(loaded), std::move(placement), {}, {}, {}, {}, {}, {}};
+}
+
+std::vector<std::string> texts(const char* const* overrides, int count) {
+  if (count < 0 || (count > 0 && !overrides)) throw CaseError("the list of overrides is missing", "give count = 0");
+  for (int k = 0; k < count; ++k)
+    if (!overrides[k]) throw CaseError(fmt::format("override {} is NULL", k), "give a text \"key=value\"");
+  return {overrides, overrides + count};
 }
 
 std::string remarks_of(const BemResult& result, const Summary& summary) {
@@ -105,30 +118,59 @@ std::string remarks_of(const BemResult& result, const Summary& summary) {
   return out;
 }
 
-void solve(rs_contact& contact, const rs_state* state, rs_forces& forces) {
-  if (forces.size != sizeof(rs_forces))
-    throw CaseError(fmt::format("rs_forces.size = {} is of another version of the library", forces.size),
-                    "set size = sizeof(rs_forces), and compile with this version's railstrata.h");
-  contact.last.reset();
-  contact.remarks.clear();
-  const CaseSpec spec = state ? capi::with_state(contact.loaded.spec, *state) : contact.loaded.spec;
-  contact.options.cache = &contact.cache;
-  BemNeighbour neighbour = contact.start.of(spec);
-  contact.options.neighbour = &neighbour;
-  contact.last = solve_bem(spec, placed(contact, spec), contact.options);
-  contact.start.add(spec, std::move(neighbour));
-  const Summary summary = bem_contact_summary(spec, *contact.last);
-  fill(*contact.last, summary, forces);
-  contact.remarks = remarks_of(*contact.last, summary);
+/// A wheel that is lifted, and what its state has besides.
+bool lifted(const rs_state& state) {
+  return ((state.given & RS_APPROACH) && std::isfinite(state.approach) && state.approach <= 0) ||
+         ((state.given & RS_LOAD) && state.load == 0);
 }
 
-const BemPatch& patch_of(const rs_contact* contact, int patch) {
-  if (!contact || !contact->last) throw CaseError("there is no solution", "call rs_solve first");
-  const BemResult& result = *contact->last;
-  const int count = static_cast<int>(1 + result.further.size());
-  if (patch < 0 || patch >= count)
-    throw CaseError(fmt::format("there is no patch {}", patch), fmt::format("give 0 to {}", count - 1));
-  return patch == 0 ? result : result.further[static_cast<std::size_t>(patch - 1)];
+void fill_lifted(const rs_contact& contact, rs_state state, rs_forces& out) {
+  const double approach = state.given & RS_APPROACH ? state.approach : 0.0;
+  state.given &= ~(RS_APPROACH | RS_LOAD);
+  const CaseSpec spec = capi::with_state(contact.loaded.spec, state);
+  const RigidContact& there = capi::placed(contact, spec).contact;
+  out = {};
+  out.size = sizeof(rs_forces);
+  out.creepage_x = spec.drive.creepage.value_or(0);
+  out.creepage_y = spec.drive.lateral_creepage.value_or(yaw_creepage(there));
+  out.spin = spec.drive.spin.value_or(geometric_spin(spec, there));
+  out.approach = approach;
+  out.contact_angle = there.angle;
+  out.checks_hold = 1;
+}
+
+void require_size(std::size_t size) {
+  if (size != sizeof(rs_forces))
+    throw CaseError(fmt::format("rs_forces.size = {} is of another version of the library", size),
+                    "set size = sizeof(rs_forces), and compile with this version's railstrata.h");
+}
+
+void solve(rs_contact& contact, const rs_state* given, rs_forces& forces) {
+  require_size(forces.size);
+  contact.last.reset();
+  contact.state.reset();
+  contact.remarks.clear();
+  rs_state state = given ? *given : rs_state{};
+  if (!given) state.size = sizeof(rs_state);
+  if (lifted(state)) {
+    fill_lifted(contact, state, forces);
+    contact.state = state;
+    return;
+  }
+  const CaseSpec spec = capi::with_state(contact.loaded.spec, state);
+  BemOptions options = contact.options;
+  options.cache = &contact.cache;
+  BemNeighbour neighbour = contact.start.of(spec);
+  options.neighbour = &neighbour;
+  constexpr double kFollowed = 1e-2;  // of a start's violation: the smallest change of a state counts
+  if (!neighbour.empty())
+    options.rolling.normal.share_of_first = options.rolling.tangential.share_of_first = kFollowed;
+  capi::answer([&] { contact.last = solve_bem(spec, capi::placed(contact, spec), options); });
+  contact.start.add(spec, std::move(neighbour));
+  const Summary summary = bem_contact_summary(spec, *contact.last);
+  forces = capi::forces_of(*contact.last, summary);
+  contact.state = state;
+  contact.remarks = remarks_of(*contact.last, summary);
 }
 
 void copy_field(const ContactField& f, int field, double* out, std::size_t n) {
@@ -177,10 +219,6 @@ void stress(const rs_contact* contact, int body, const double* xyz, std::size_t 
   }
 }
 
-void require(const rs_contact* contact) {
-  if (!contact) throw CaseError("the contact is NULL", "make one with rs_contact_new");
-}
-
 }  // namespace
 
 extern "C" {
@@ -216,6 +254,17 @@ int rs_set_cell(rs_contact* contact, double cell, rs_error* error) {
     require(contact);
     require_cell(cell);
     contact->options.cell = cell;
+  });
+}
+
+int rs_set_tolerance(rs_contact* contact, double tolerance, rs_error* error) {
+  return capi::guarded(error, [&] {
+    require(contact);
+    constexpr double kSharpest = 1e-10, kRoughest = 1e-3;
+    if (!(tolerance >= kSharpest && tolerance <= kRoughest))
+      throw CaseError(fmt::format("a tolerance of {:g} is out of range", tolerance),
+                      fmt::format("give a number from {:g} to {:g}", kSharpest, kRoughest));
+    capi::set_tolerance(contact->options, tolerance);
   });
 }
 

@@ -21,6 +21,22 @@ inline int fail(rs_error* error, int code, std::string_view text) {
   return code;
 }
 
+/// Physics has no answer for inputs that are in range.
+struct NoAnswer : CaseError {
+  using CaseError::CaseError;
+  explicit NoAnswer(const CaseError& e) : CaseError(e) {}
+};
+
+/// Calls `work`, which has the inputs that were looked at before: a CaseError is physics then.
+template <class Work>
+void answer(Work&& work) {
+  try {
+    work();
+  } catch (const CaseError& e) {
+    throw NoAnswer(e);
+  }
+}
+
 /// Calls `work`; the code of what it throws, with its text in `error`. No exception leaves.
 template <class Work>
 int guarded(rs_error* error, Work&& work) noexcept {
@@ -28,6 +44,8 @@ int guarded(rs_error* error, Work&& work) noexcept {
     work();
     if (error) *error = rs_error{};
     return RS_OK;
+  } catch (const NoAnswer& e) {
+    return fail(error, RS_NO_ANSWER, e.what());
   } catch (const CaseError& e) {
     return fail(error, RS_CASE, e.what());
   } catch (const NumericalError& e) {

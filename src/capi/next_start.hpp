@@ -13,6 +13,8 @@ class NextStart {
  public:
   /// The start for a case; empty at first.
   BemNeighbour of(const CaseSpec& spec) const;
+  /// The last solution; empty: none, or one that cannot be started from.
+  const BemNeighbour& last() const { return last_.solved; }
   /// Takes the solution of a case; empty: of one that cannot be started from.
   void add(const CaseSpec& spec, BemNeighbour solved);
 

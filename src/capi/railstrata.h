@@ -27,9 +27,12 @@ extern "C" {
 
 /* Of rs_error.code; the program's exit codes have the same meanings. */
 #define RS_OK 0
-#define RS_CASE 2      /* an input is wrong, or physics has no answer for it */
+#define RS_CASE 2      /* a mistake: an input is misspelt, out of range or at odds with another */
 #define RS_NUMERICS 3  /* an iteration did not converge */
 #define RS_MACHINE 4   /* not enough memory, a file that cannot be read */
+#define RS_NO_ANSWER 5 /* physics: the inputs are in range, and no contact has them. Friction cannot bear the force or
+                        * wedges the wheel; the wheel misses the rail or touches at the end of a profile; the load
+                        * flattens the patch */
 #define RS_INTERNAL 70 /* a fault of the library */
 
 typedef struct rs_error {
@@ -104,8 +107,39 @@ typedef struct rs_forces {
 /* Side of the cells [m], 0.02e-3 to 5e-3; 0.25e-3 unless set. */
 RS_API int rs_set_cell(rs_contact* contact, double cell, rs_error* error);
 
-/* Solves the case with what `state` changes of it; NULL: as it is. After an error the last solution is gone. */
+/* Tolerance of solutions, 1e-10 to 1e-3; 1e-5 unless set. The largest slip in sticking cells over the largest rigid
+ * slip, the error of forces that friction bears over friction, that of the vertical force over the load; of the gap in
+ * contact over its range a hundredth. Sharper ones cost about a Newton step for every two digits. A solution that starts
+ * from the one before takes out 99 % of what the state's change made wrong as well, however little that is. */
+RS_API int rs_set_tolerance(rs_contact* contact, double tolerance, rs_error* error);
+
+/* Solves the case with what `state` changes of it; NULL: as it is. After an error the last solution is gone. A wheel
+ * that is lifted (approach <= 0, or load 0) is an answer: RS_OK with forces, patches and cells 0; the next solution
+ * starts from the last contact. */
 RS_API int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_error* error);
+
+/* Derivatives of the last solution by one input of rs_state. */
+typedef struct rs_derivatives {
+  size_t size;                      /* sizeof(rs_derivatives), to be set by the caller */
+  double force_x, force_y, force_z; /* of the members of rs_forces, in their units per that of the input */
+  double normal_force, lateral_force;
+  double spin_moment;
+  double creepage_x, creepage_y, spin;
+  double approach;
+  double contact_angle;
+} rs_derivatives;
+
+/* Derivatives of what rs_solve gave, by `count` inputs, each one bit of rs_state.given; out[k] is that of inputs[k]. All
+ * other inputs stay as they were given; what was not given follows as in rs_solve: by RS_YAW the lateral creepage turns
+ * with the wheel unless RS_CREEPAGE_Y was given. The equations of the cells in contact, sticking and slipping,
+ * linearised at the last solution, so that errors are those of its sets: some 1e-4 after a tolerance of 1e-5, 1e-6
+ * after 1e-8. Costs about a warm solution for each input, two for one that moves the wheel. Where a derivative jumps
+ * (a cell comes into contact, a profile's curvature changes) it is that of one side.
+ * Without linear equations (several patches, friction that falls with slip or temperature, a film that yields, a force
+ * over a given approach) by central differences of new solutions of a tolerance of 1e-10, several times dearer. Of a
+ * lifted wheel all are 0. Errors: RS_CASE without a solution, for an input that the last state has as a result (a load
+ * where the approach was given, a creepage where a force was); as rs_solve. */
+RS_API int rs_jacobian(rs_contact* contact, const unsigned* inputs, int count, rs_derivatives* out, rs_error* error);
 
 /* Solutions start from the one before, which halves their time in a sweep; their numbers then depend on it in the sixth
  * digit. Discards it: the next solution has the bits of a new contact's first. */

@@ -25,16 +25,17 @@ struct Member {
   unsigned bit;
   double rs_state::*value;
   std::string_view name, key;
+  double step;  ///< of differences, in the member's unit
 };
-constexpr Member kMembers[] = {{RS_APPROACH, &rs_state::approach, "approach", "vehicle.approach"},
-                               {RS_LATERAL_SHIFT, &rs_state::lateral_shift, "lateral_shift", "geometry.lateral_shift"},
-                               {RS_YAW, &rs_state::yaw, "yaw", "geometry.yaw"},
-                               {RS_ROLL, &rs_state::roll, "roll", "geometry.roll"},
-                               {RS_SPEED, &rs_state::speed, "speed", "drive.speed"},
-                               {RS_FRICTION, &rs_state::friction, "friction", "drive.friction_coefficient"},
-                               {RS_CREEPAGE_X, &rs_state::creepage_x, "creepage_x", "drive.creepage"},
-                               {RS_CREEPAGE_Y, &rs_state::creepage_y, "creepage_y", "drive.lateral_creepage"},
-                               {RS_SPIN, &rs_state::spin, "spin", "drive.spin"}};
+constexpr Member kMembers[] = {{RS_APPROACH, &rs_state::approach, "approach", "vehicle.approach", 1e-10},
+                               {RS_LATERAL_SHIFT, &rs_state::lateral_shift, "lateral_shift", "geometry.lateral_shift", 1e-07},
+                               {RS_YAW, &rs_state::yaw, "yaw", "geometry.yaw", 1e-07},
+                               {RS_ROLL, &rs_state::roll, "roll", "geometry.roll", 1e-07},
+                               {RS_SPEED, &rs_state::speed, "speed", "drive.speed", 0.0001},
+                               {RS_FRICTION, &rs_state::friction, "friction", "drive.friction_coefficient", 1e-07},
+                               {RS_CREEPAGE_X, &rs_state::creepage_x, "creepage_x", "drive.creepage", 1e-08},
+                               {RS_CREEPAGE_Y, &rs_state::creepage_y, "creepage_y", "drive.lateral_creepage", 1e-08},
+                               {RS_SPIN, &rs_state::spin, "spin", "drive.spin", 1e-06}};
 constexpr unsigned kAllBits = RS_LOAD | RS_APPROACH | RS_LATERAL_SHIFT | RS_YAW | RS_ROLL | RS_SPEED | RS_FRICTION |
                               RS_CREEPAGE_X | RS_CREEPAGE_Y | RS_SPIN | RS_FORCE_X | RS_FORCE_Y;
 
@@ -108,6 +109,53 @@ CaseSpec with_state(CaseSpec spec, const rs_state& s) {
   if (s.given & RS_CREEPAGE_Y) spec.drive.lateral_traction_coefficient.reset();
   put_forces(s, spec);
   return spec;
+}
+
+namespace {
+
+[[noreturn]] void refuse_result(std::string_view name, std::string_view instead) {
+  throw CaseError(fmt::format("{} is a result of the last state, not an input", name),
+                  fmt::format("ask for the derivative by {}, or give {} in rs_state", instead, name));
+}
+
+void refuse_results(unsigned bit, const CaseSpec& spec) {
+  const bool pressed = spec.vehicle.approach.has_value(), pulled = spec.drive.traction().has_value(),
+             pushed = spec.drive.lateral_traction_coefficient.has_value();
+  if (bit == RS_LOAD && pressed) refuse_result("load", "RS_APPROACH");
+  if (bit == RS_APPROACH && !pressed) refuse_result("approach", "RS_LOAD");
+  if (bit == RS_CREEPAGE_X && pulled) refuse_result("creepage_x", "RS_FORCE_X");
+  if (bit == RS_CREEPAGE_Y && pushed) refuse_result("creepage_y", "RS_FORCE_Y");
+  if (bit == RS_FORCE_X && !pulled) refuse_result("force_x", "RS_CREEPAGE_X");
+  if (bit == RS_FORCE_Y && !pushed) refuse_result("force_y", "RS_CREEPAGE_Y");
+}
+
+double value_in(const CaseSpec& spec, const Member& m, double absent) {
+  CaseSpec copy = spec;
+  const Slot slot = option_of(m.key).slot(copy, 0);
+  if (const auto* number = std::get_if<double*>(&slot)) return **number;
+  return std::get<std::optional<double>*>(slot)->value_or(absent);
+}
+
+}  // namespace
+
+Input input_of(const rs_state& s, unsigned bit, const CaseSpec& spec, const BemResult& result) {
+  constexpr double kOfLoad = 1e-6;
+  refuse_results(bit, spec);
+  const double load = (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
+  const auto force = [&](double rs_state::*member, double value) {
+    return Input{member, s.given & bit ? s.*member : value, kOfLoad * load};
+  };
+  if (bit == RS_LOAD) return force(&rs_state::load, load);
+  if (bit == RS_FORCE_X) return force(&rs_state::force_x, spec.drive.traction().value_or(0) * load);
+  if (bit == RS_FORCE_Y) return force(&rs_state::force_y, spec.drive.lateral_traction_coefficient.value_or(0) * load);
+  for (const Member& m : kMembers) {
+    if (m.bit != bit) continue;
+    const double absent = bit == RS_CREEPAGE_X   ? result.rigid_slip.x
+                          : bit == RS_CREEPAGE_Y ? result.rigid_slip.y
+                                                 : result.rigid_slip.spin;
+    return {m.value, s.given & bit ? s.*m.value : value_in(spec, m, absent), m.step};
+  }
+  throw CaseError(fmt::format("{} is no input of rs_state", bit), "give RS_LOAD, RS_YAW and so on, one bit each");
 }
 
 }  // namespace railstrata::capi

@@ -10,35 +10,12 @@
 
 #include "capi/railstrata.h"
 #include "runs/library.hpp"
-#include "tests/places.hpp"
+#include "tests/capi/contact_handle.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-const std::string kQuick = source_dir() / "cases/quick/case.toml";
-
-struct Contact {
-  explicit Contact(const std::vector<const char*>& overrides = {})
-      : handle(rs_contact_new(kQuick.c_str(), overrides.data(), static_cast<int>(overrides.size()), &error)) {
-    rs_set_cell(handle, 0.5e-3, nullptr);
-  }
-  ~Contact() { rs_contact_free(handle); }
-  Contact(const Contact&) = delete;
-  Contact& operator=(const Contact&) = delete;
-  int solve(const rs_state& state) { return rs_solve(handle, &state, &forces, &error); }
-  rs_error error{};
-  rs_contact* handle;
-  rs_forces forces{sizeof(rs_forces), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-};
-
-rs_state state_of(unsigned given) {
-  rs_state out{};
-  out.size = sizeof(rs_state);
-  out.given = given;
-  return out;
-}
-
 TEST(CInterface, HasTheNumbersOfTheCppOne) {
   Contact contact;
   ASSERT_NE(contact.handle, nullptr) << contact.error.message;
@@ -188,6 +165,10 @@ TEST(CInterface, FaultsHaveACodeAndAText) {
   const char* wrong[] = {"drive.no_such=1"};
   EXPECT_EQ(rs_contact_new(kQuick.c_str(), wrong, 1, &error), nullptr);
   EXPECT_EQ(error.code, RS_CASE);
+  const char* missing[] = {"drive.speed=10 m/s", nullptr};
+  EXPECT_EQ(rs_contact_new(kQuick.c_str(), missing, 2, &error), nullptr);
+  EXPECT_EQ(error.code, RS_CASE);
+  EXPECT_NE(std::string(error.message).find("override 1 is NULL"), std::string::npos) << error.message;
   EXPECT_EQ(rs_contact_from_text("[mesh]\nelement_size = 1\n", nullptr, 0, &error), nullptr);
   EXPECT_EQ(error.code, RS_CASE);
 
@@ -202,9 +183,9 @@ TEST(CInterface, FaultsHaveACodeAndAText) {
 TEST(CInterface, StatesThatCannotBeAreRefusedAndLeaveNoSolution) {
   Contact contact;
   ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, nullptr), RS_OK);
-  const auto refused = [&](rs_state state, const std::string& word) {
+  const auto refused = [&](rs_state state, const std::string& word, int wanted = RS_CASE) {
     const int code = contact.solve(state);
-    EXPECT_EQ(code, RS_CASE) << word;
+    EXPECT_EQ(code, wanted) << word;
     EXPECT_NE(std::string(contact.error.message).find(word), std::string::npos) << contact.error.message;
   };
   rs_state state = state_of(RS_FRICTION);
@@ -221,9 +202,42 @@ TEST(CInterface, StatesThatCannotBeAreRefusedAndLeaveNoSolution) {
   refused(state, "size");
   state = state_of(RS_FORCE_X);
   state.force_x = 1e9;
-  refused(state, "friction");
+  refused(state, "friction", RS_NO_ANSWER);
+  state = state_of(RS_LATERAL_SHIFT);
+  state.lateral_shift = 0.04;
+  refused(state, "", RS_NO_ANSWER);
   int nx = 0;
   EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, nullptr), RS_CASE);
+}
+
+TEST(CInterface, AWheelThatIsLiftedHasNoForces) {
+  Contact contact;
+  rs_state state = state_of(RS_APPROACH | RS_CREEPAGE_X);
+  state.creepage_x = 1e-3;
+  for (const double approach : {1e-5, 0.0, -1e-6}) {
+    state.approach = approach;
+    ASSERT_EQ(contact.solve(state), RS_OK) << contact.error.message;
+    EXPECT_EQ(contact.forces.force_z > 0, approach > 0);
+    EXPECT_EQ(contact.forces.approach, approach);
+    EXPECT_EQ(contact.forces.creepage_x, 1e-3);
+  }
+  EXPECT_EQ(contact.forces.cells, 0);
+  EXPECT_EQ(contact.forces.patches, 0);
+  EXPECT_EQ(contact.forces.force_x, 0);
+  int nx = 0;
+  EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, &contact.error), RS_CASE);
+  EXPECT_NE(std::string(contact.error.message).find("lifted"), std::string::npos) << contact.error.message;
+  rs_state unloaded = state_of(RS_LOAD);
+  EXPECT_EQ(contact.solve(unloaded), RS_OK) << contact.error.message;
+  EXPECT_EQ(contact.forces.cells, 0);
+  const unsigned input = RS_LOAD;
+  rs_derivatives slope{};
+  slope.size = sizeof(slope);
+  EXPECT_EQ(rs_jacobian(contact.handle, &input, 1, &slope, &contact.error), RS_OK) << contact.error.message;
+  EXPECT_EQ(slope.force_x, 0);
+  state.friction = -1;
+  state.given |= RS_FRICTION;
+  EXPECT_EQ(contact.solve(state), RS_CASE);  // a mistake is one of a lifted wheel too
 }
 
 /// A contact under two loads, the second from the solution of the first; its longitudinal forces.

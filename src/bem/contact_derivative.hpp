@@ -1,0 +1,52 @@
+#pragma once
+// Derivatives of what solve_bem gives by the inputs of its case, at a solution of one patch: the equations of the cells
+// in contact, sticking and slipping, linearised at sets that stand. [Kalker1990 ch. 4]
+#include <optional>
+
+#include "bem/case_patch.hpp"
+#include "bem/solve_bem.hpp"
+
+namespace railstrata {
+
+/// Per unit of an input; of the rail's forces as in RailForces.
+struct ContactDerivative {
+  RailForces force;
+  double creepage_x = 0, creepage_y = 0, spin = 0;
+  double approach = 0, angle = 0;
+};
+
+/// A case and the wheel's place in it.
+struct PlacedCase {
+  const CaseSpec& spec;
+  const Placement& placement;
+};
+
+/// Under a weight G the normal force N follows each input (solve_bem.hpp),
+///   N cos(delta) - T sin(delta) = G:
+///   dN (cos(delta) - dT/dN sin(delta)) = dG + (N sin(delta) + T cos(delta)) d delta + dT sin(delta),
+/// dT on the right at a constant N. Geometry changes by differences, all else by one solution of the linear equations.
+class ContactDerivatives {
+ public:
+  /// solved: of the case, and kept by reference; not empty.
+  ContactDerivatives(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                     const BemNeighbour& solved);
+  /// Whether the case has these equations: steady rolling, friction that neither slip nor heat changes, no force over a
+  /// load that is a result.
+  bool linear() const;
+  /// more, less: the case with the input larger and smaller by `step`.
+  ContactDerivative by(const PlacedCase& more, const PlacedCase& less, double step);
+
+ private:
+  CasePatch beside(const PlacedCase& there, double normal) const;
+  RollingDerivative of_patch(const RollingContact& more, const RollingContact& less, double step) const;
+  double by_weight();
+
+  const CaseSpec& spec_;
+  const Placement& placement_;
+  const BemOptions& options_;
+  const BemNeighbour& solved_;
+  CasePatch patch_;
+  std::optional<RollingDerivative> by_load_;  // normal force
+};
+
+}  // namespace railstrata

@@ -1,0 +1,34 @@
+#pragma once
+// A contact of the C interface that frees itself.
+#include <string>
+#include <vector>
+
+#include "capi/railstrata.h"
+#include "tests/places.hpp"
+
+namespace railstrata {
+
+inline const std::string kQuick = source_dir() / "cases/quick/case.toml";
+
+struct Contact {
+  explicit Contact(const std::vector<const char*>& overrides = {})
+      : handle(rs_contact_new(kQuick.c_str(), overrides.data(), static_cast<int>(overrides.size()), &error)) {
+    rs_set_cell(handle, 0.5e-3, nullptr);
+  }
+  ~Contact() { rs_contact_free(handle); }
+  Contact(const Contact&) = delete;
+  Contact& operator=(const Contact&) = delete;
+  int solve(const rs_state& state) { return rs_solve(handle, &state, &forces, &error); }
+  rs_error error{};
+  rs_contact* handle;
+  rs_forces forces{sizeof(rs_forces), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+};
+
+inline rs_state state_of(unsigned given) {
+  rs_state out{};
+  out.size = sizeof(rs_state);
+  out.given = given;
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,132 @@
+// Derivatives of the C interface against differences of new solutions.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "capi/railstrata.h"
+#include "tests/capi/contact_handle.hpp"
+
+namespace railstrata {
+namespace {
+
+/// An input, the step of its differences and what is a usual change of it, m, N, 1.
+struct Input {
+  unsigned bit;
+  double rs_state::*member;
+  double step, usual;
+};
+constexpr Input kInputs[] = {{RS_LOAD, &rs_state::load, 1, 10e3},
+                             {RS_LATERAL_SHIFT, &rs_state::lateral_shift, 1e-7, 1e-3},
+                             {RS_YAW, &rs_state::yaw, 1e-7, 1e-2},
+                             {RS_CREEPAGE_X, &rs_state::creepage_x, 1e-8, 1e-3},
+                             {RS_CREEPAGE_Y, &rs_state::creepage_y, 1e-8, 1e-3},
+                             {RS_SPIN, &rs_state::spin, 1e-6, 0.1}};
+/// An output and a hundredth of what it changes with usual changes of inputs: a derivative nearer to zero than that counts
+/// as this.
+struct Output {
+  double rs_derivatives::*slope;
+  double rs_forces::*value;
+  double least;
+};
+constexpr Output kOutputs[] = {{&rs_derivatives::force_x, &rs_forces::force_x, 100},
+                               {&rs_derivatives::force_y, &rs_forces::force_y, 100},
+                               {&rs_derivatives::force_z, &rs_forces::force_z, 100},
+                               {&rs_derivatives::spin_moment, &rs_forces::spin_moment, 0.1},
+                               {&rs_derivatives::normal_force, &rs_forces::normal_force, 100},
+                               {&rs_derivatives::lateral_force, &rs_forces::lateral_force, 100},
+                               {&rs_derivatives::approach, &rs_forces::approach, 1e-6}};
+
+rs_forces solved(Contact& contact, const rs_state& state) {
+  rs_forget(contact.handle);
+  EXPECT_EQ(contact.solve(state), RS_OK) << contact.error.message;
+  return contact.forces;
+}
+
+/// Deviations of derivatives by rs_jacobian from central differences of new solutions.
+struct Deviations {
+  int compared = 0, at_jumps = 0;
+  double largest = 0;
+};
+
+/// Where a cell comes into contact within the step of the difference, the derivative jumps there: it is to be that of
+/// the side without the jump.
+void compare(Contact& contact, const rs_state& state, Deviations& out) {
+  constexpr double kClose = 1e-4;
+  const rs_forces here = solved(contact, state);
+  std::vector<unsigned> bits;
+  for (const Input& in : kInputs) bits.push_back(in.bit);
+  std::vector<rs_derivatives> slopes(bits.size());
+  for (rs_derivatives& s : slopes) s.size = sizeof(rs_derivatives);
+  const int count = static_cast<int>(bits.size());
+  ASSERT_EQ(rs_jacobian(contact.handle, bits.data(), count, slopes.data(), &contact.error), RS_OK)
+      << contact.error.message;
+  for (std::size_t k = 0; k < bits.size(); ++k) {
+    const Input& in = kInputs[k];
+    rs_state up = state, down = state;
+    up.*in.member += in.step;
+    down.*in.member -= in.step;
+    const rs_forces more = solved(contact, up), less = solved(contact, down);
+    for (const Output& o : kOutputs) {
+      const auto deviation = [&](const rs_forces& above, const rs_forces& below, double steps) {
+        const double wanted = (above.*o.value - below.*o.value) / (steps * in.step);
+        return std::abs(slopes[k].*o.slope - wanted) / std::max(std::abs(wanted), o.least / in.usual);
+      };
+      double found = deviation(more, less, 2);
+      ++out.compared;
+      if (found > kClose) {
+        ++out.at_jumps;
+        found = std::min(deviation(more, here, 1), deviation(here, less, 1));
+      }
+      out.largest = std::max(out.largest, found);
+    }
+  }
+}
+
+rs_state random_state(std::mt19937& random) {
+  const auto within = [&](double low, double high) { return low + (high - low) * static_cast<double>(random()) / 4294967296.0; };
+  rs_state out{};
+  out.size = sizeof(out);
+  out.given = RS_LOAD | RS_LATERAL_SHIFT | RS_YAW | RS_CREEPAGE_X | RS_CREEPAGE_Y | RS_SPIN;
+  out.load = within(40e3, 120e3);
+  out.lateral_shift = within(-3e-3, 3e-3);
+  out.yaw = within(-5e-3, 5e-3);
+  out.creepage_x = within(-2e-3, 2e-3);
+  out.creepage_y = within(-2e-3, 2e-3);
+  out.spin = within(-0.3, 0.3);
+  return out;
+}
+
+/// Random states of a contact.
+Deviations deviations(const std::vector<const char*>& overrides, int states) {
+  Contact contact(overrides);
+  EXPECT_NE(contact.handle, nullptr) << contact.error.message;
+  rs_set_tolerance(contact.handle, 1e-10, nullptr);
+  std::mt19937 random(1);
+  Deviations out;
+  for (int k = 0; k < states; ++k) compare(contact, random_state(random), out);
+  printf("%d %d %g\n", out.compared, out.at_jumps, out.largest);
+  return out;
+}
+
+const std::vector<const char*> kUniform{"layer.0.young_ratio=1"}, kStiffLayer{};
+
+TEST(CDerivatives, AreTheSlopesOfNewSolutions) {
+  for (const auto& overrides : {kUniform, kStiffLayer}) {
+    const Deviations found = deviations(overrides, 5);
+    EXPECT_LT(found.largest, 1e-4);
+    EXPECT_LT(found.at_jumps, 0.05 * found.compared);
+  }
+}
+
+TEST(SlowCDerivatives, AreTheSlopesOfNewSolutions) {
+  for (const auto& overrides : {kUniform, kStiffLayer}) {
+    const Deviations found = deviations(overrides, 50);
+    EXPECT_LT(found.largest, 1e-4);
+    EXPECT_LT(found.at_jumps, 0.05 * found.compared);
+  }
+}
+
+}  // namespace
+}  // namespace railstrata
