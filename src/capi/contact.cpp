@@ -120,6 +120,7 @@ std::string remarks_of(const BemResult& result, const Summary& summary) {
 
 /// A wheel that is lifted, and what its state has besides.
 bool lifted(const rs_state& state) {
+  if ((state.given & RS_APPROACH) && (state.given & RS_LOAD)) return false;
   return ((state.given & RS_APPROACH) && std::isfinite(state.approach) && state.approach <= 0) ||
          ((state.given & RS_LOAD) && state.load == 0);
 }
@@ -260,7 +261,7 @@ int rs_set_cell(rs_contact* contact, double cell, rs_error* error) {
 int rs_set_tolerance(rs_contact* contact, double tolerance, rs_error* error) {
   return capi::guarded(error, [&] {
     require(contact);
-    constexpr double kSharpest = 1e-10, kRoughest = 1e-3;
+    constexpr double kSharpest = 1e-12, kRoughest = 1e-3;
     if (!(tolerance >= kSharpest && tolerance <= kRoughest))
       throw CaseError(fmt::format("a tolerance of {:g} is out of range", tolerance),
                       fmt::format("give a number from {:g} to {:g}", kSharpest, kRoughest));

@@ -107,7 +107,7 @@ typedef struct rs_forces {
 /* Side of the cells [m], 0.02e-3 to 5e-3; 0.25e-3 unless set. */
 RS_API int rs_set_cell(rs_contact* contact, double cell, rs_error* error);
 
-/* Tolerance of solutions, 1e-10 to 1e-3; 1e-5 unless set. The largest slip in sticking cells over the largest rigid
+/* Tolerance of solutions, 1e-12 to 1e-3; 1e-5 unless set. The largest slip in sticking cells over the largest rigid
  * slip, the error of forces that friction bears over friction, that of the vertical force over the load; of the gap in
  * contact over its range a hundredth. Sharper ones cost about a Newton step for every two digits. A solution that starts
  * from the one before takes out 99 % of what the state's change made wrong as well, however little that is. */

@@ -203,9 +203,9 @@ TEST(CInterface, StatesThatCannotBeAreRefusedAndLeaveNoSolution) {
   state = state_of(RS_FORCE_X);
   state.force_x = 1e9;
   refused(state, "friction", RS_NO_ANSWER);
-  state = state_of(RS_LATERAL_SHIFT);
-  state.lateral_shift = 0.04;
-  refused(state, "", RS_NO_ANSWER);
+  state = state_of(RS_LOAD);
+  state.load = 1e11;
+  refused(state, "flattens", RS_NO_ANSWER);
   int nx = 0;
   EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, nullptr), RS_CASE);
 }
