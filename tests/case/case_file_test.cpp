@@ -788,7 +788,7 @@ TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
   const LoadedCase ring =
       parse_case("[geometry]\nrail_radius = \"300 mm\"\ncant = 0.01\n[run]\nplasticity = true\n", "a.toml");
   ASSERT_EQ(ring.not_in_fem.size(), 3u);  // rail_shape and cant are defaults, and count
-  EXPECT_EQ(ring.not_in_fem[1].where, "a.toml:3:7");
+  EXPECT_EQ(ring.not_in_fem[1].where, "a.toml:3:8");
   EXPECT_EQ(ring.not_in_fem[2].where, "a.toml:5:14");
   EXPECT_TRUE(ring.not_in_fem[0].message.starts_with("geometry.rail_shape with geometry.rail_radius is not in this"));
   EXPECT_EQ(parse_case("[geometry]\nrail_radius = \"-600 mm\"\nrail_shape = \"block\"\ncant = 0.0\n", "a.toml")

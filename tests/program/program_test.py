@@ -169,7 +169,8 @@ class Program(FromOutside):
                  and "study" not in tomllib.loads(c.read_text())]
         self.assertGreaterEqual(len(cases), 4)
         for case in cases:
-            rc, _, err = railstrata("check", case, *COARSE)
+            of_a_rig = case.parent.name == "rigs"  # its discs are too small for coarse elements
+            rc, _, err = railstrata("check", case, *([] if of_a_rig else COARSE))
             self.assertEqual(rc, 0, f"{case}: {err}")
 
     def test_compare_names_the_folder_that_it_writes(self):
