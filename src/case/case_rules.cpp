@@ -300,6 +300,7 @@ void check_device(const CaseSpec& spec, CaseSource& source) {
   };
   refuse(spec.run.time_step_method == TimeStepMethod::local, "run.time_step_method = \"local\"");
   refuse(spec.run.plasticity, "run.plasticity = true");
+  refuse(!spec.friction.lateral_table.empty(), "friction.lateral_table");
 }
 
 void check_passes(const CaseSpec& spec, CaseSource& source) {

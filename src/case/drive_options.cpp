@@ -181,11 +181,11 @@ OptionTable friction_table() {
        table_over(column("y", "", kLength, {-0.2, 0.2}), column("coefficient", "", kNumber, {0, 2}), "lateral_table",
                   at<&C::friction, &F::lateral_table>,
                   "drive.friction_coefficient across the rail: rows of y of the rail's profile and coefficient, "
-                  "linear between and constant beyond (gauge corner and top); half-space engine",
+                  "linear between and constant beyond (gauge corner and top)",
                   R"([["-25 mm", 0.15], ["-15 mm", 0.4]])"),
        option("lateral_coefficient", at<&C::friction, &F::lateral_coefficient>,
               "Across rolling, where it differs from drive.friction_coefficient along it: tractions lie in an ellipse "
-              "of both, slip along its normal; half-space engine",
+              "of both, slip along its normal",
               kNumber, above(0, 2)),
        table_over(temperature_column(), column("factor", "", kNumber, {0, 10}), "temperature_table",
                   at<&C::friction, &F::temperature_table>,

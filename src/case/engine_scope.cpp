@@ -66,10 +66,6 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
          "each node has one film for its whole way");
   beyond(film.modulus_by_pressure != 0, "third_body.modulus_by_pressure", "a film whose stiffness depends on pressure",
          "each node has one film for its whole way");
-  beyond(!spec.friction.lateral_table.empty(), "friction.lateral_table", "another coefficient across the rail",
-         "the running surface has one coefficient");
-  beyond(spec.friction.lateral_coefficient.has_value(), "friction.lateral_coefficient",
-         "another coefficient across rolling", "tractions are brought back to a disc");
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
   beyond(std::abs(d.creepage.value_or(0)) > kLargestRunCreepage, "drive.creepage", "so large a creepage",
          largest.c_str());

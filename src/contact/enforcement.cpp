@@ -111,7 +111,7 @@ class Sweeper {
       NodeTraction& t = node(r);
       if (sys_.tractions_applied) last[r] = traction_vector(t, row.normal);
       const Vec3 w = relative(r, sys_.rail.before, sys_.wheel.before);
-      sys_.slips[r] = press_row(law_, row.gap, row.normal, w, t);
+      sys_.slips[r] = press_row(law(row), row.gap, row.normal, w, t);
     }
     for (std::size_t r = 0; r < rows_.rows.size(); ++r)
       apply_traction(r, traction_vector(node(r), rows_.rows[r].normal) - last[r]);
@@ -120,11 +120,15 @@ class Sweeper {
   void record_slip() {
     for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
       const Vec3 w = relative_velocity(r);
-      record_row(law_, rows_.rows[r].normal, w, start(r), sys_.slips[r], node(r));
+      record_row(law(rows_.rows[r]), rows_.rows[r].normal, w, start(r), sys_.slips[r], node(r));
     }
   }
 
  private:
+  const RowLaw& law(const ContactRow& row) {
+    if (!options_.coefficient_across.empty()) law_.friction.coefficient = options_.coefficient_across[row.column];
+    return law_;
+  }
   // Without a film nothing is asked of the tractions before the step.
   RowStart start(std::size_t r) { return law_.film > 0 ? sys_.at_start[r] : row_start(node(r)); }
   NodeTraction& node(std::size_t r) { return tractions_.at(rows_.rows[r].column, rows_.rows[r].station); }
@@ -132,7 +136,7 @@ class Sweeper {
   double relax(std::size_t r, double diagonal) {
     const ContactRow& row = rows_.rows[r];
     NodeTraction& t = node(r);
-    const RowChange change = relax_row(law_, row.gap, row.normal, diagonal, relative_velocity(r), start(r), t);
+    const RowChange change = relax_row(law(row), row.gap, row.normal, diagonal, relative_velocity(r), start(r), t);
     if (!change.acts) return 0;
     sys_.slips[r] = change.slips;
     apply_traction(r, change.traction);

@@ -11,10 +11,12 @@
 //
 // A third-body film (friction/friction_step.hpp) stands in the same place as the disc: its elastic shear is added to
 // what a node yields per traction, D + (h/G)/dt, and belongs to the velocities of the step's end. A node that opens
-// meets a fresh film when it closes again. Friction that falls with slip is Coulomb's in a step, with the coefficient
-// that the slip up to then has left the rail's node (friction/friction_memory.hpp); it too is whole when a node opens.
-// The law sees the mean slip velocity, as a vector: surfaces that slide vibrate at the mesh's highest frequency, under
-// Coulomb's law already, by as much as they slide, and a law that falls would take that for sliding.
+// meets a fresh film when it closes again. Friction across rolling may differ from that along it (an ellipse in the
+// disc's place, slip along its normal), and from column to column of the rail. Friction that falls with slip is
+// Coulomb's in a step, with the coefficient that the slip up to then has left the rail's node
+// (friction/friction_memory.hpp); it too is whole when a node opens. The law sees the mean slip velocity, as a vector:
+// surfaces that slide vibrate at the mesh's highest frequency, under Coulomb's law already, by as much as they slide,
+// and a law that falls would take that for sliding.
 #include <cassert>
 
 #include "contact/enforcement_law.hpp"
@@ -104,6 +106,8 @@ struct EnforcementOptions {
   bool penalty = false;
   double penalty_stiffness = 0;  ///< Pa/m, penalty only
   FrictionLaws friction;
+  std::vector<double>
+      coefficient_across;    ///< of the rail's columns, for that of `friction`; empty: the same everywhere
   double slip_time = 0;      ///< s, falling laws: time constant of the mean slip velocity; 0: that of the step
   double tolerance = 1e-11;  ///< m, change of a relative displacement per step at which the sweeps stop
   int max_sweeps = 100;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "case/engine_scope.hpp"
@@ -28,10 +27,10 @@ RollingEllipse ellipse_of(const Model& m) {
 }
 
 /// A film bears its yield shear all over the patch.
-double most_of_film(const Model& m) {
+double most_across(const Model& m) {
   const ThirdBody film = third_body(m.spec);
-  return film.yields() ? std::numbers::pi * m.hertz.a * m.hertz.b * film.yield_shear
-                       : std::numeric_limits<double>::infinity();
+  const double slides = m.spec.friction.lateral_coefficient.value_or(m.spec.drive.friction_coefficient) * m.load;
+  return film.yields() ? std::min(slides, std::numbers::pi * m.hertz.a * m.hertz.b * film.yield_shear) : slides;
 }
 
 /// Where a force that grows with the creepage is `wanted`; the end of the range where friction falls short of it.
@@ -66,7 +65,7 @@ LateralStart lateral_start(const Model& m) {
   }
   const double creepage = drive.lateral_creepage.value_or(yaw_creepage(contact));
   if ((creepage == 0 && spin == 0) || !(drive.friction_coefficient > 0)) return {creepage, 0};
-  const double most = most_of_film(m);
+  const double most = most_across(m);
   return {creepage, std::clamp(lateral_force(ellipse_of(m), drive, along, creepage, spin), -most, most)};
 }
 

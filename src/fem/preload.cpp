@@ -204,8 +204,10 @@ class Preload {
     if (sys_.options.lateral_friction == 0) return 0;
     double normal = 0;
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) normal += rows_->rows[k].area * pressure_[k];
-    return std::clamp(sys_.options.lateral_friction / std::max(normal, std::abs(sys_.options.lateral_friction)),
-                      -sys_.options.contact.friction.coefficient, sys_.options.contact.friction.coefficient);
+    const FrictionLaws& laws = sys_.options.contact.friction;
+    const double bound = laws.coefficient * laws.lateral_share;
+    return std::clamp(sys_.options.lateral_friction / std::max(normal, std::abs(sys_.options.lateral_friction)), -bound,
+                      bound);
   }
   // It is a load of the step, not a part of its stiffness: pressures hardly know it.
   void apply_lateral_friction(StaticVector& f) const {

@@ -140,6 +140,8 @@ ExplicitOptions explicit_options(const Model& m) {
   out.contact.penalty = spec.contact.method == ContactMethod::penalty;
   out.contact.penalty_stiffness = penalty_rule(m);
   out.contact.friction = {spec.drive.friction_coefficient, third_body(spec), falling_friction(spec)};
+  if (spec.friction.lateral_coefficient)
+    out.contact.friction.lateral_share = *spec.friction.lateral_coefficient / spec.drive.friction_coefficient;
   out.contact.slip_time = vibration_time(spec);
   return out;
 }
@@ -195,6 +197,10 @@ RollingSystem::RollingSystem(const Model& m)
     end_loads = end_loads_of(rail());
   }
   surfaces = {rail_surface_of(m, rail()), wheel_surface_of(m, wheel())};
+  if (const std::vector<TablePoint>& across = m.spec.friction.lateral_table; !across.empty())
+    for (int c = 0; c < rail_surface().columns; ++c)
+      options.contact.coefficient_across.push_back(
+          over_table(across, model_to_rail(m.placement.track, rail_surface().at_contact(c)).y));
   const double yaw_angle = m.placement.contact.yaw;
   surfaces[kWheel].yaw = {std::cos(yaw_angle), std::sin(yaw_angle)};
 }

@@ -20,6 +20,7 @@ struct FrictionLaws {
   double coefficient = 0;  ///< f at rest
   ThirdBody film;
   FallingFriction falling{};  ///< with a memory: what a step lost, the next one feels (FrictionStep::lost)
+  double lateral_share = 1;   ///< f across rolling over f along it: an ellipse, not with a film that yields
 };
 
 /// A point and its step.
@@ -40,6 +41,7 @@ struct FrictionReturn {
 RAILSTRATA_POINTWISE FrictionReturn return_to_law(const FrictionLaws& laws, const FrictionStep& step, double& q1,
                                                   double& q2) {
   const double coefficient = laws.coefficient * (1 - step.lost);
+  if (laws.lateral_share != 1) return {return_to_coulomb_ellipse(coefficient, laws.lateral_share, step.p, q1, q2), 0};
   if (!laws.film.yields()) return {return_to_coulomb_disc(coefficient, step.p, q1, q2), 0};
   const double friction = coefficient * (step.p > 0 ? step.p : 0), stick = std::sqrt(q1 * q1 + q2 * q2),
                at_rest = yield_or_slide(laws.film, friction, step.plastic_before, 0).bound;

@@ -28,6 +28,8 @@ TEST(DeviceCase, WhatADeviceDoesNotTakeIsRefusedWithARemedy) {
   refused("[run]\ndevice = \"gpu\"\ntime_step_method = \"local\"\n", "run.time_step_method = \"local\"");
   refused("[run]\ndevice = \"gpu\"\nplasticity = true\n[material.rail]\nyield_strength = \"500 MPa\"\n",
           "run.plasticity = true");
+  refused("[run]\ndevice = \"gpu\"\n[friction]\nlateral_table = [[\"0 mm\", 0.2], [\"9 mm\", 0.4]]\n",
+          "friction.lateral_table");
 }
 
 TEST(DeviceCase, ItIsIdleWhereNothingRolls) {

@@ -1,4 +1,5 @@
-// Third-body films under a rolling ball, and the start of a wheel that spins on its contact.
+// Laws of friction under a rolling ball, third-body films among them, and the start of a wheel that spins on its
+// contact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -103,6 +104,28 @@ TEST(FrictionLaws, FullSlidingCarriesTheCoefficientOfItsSlip) {
     }
   const double v = 0.03 * spec.drive.speed, share = 0.4 + 0.6 * std::exp2(-v / 2);
   EXPECT_NEAR(std::abs(q) / (kBallFriction * share * p), 1, 0.015);
+}
+
+// Across the rail each column has the coefficient of its place, across rolling the ellipse's.
+TEST(FrictionLaws, FullSlidingCarriesTheCoefficientsAcross) {
+  CaseSpec spec = short_ball_case();
+  spec.drive.lateral_creepage = 0.03;
+  spec.friction.lateral_table = {{-4e-3, 0.1}, {4e-3, 0.5}};
+  spec.friction.lateral_coefficient = 0.25;  // half of that along
+  const RollingSystem system = small_system(spec);
+  const RunResult run = run_rolling(system, {});
+  const RollingSample& sample = run.positions.back().samples.back();
+  const int columns = system.rail_surface().columns;
+  int sliding = 0;
+  for (std::size_t k = 0; k < sample.tractions.size(); ++k) {
+    const NodeTraction& t = sample.tractions[k];
+    if (t.p < 0.3 * system.model.hertz.p0) continue;
+    ++sliding;
+    const double y = system.rail_surface().at_contact(static_cast<int>(k) % columns).y;
+    EXPECT_NEAR(std::hypot(t.q1, 2 * t.q2) / t.p, over_table(spec.friction.lateral_table, y), 1e-6) << y;
+    EXPECT_GT(std::abs(t.q2), 0.9 * 0.5 * std::hypot(t.q1, 2 * t.q2));
+  }
+  EXPECT_GT(sliding, 3);
 }
 
 // A guided wheel on an inclined plane spins on its contact and starts with the friction of that: Kalker's linear theory

@@ -69,4 +69,27 @@ TEST(FrictionStep, OfAStrongFilmIsFrictions) {
   EXPECT_EQ(r.law.plastic, 0);
 }
 
+// On the ellipse, with the excess along its normal (q1, q2/share²); inside it sticks, and without pressure nothing is
+// carried.
+TEST(FrictionStep, OfAnEllipseSlipsAlongItsNormal) {
+  FrictionLaws laws{kFriction, {}};
+  for (double share : {0.2, 0.7, 1.6})
+    for (double turn = 0.1; turn < 6.3; turn += 0.3)
+      for (double far : {1 + 1e-12, 1.001, 3.0, 1e6}) {
+        laws.lateral_share = share;
+        const double limit = kFriction * kPressure, trial1 = far * limit * std::cos(turn),
+                     trial2 = far * share * limit * std::sin(turn);
+        const Returned r = returned(laws, trial1, trial2);
+        EXPECT_TRUE(r.law.slips);
+        EXPECT_NEAR(std::hypot(r.q1, r.q2 / share), limit, 1e-12 * limit);
+        const double slip1 = trial1 - r.q1, slip2 = trial2 - r.q2, normal2 = r.q2 / (share * share);
+        EXPECT_NEAR(slip1 * normal2 - slip2 * r.q1, 0, 1e-9 * far * limit * limit / (share * share)) << share << far;
+        EXPECT_GE(slip1 * r.q1 + slip2 * normal2, 0);
+        EXPECT_FALSE(returned(laws, 0.99 / far * trial1, 0.99 / far * trial2).law.slips);
+      }
+  double q1 = 1, q2 = 2;
+  EXPECT_TRUE(return_to_law(laws, {0, kCompliance, kStep, 0}, q1, q2).slips);
+  EXPECT_EQ(std::hypot(q1, q2), 0);
+}
+
 }  // namespace railstrata

@@ -43,6 +43,7 @@ const std::vector<Overrides>& taken() {
        "friction.memory_velocity=0.1 m/s"},
       {"drive.friction_coefficient=0.3", "drive.creepage=-0.01", "third_body.thickness=0.02 mm",
        "third_body.shear_modulus=1 GPa", "third_body.yield_shear=50 MPa", "third_body.hardening=10000 MPa/mm"},
+      {"drive.friction_coefficient=0.3", "drive.creepage=-0.01", "friction.lateral_coefficient=0.2"},
       {"mesh.element=one_point", "mesh.hourglass_coefficient=0.1"},
       layered(
           {"mesh.elements_through_layer_one=true", "run.time_step_method=mass_scaling", "run.mass_scaling_step=0.7"}),
@@ -67,8 +68,7 @@ const std::map<std::string, std::string>& others() {
       {"third_body.modulus_by_pressure", "half-space engine"},
       {"third_body.temperature_table", "half-space engine"},
       {"friction.condition", "a name for other options"},
-      {"friction.lateral_table", "half-space engine"},
-      {"friction.lateral_coefficient", "half-space engine"},
+      {"friction.lateral_table", "refused: DeviceCase.WhatADeviceDoesNotTakeIsRefusedWithARemedy"},
       {"friction.temperature_table", "half-space engine"},
       {"friction.rail_temperature", "half-space engine"},
       {"friction.wheel_temperature", "half-space engine"},
