@@ -63,7 +63,7 @@ void read_history(LoadedCase& loaded, CaseSource& source) {
                               file = std::filesystem::absolute(said, error).lexically_normal();
   const std::string text = [&] {
     try {
-      return read_text_file(file, "name a CSV file, relative to the case file");
+      return read_text_file(file, "name a CSV file, relative to the case file", &loaded.notes);
     } catch (const CaseError& e) {
       for (const Diagnostic& d : e.diagnostics)
         refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
@@ -99,7 +99,8 @@ void read_load_file(LoadedCase& loaded, CaseSource& source) {
   std::error_code error;
   const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
   try {
-    read_load_table(read_text_file(file, "name a CSV file, relative to the case file"), file, loaded.spec);
+    read_load_table(read_text_file(file, "name a CSV file, relative to the case file", &loaded.notes), file,
+                    loaded.spec);
     loaded.inputs.push_back(file);
   } catch (const CaseError& e) {
     for (const Diagnostic& d : e.diagnostics)
@@ -158,9 +159,11 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
 }
 
 LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  LoadedCase loaded =
-      parse_case(read_text_file(file, "shipped cases stand in cases/, e.g. cases/quick/case.toml"), file, overrides);
+  std::vector<std::string> notes;
+  const std::string text = read_text_file(file, "shipped cases stand in cases/, e.g. cases/quick/case.toml", &notes);
+  LoadedCase loaded = parse_case(text, file, overrides);
   loaded.inputs.insert(loaded.inputs.begin(), file);
+  loaded.notes.insert(loaded.notes.begin(), notes.begin(), notes.end());
   return loaded;
 }
 

@@ -26,7 +26,8 @@ constexpr int kForEver = -1;
 
 }  // namespace
 
-std::string read_text_file(const std::filesystem::path& file, const std::string& remedy) {
+std::string read_text_file(const std::filesystem::path& file, const std::string& remedy,
+                           std::vector<std::string>* notes) {
   std::error_code error;  // of a name too long, a folder that may not be looked into: open() reports it below
   if (std::filesystem::is_directory(file, error))
     throw CaseError(fmt::format("{} is a folder", file.string()), "name the file in it");
@@ -55,7 +56,10 @@ std::string read_text_file(const std::filesystem::path& file, const std::string&
   if (const std::string sign = sign_of_binary(text); !sign.empty())
     throw CaseError(fmt::format("{} is not a text: {}", file.string(), sign),
                     "was another file meant? If it is a text, save it as UTF-8");
-  return text;
+  DecodedText out = decoded(std::move(text));
+  if (out.from_windows_1252 && notes)
+    notes->push_back(fmt::format("{} is not in UTF-8: it was read as Windows-1252", file.string()));
+  return std::move(out.text);
 }
 
 }  // namespace railstrata

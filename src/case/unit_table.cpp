@@ -99,11 +99,34 @@ class TableReader {
       if (columns_[k].option) row.cells.push_back(cell(columns_[k], cells[k], at));
   }
 
-  UnitTable table() && { return std::move(table_); }
+  UnitTable table() && {
+    if (decimal_commas_ && thousands_)
+      refuse_in_table(thousands_->file, thousands_->line,
+                      fmt::format("\"{}\" has a point, numbers beside it have decimal commas: is it {}, or {}?",
+                                  thousands_->number, without(thousands_->number, '.'), thousands_->number),
+                      "write it without marks of thousands, or with a comma for the decimals");
+    return std::move(table_);
+  }
 
  private:
-  UnitTable::Cell cell(const Column& column, const std::string& written, const Place& at) const {
+  /// 420.000 in a file with decimal commas.
+  struct Thousands {
+    std::string number;
+    std::filesystem::path file;
+    int line;
+  };
+
+  static std::string without(std::string text, char mark) {
+    text.erase(std::remove(text.begin(), text.end(), mark), text.end());
+    return text;
+  }
+
+  UnitTable::Cell cell(const Column& column, const std::string& written, const Place& at) {
     if (column.text || (form_.blanks && written.empty())) return {std::nullopt, written};
+    decimal_commas_ = decimal_commas_ || written.find(',') != std::string::npos;
+    const std::size_t point = written.find('.');
+    if (!thousands_ && point != std::string::npos && written.size() - point == 4)
+      thousands_ = {written, at.file, at.line};
     return {quantity(column, written, at), written};
   }
 
@@ -200,6 +223,8 @@ class TableReader {
   std::vector<Column> columns_;
   UnitTable table_;
   char separator_ = ',';
+  bool decimal_commas_ = false;
+  std::optional<Thousands> thousands_;
 };
 
 }  // namespace

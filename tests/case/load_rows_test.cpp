@@ -96,6 +96,22 @@ TEST(LoadRows, ATableInAFileGivesTheSameRowsAsTheCase) {
   EXPECT_EQ(loaded.inputs, (std::vector<std::filesystem::path>{folder / "loads.csv"}));
 }
 
+TEST(LoadRows, APointBeforeThreeDigitsIsADecimalPointWithoutDecimalCommasBesideIt) {
+  CaseSpec spec;
+  read_load_table("passages;wheel_load [kN]\n420.000;80.5\n", "loads.csv", spec);
+  EXPECT_EQ(spec.loads.at(0).passages, 420);
+}
+
+TEST(LoadRows, ATableOfASpreadsheetInWindows1252IsReadAndThatIsSaid) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
+  std::ofstream(folder / "loads.csv") << "name;passages\r\nG\xFCterwagen;4\r\n";
+  const LoadedCase loaded = parse_case("[collective]\nfile = \"loads.csv\"\n", folder / "a.toml");
+  EXPECT_EQ(loaded.spec.loads.at(0).name, "Güterwagen");
+  ASSERT_EQ(loaded.notes.size(), 1u);
+  expect_says(loaded.notes[0], "loads.csv is not in UTF-8: it was read as Windows-1252");
+}
+
 TEST(LoadRows, AFaultIsToldWithItsPlaceAndRemedy) {
   expect_says(refusal("[[load]]\nwheel_load = \"2 kN\"\n"), "a.toml:2:14: load.0: wheel_load = 2 kN: the wheel itself");
   expect_says(refusal("[[load]]\ntraction_coefficient = 0.3\nfriction_coefficient = 0.25\n"),
@@ -119,7 +135,8 @@ TEST(LoadRows, AFaultOfATableIsToldWithItsLine) {
       {"lateral_shift [mm]\n80\n", "loads.csv:2: lateral_shift = 80 mm: must be between"},
       {"passages, creepage, traction_coefficient\n", "the table has creepage and traction_coefficient: a load has one"},
       {"passages\n", "the table has no rows"},
-      {"passages\nmany\n", "loads.csv:2: \"many\" is not a number"}};
+      {"passages\nmany\n", "loads.csv:2: \"many\" is not a number"},
+      {"passages;wheel_load [kN]\n420.000;80,5\n", "loads.csv:2: \"420.000\" has a point, numbers beside it have"}};
   for (const auto& [text, says] : all) {
     CaseSpec spec;
     try {

@@ -23,6 +23,13 @@ TEST(Printable, BytesThatAreNoUtf8AreSpelledOut) {
   EXPECT_EQ(printable("\xE2\x82"), "\\xe2\\x82") << "cut within a character";
 }
 
+TEST(Printable, BytesThatAreNoUtf8AreReadAsThoseOfWindows1252) {
+  EXPECT_EQ(decoded("Müll 20 µm").text, "Müll 20 µm");
+  EXPECT_FALSE(decoded("Müll 20 µm").from_windows_1252);
+  EXPECT_EQ(decoded("M\xFCll 20 \xB5m, \x80 5 \x96 6").text, "Müll 20 µm, € 5 – 6");
+  EXPECT_TRUE(decoded("\xFC").from_windows_1252);
+}
+
 TEST(Printable, ABinaryFileIsKnownByItsControlCharacters) {
   EXPECT_EQ(sign_of_binary("a\tb\r\n\v\f\x1A"), "");
   EXPECT_EQ(sign_of_binary("Schie\xDF"
