@@ -132,20 +132,21 @@ class WheelOnPatches {
         modulus_(modulus_of(spec)),
         along_{spec.drive.creepage.value_or(0), 0},
         across_{spec.drive.lateral_creepage.value_or(yaw_creepage(members_.front().contact())), 0} {
-    options_.rolling.tangential.tolerance =
-        std::min(options_.rolling.tangential.tolerance, kSharp * options_.balance);
+    options_.rolling.tangential.tolerance = std::min(options_.rolling.tangential.tolerance, kSharp * options_.balance);
     options_.rolling.tangential.share_of_first = options_.rolling.normal.share_of_first = 1;  // starts are its own
     options_.cache = options.cache ? options.cache : &cache_;
   }
 
   void settle() {
-    double descent = first_descent();
+    const bool pressed = spec_.vehicle.approach.has_value();
+    double descent = pressed ? laid_descent() : first_descent();
     for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
       const Eigen::MatrixXd bent = depressions();
-      const double moved = solve_at(descent, bent);
-      if (std::abs(vertical() - weight_) <= kClosure * options_.balance * weight_ && moved <= options_.balance * weight_) return;
+      const double moved = solve_at(descent, bent), close = options_.balance * (pressed ? vertical() : weight_);
+      if (moved <= close && (pressed || std::abs(vertical() - weight_) <= kClosure * close)) return;
       descent += step(descent, bent);
     }
+    if (pressed) throw NumericalError("the forces of a wheel on several contacts under an approach were not found");
     throw CaseError("no descent of the wheel balances the weight on its contacts: friction wedges the wheel",
                     "lower drive.friction_coefficient, or check lateral_shift and the profiles",
                     "drive.friction_coefficient");
@@ -240,24 +241,33 @@ class WheelOnPatches {
                           by_descent = solver.solve(stiff.cwiseProduct(cosine));
     const double rise = std::max(share.dot(by_descent), 0.1 * cosine.dot(by_descent)),
                  wanted = (weight_ - vertical() - share.dot(as_is)) / rise,
-                 step = std::clamp(wanted, -0.5 * descent, descent);
+                 step = spec_.vehicle.approach ? 0.0 : std::clamp(wanted, -0.5 * descent, descent);
     for (Eigen::Index k = 0; k < n; ++k)
       members_[static_cast<std::size_t>(k)].expected = std::max(0.0, normal(k) + as_is(k) + step * by_descent(k));
     return step;
   }
 
+  /// Lays Hertz's contacts without friction at a descent, the sum of their vertical forces, N.
+  double lay(double descent) {
+    double sum = 0;
+    for (Member& m : members_) {
+      m.approach = (descent - m.below) * std::cos(m.contact().angle);
+      m.normal = m.loaded() ? weight_ * std::pow(m.approach / m.estimate.approach, 1.5) : 0.0;
+      m.expected = m.normal;
+      sum += m.normal * std::cos(m.contact().angle);
+    }
+    return sum;
+  }
+
+  /// Of a given approach: of the wheel on its first contact.
+  double laid_descent() {
+    const double descent = *spec_.vehicle.approach / std::cos(members_.front().contact().angle);
+    static_cast<void>(lay(descent));
+    return descent;
+  }
+
   /// Where Hertz's contacts without friction bear the weight.
   double first_descent() {
-    const auto lay = [&](double descent) {
-      double sum = 0;
-      for (Member& m : members_) {
-        m.approach = (descent - m.below) * std::cos(m.contact().angle);
-        m.normal = m.loaded() ? weight_ * std::pow(m.approach / m.estimate.approach, 1.5) : 0.0;
-        m.expected = m.normal;
-        sum += m.normal * std::cos(m.contact().angle);
-      }
-      return sum;
-    };
     double low = 0, high = members_.front().estimate.approach;
     while (lay(high) < weight_) high *= 2;
     for (int i = 0; i < 40; ++i) {

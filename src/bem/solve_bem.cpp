@@ -255,17 +255,38 @@ SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const B
   return shared;
 }
 
+/// Whether the drive has forces, which count over the load.
+bool forces_wanted(const CaseSpec& spec) {
+  return spec.drive.friction_coefficient > 0 &&
+         (spec.drive.traction().value_or(0) != 0 || spec.drive.lateral_traction_coefficient.value_or(0) != 0);
+}
+
 /// Under a given approach the vertical force F_z is a result. Forces of the drive count over it: F_z and they are found
 /// in turn, from the frictionless contact on.
 SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   constexpr int kMostIterations = 40;
   const RigidContact& contact = placement.contact;
-  require_one_plane(placement, *spec.vehicle.approach, "vehicle.approach",
-                    "give a load instead of vehicle.approach: the contacts share it");
+  const NormalTarget target{{}, spec.vehicle.approach};
   SharedLoad out{{PatchOnWheel{contact, {}, {}}}, {}, 1};
+  if (!forces_wanted(spec)) {
+    SharedLoad shared = share_load(spec, placement, *spec.vehicle.approach, options);
+    if (!shared.patches.empty()) return shared;
+    out.room = shared.room;
+  } else {
+    require_one_plane(
+        placement, *spec.vehicle.approach, "vehicle.approach",
+        "give creepages in place of forces, or a load instead of vehicle.approach: the contacts share it");
+  }
   CasePatch& patch = out.patches.front().patch;
   RollingSolution& solution = out.patches.front().solution;
-  patch = make_case_patch(spec, placement, options, NormalTarget{{}, spec.vehicle.approach});
+  if (!forces_wanted(spec) && starts_from_neighbour(spec, placement, out.room, options)) {
+    patch = case_patch_on(options.neighbour->grid, spec, placement, options, target);
+    drive_contact(spec, contact, 0, patch.contact);
+    solution =
+        solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling, &options.neighbour->solution);
+    if (!reaches_edge(patch.grid, solution.normal.pressure) && holds(patch.grid, out.room)) return out;
+  }
+  patch = make_case_patch(spec, placement, options, target, out.room);
   double vertical = std::cos(contact.angle) * patch.frictionless.load;
   for (;; ++out.load_iterations) {
     drive_contact(spec, contact, vertical, patch.contact);

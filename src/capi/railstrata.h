@@ -198,6 +198,93 @@ RS_API const char* rs_table_number_unit(const rs_table* table, int number);
  * taken at its end. -1: `table`, `at` or `out` is NULL, or a value is NaN. */
 RS_API int rs_table_at(const rs_table* table, const double* at, double* out);
 
+/* A wheelset: two wheels on one rigid axle and their rails. Its axes are those of the track: x along it, y to the left,
+ * z up, from the middle of the track at the height of the rails' origins. The centre of the axle stands at (0, y, r0 +
+ * z), r0 the case's wheel_radius; the wheelset is turned by the roll about x, then by the yaw about z. Creepages and
+ * spin follow from the rigid motion at the contacts: docs/vehicle.md. */
+typedef struct rs_wheelset rs_wheelset;
+#define RS_LEFT 0
+#define RS_RIGHT 1
+
+/* A case is that of the left wheel, whose model axes are these; the right wheel is its mirror image, with `right`, its
+ * own overrides: "geometry.rail_profile=worn.prr". Each wheel stands at half of the back-to-back distance, each gauge
+ * face at half of the gauge. Position, motion and load of the case do not count. */
+RS_API rs_wheelset* rs_wheelset_new(const char* case_file, const char* const* overrides, int count,
+                                    const char* const* right, int right_count, rs_error* error);
+RS_API rs_wheelset* rs_wheelset_from_text(const char* toml, const char* const* overrides, int count,
+                                          const char* const* right, int right_count, rs_error* error);
+/* NULL is allowed. */
+RS_API void rs_wheelset_free(rs_wheelset* wheelset);
+
+/* Bits of rs_wheelset_state.given: RS_WHEELSET_Z | RS_WHEELSET_ROLL presses each wheel by its own approach, loads are
+ * results. RS_WHEELSET_LOAD | RS_WHEELSET_ROLL: z is found. RS_WHEELSET_LOAD: z and roll are found, so that the contacts
+ * bear the load and the roll moment, for vehicles without vertical and roll inertia of the wheelset. */
+#define RS_WHEELSET_Z 1u
+#define RS_WHEELSET_ROLL 2u
+#define RS_WHEELSET_LOAD 4u
+
+typedef struct rs_wheelset_state {
+  size_t size;                     /* sizeof(rs_wheelset_state) */
+  unsigned given;                  /* of z, roll and load, those to be read. All else is read: 0 where nothing moves */
+  double y, z, yaw, roll;          /* m, rad */
+  double speed;                    /* m/s along the track, > 0 */
+  double y_rate, z_rate;           /* m/s */
+  double yaw_rate, roll_rate;      /* rad/s; on the inside of a curve of radius R yaw_rate has speed / R besides */
+  double pitch_rate;               /* rad/s, of the axle beyond speed / r0: > 0 drives */
+  double load;                     /* N, on the axle, down; */
+  double roll_moment;              /* N m, on the axle about x; with RS_WHEELSET_LOAD and no roll */
+  double rail_y[2], rail_z[2];     /* m, of the left and the right rail: irregularity, deflection */
+  double rail_roll[2];             /* rad, about x through the origins of their profiles */
+  double rail_y_rate[2], rail_z_rate[2]; /* m/s, of the rails' material: deflection, not irregularity */
+} rs_wheelset_state;
+
+/* One wheel of a wheelset, in the track's axes: of the right one, angles, spins and lateral numbers have the sign that
+ * they have seen from behind. Of several patches: forces of all, the rest as rs_forces has it. */
+typedef struct rs_wheel {
+  double force[3];                    /* N, on the wheel */
+  double moment[3];                   /* N m, of the contact on the wheelset, about its centre */
+  double normal_force, lateral_force; /* N, along the contact normal and across it, on the wheel */
+  double spin_moment;                 /* N m, on the wheel about the contact normal */
+  double creepage_x, creepage_y;
+  double spin;           /* 1/m */
+  double approach;       /* m, along the normal of the contact that touches first; < 0: lifted */
+  double point[3];       /* m, the contact that touches first, from the middle of the track below the centre */
+  double on_wheel[2];    /* m, y and z of it on the wheel's profile, */
+  double on_rail[2];     /* on the rail's: profiles' own axes, y to the field side */
+  double contact_angle;  /* rad, of the common tangent to y */
+  double rolling_radius; /* m */
+  double p_max;          /* Pa */
+  double patch_area;     /* m2 */
+  double dissipation;    /* W */
+  int patches, cells;    /* 0: lifted, which is an answer */
+  int checks_hold;
+  int reserved;
+} rs_wheel;
+
+typedef struct rs_wheelset_forces {
+  size_t size;                /* sizeof(rs_wheelset_forces), to be set by the caller */
+  double z, roll;             /* m, rad; as given, or found */
+  double force[3], moment[3]; /* N, N m, of both contacts on the wheelset about its centre */
+  rs_wheel wheel[2];          /* RS_LEFT, RS_RIGHT */
+  int solutions;              /* of each contact, that the state took */
+  int reserved;
+} rs_wheelset_forces;
+
+/* Solves a state. RS_NO_ANSWER: of rs_solve; the roll moment tips the wheelset over. */
+RS_API int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_wheelset_forces* forces,
+                             rs_error* error);
+
+/* Solutions start from the ones before. Trial steps of an integrator: rs_wheelset_keep remembers where the next solution
+ * starts from, rs_wheelset_reset returns there; what follows has the bits of what followed the first time.
+ * rs_wheelset_forget starts anew. */
+RS_API void rs_wheelset_keep(rs_wheelset* wheelset);
+RS_API void rs_wheelset_reset(rs_wheelset* wheelset);
+RS_API void rs_wheelset_forget(rs_wheelset* wheelset);
+
+/* The contact of a side, of the last solution: for rs_field, rs_stress, rs_remarks, rs_set_cell, rs_set_tolerance (of
+ * both sides). In its own axes: of the right wheel those of the mirror. Belongs to the wheelset. NULL: no such side. */
+RS_API rs_contact* rs_wheelset_contact(rs_wheelset* wheelset, int side);
+
 #ifdef __cplusplus
 }
 #endif

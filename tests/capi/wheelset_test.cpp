@@ -1,0 +1,144 @@
+// Wheelsets of the C interface: equilibrium, mirror images, trial steps, many states, Klingel's wavelength.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+#include "capi/railstrata.h"
+#include "tests/places.hpp"
+
+namespace railstrata {
+namespace {
+
+const std::string kCase = source_dir() / "cases/quick/case.toml";
+
+struct Set {
+  explicit Set(const std::string& text = {}) {
+    handle = text.empty() ? rs_wheelset_new(kCase.c_str(), nullptr, 0, nullptr, 0, &error)
+                          : rs_wheelset_from_text(text.c_str(), nullptr, 0, nullptr, 0, &error);
+    forces.size = sizeof(rs_wheelset_forces);
+    for (int side : {RS_LEFT, RS_RIGHT})
+      if (handle) rs_set_cell(rs_wheelset_contact(handle, side), 1e-3, nullptr);
+  }
+  ~Set() { rs_wheelset_free(handle); }
+  Set(const Set&) = delete;
+  Set& operator=(const Set&) = delete;
+  int solve(const rs_wheelset_state& state) { return rs_wheelset_solve(handle, &state, &forces, &error); }
+  rs_error error{};
+  rs_wheelset* handle = nullptr;
+  rs_wheelset_forces forces{};
+};
+
+rs_wheelset_state loaded(double y = 0, double yaw = 0) {
+  rs_wheelset_state out{};
+  out.size = sizeof(rs_wheelset_state);
+  out.given = RS_WHEELSET_LOAD;
+  out.load = 160e3;
+  out.speed = 20;
+  out.y = y;
+  out.yaw = yaw;
+  return out;
+}
+
+TEST(Wheelset, BearsLoadAndRollMoment) {
+  Set set;
+  ASSERT_NE(set.handle, nullptr) << set.error.message;
+  rs_wheelset_state state = loaded(2e-3, 1e-3);
+  state.roll_moment = 20e3;
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  EXPECT_NEAR(set.forces.force[2], 160e3, 16);
+  EXPECT_NEAR(set.forces.moment[0], -20e3, 16);
+  const double left = set.forces.wheel[RS_LEFT].force[2];
+  state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
+  state.z = set.forces.z;
+  state.roll = set.forces.roll;
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  EXPECT_NEAR(set.forces.wheel[RS_LEFT].force[2], left, 1e-4 * left);
+  state.given = RS_WHEELSET_LOAD | RS_WHEELSET_ROLL;
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  EXPECT_NEAR(set.forces.z, state.z, 1e-8);
+}
+
+TEST(Wheelset, TheMirrorImageOfAStateHasThoseOfItsForces) {
+  Set set, other;
+  rs_wheelset_state state = loaded(3e-3, 2e-3), image = loaded(-3e-3, -2e-3);
+  state.y_rate = 0.01;
+  state.rail_y[RS_LEFT] = 1e-3;
+  image.y_rate = -0.01;
+  image.rail_y[RS_RIGHT] = -1e-3;
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  ASSERT_EQ(other.solve(image), RS_OK) << other.error.message;
+  const rs_wheel &a = set.forces.wheel[RS_LEFT], &b = other.forces.wheel[RS_RIGHT];
+  const double sign[] = {1, -1, 1};
+  for (int i : {0, 1, 2}) {
+    EXPECT_NEAR(a.force[i], sign[i] * b.force[i], 10);
+    EXPECT_NEAR(a.moment[i], -sign[i] * b.moment[i], 10);
+  }
+  EXPECT_NEAR(a.contact_angle, -b.contact_angle, 1e-6);
+  EXPECT_NEAR(set.forces.roll, -other.forces.roll, 1e-9);
+}
+
+TEST(Wheelset, RailsThatMoveAlongChangeNothing) {
+  Set set, other;
+  rs_wheelset_state state = loaded(1e-3), moved = loaded(3e-3);
+  for (int side : {RS_LEFT, RS_RIGHT}) {
+    moved.rail_y[side] = 2e-3;
+    moved.rail_z[side] = 1e-3;
+  }
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  ASSERT_EQ(other.solve(moved), RS_OK) << other.error.message;
+  EXPECT_NEAR(other.forces.z - set.forces.z, 1e-3, 1e-9);
+  for (int i : {0, 1, 2}) EXPECT_NEAR(other.forces.force[i], set.forces.force[i], 5);
+}
+
+TEST(Wheelset, TrialStepsLeaveNoTraceAfterAReset) {
+  Set set;
+  ASSERT_EQ(set.solve(loaded(1e-3)), RS_OK) << set.error.message;
+  rs_wheelset_keep(set.handle);
+  ASSERT_EQ(set.solve(loaded(1.2e-3, 1e-4)), RS_OK) << set.error.message;
+  const rs_wheelset_forces first = set.forces;
+  ASSERT_EQ(set.solve(loaded(5e-3, -1e-3)), RS_OK) << set.error.message;
+  rs_wheelset_reset(set.handle);
+  ASSERT_EQ(set.solve(loaded(1.2e-3, 1e-4)), RS_OK) << set.error.message;
+  for (int i : {0, 1, 2}) EXPECT_EQ(set.forces.force[i], first.force[i]);
+}
+
+TEST(Wheelset, AWheelThatLiftsIsAnAnswer) {
+  Set set;
+  ASSERT_EQ(set.solve(loaded()), RS_OK) << set.error.message;
+  rs_wheelset_state state = loaded();
+  state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
+  state.z = set.forces.z;
+  state.roll = 1e-3;
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  EXPECT_EQ(set.forces.wheel[RS_LEFT].patches, 0);
+  EXPECT_LT(set.forces.wheel[RS_LEFT].approach, 0);
+  EXPECT_GT(set.forces.wheel[RS_RIGHT].force[2], 80e3);
+  rs_wheelset_state tipped = loaded();
+  tipped.roll_moment = 200e3;
+  EXPECT_EQ(set.solve(tipped), RS_NO_ANSWER);
+}
+
+TEST(Wheelset, StatesOfARunAllHaveAnAnswer) {
+  const char* many = std::getenv("RAILSTRATA_STATES");
+  const int states = many ? std::atoi(many) : 40;
+  Set set;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int failed = 0, solutions = 0;
+  for (int k = 0; k < states; ++k) {
+    rs_wheelset_state state = loaded(6e-3 * unit(random), 5e-3 * unit(random));
+    state.load *= 1 + 0.3 * unit(random);
+    const int code = set.solve(state);
+    failed += code != RS_OK;
+    if (code) ADD_FAILURE() << state.y << " " << state.yaw << " " << state.load << ": " << set.error.message;
+    solutions += set.forces.solutions;
+  }
+  EXPECT_EQ(failed, 0);
+  RecordProperty("solutions", solutions);
+}
+
+}  // namespace
+}  // namespace railstrata
