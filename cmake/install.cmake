@@ -45,6 +45,7 @@ endfunction()
 function(railstrata_install_headers layout libdir)
   railstrata_part(dev)
   install(FILES ${CMAKE_SOURCE_DIR}/extras/${ROOM_OF_CONTACT}/railstrata_cntc.h
+    ${CMAKE_SOURCE_DIR}/src/capi/railstrata.f90
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/railstrata ${part})
   install(DIRECTORY ${public_include}/railstrata DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${part}
     FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
@@ -70,6 +71,7 @@ function(railstrata_install_data layout)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/data DESTINATION ${data_folder} ${part})
   install(FILES ${CMAKE_SOURCE_DIR}/tests/install/consumer/mine.c ${CMAKE_SOURCE_DIR}/tests/install/consumer/mine.f90
     DESTINATION ${data_folder}/examples ${part})
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/vehicle DESTINATION ${data_folder}/examples ${part})
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/matlab DESTINATION ${data_folder} ${part})
   install(FILES ${CMAKE_SOURCE_DIR}/src/report/view.py ${CMAKE_SOURCE_DIR}/web/dist/report.js
     ${CMAKE_SOURCE_DIR}/web/dist/report.css DESTINATION ${data_folder}/report ${part})

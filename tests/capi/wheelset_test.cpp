@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -138,6 +139,57 @@ TEST(Wheelset, StatesOfARunAllHaveAnAnswer) {
   }
   EXPECT_EQ(failed, 0);
   RecordProperty("solutions", solutions);
+}
+
+/// Rates of force and moment, by y and yaw and by their rates, at rest in the middle of the track.
+struct Linear {
+  double force[4], moment[4];
+};
+Linear linear(Set& set, double speed) {
+  constexpr double kStep = 2e-4;
+  double rs_wheelset_state::*const members[] = {&rs_wheelset_state::y, &rs_wheelset_state::yaw,
+                                                &rs_wheelset_state::y_rate, &rs_wheelset_state::yaw_rate};
+  Linear out{};
+  for (int j = 0; j < 4; ++j)
+    for (const double sign : {1.0, -1.0}) {
+      rs_wheelset_state state = loaded();
+      state.speed = speed;
+      state.*members[j] = sign * kStep;
+      EXPECT_EQ(set.solve(state), RS_OK) << set.error.message;
+      out.force[j] += sign * set.forces.force[1] / (2 * kStep);
+      out.moment[j] += sign * set.forces.moment[2] / (2 * kStep);
+    }
+  return out;
+}
+
+// Without mass, forces by position and by rates balance: (lambda C + K) (y, yaw) = 0. [Klingel1883] has the wave 2 pi
+// sqrt(r0 b/conicity); the rest of 1 % is what spin and the roll of the wheelset add to it.
+TEST(Wheelset, ConesRollInTheWavesOfKlingel) {
+  const std::string folder = source_dir() / "examples/vehicle";
+  Set set;
+  rs_wheelset_free(set.handle);
+  set.handle = rs_wheelset_new((folder + "/case.toml").c_str(), nullptr, 0, nullptr, 0, &set.error);
+  ASSERT_NE(set.handle, nullptr) << set.error.message;
+  for (int side : {RS_LEFT, RS_RIGHT}) rs_set_cell(rs_wheelset_contact(set.handle, side), 1e-3, nullptr);
+  constexpr double kSpeed = 1, kAside = 1e-3;
+  rs_wheelset_state aside = loaded(kAside);
+  aside.speed = kSpeed;
+  ASSERT_EQ(set.solve(aside), RS_OK) << set.error.message;
+  const rs_wheel *left = &set.forces.wheel[RS_LEFT], *right = &set.forces.wheel[RS_RIGHT];
+  const double conicity = (left->rolling_radius - right->rolling_radius) / (2 * kAside),
+               base = 0.5 * (left->point[1] - right->point[1]),
+               klingel = 2 * std::numbers::pi * std::sqrt(0.46 * base / conicity);
+  EXPECT_NEAR(conicity, 0.05, 0.005);
+  const Linear l = linear(set, kSpeed);
+  const double a = l.force[2] * l.moment[3] - l.force[3] * l.moment[2],
+               c = l.force[0] * l.moment[1] - l.force[1] * l.moment[0],
+               b = l.force[2] * l.moment[1] + l.force[0] * l.moment[3] - l.force[3] * l.moment[0] -
+                   l.force[1] * l.moment[2];
+  ASSERT_LT(b * b, 4 * a * c);
+  const double frequency = std::sqrt(c / a - 0.25 * b * b / (a * a));
+  EXPECT_NEAR(2 * std::numbers::pi * kSpeed / frequency, klingel, 0.01 * klingel);
+  RecordProperty("wave", std::to_string(2 * std::numbers::pi * kSpeed / frequency));
+  RecordProperty("klingel", std::to_string(klingel));
 }
 
 }  // namespace
