@@ -34,7 +34,7 @@ SECTIONS = [
                       "docs/finite-elements-verification.md",
                       "docs/finite-elements-speed.md", "docs/damage-verification.md", "docs/passes-verification.md"]),
     ("Reference", ["docs/case-reference.md", "docs/results-reference.md", "CHANGELOG.md"]),
-    ("Programming", ["docs/python.md", "python-interface.md", "docs/library.md", "c-interface.md",
+    ("Programming", ["docs/python.md", "python-interface.md", "docs/library.md", "docs/vehicle.md", "c-interface.md",
                      "docs/contact-interface.md"]),
     ("Cases", []),
     ("Development", ["CONTRIBUTING.md", "docs/architecture.md", "docs/reliability.md", "SECURITY.md", "RELEASING.md"]),

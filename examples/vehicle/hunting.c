@@ -1,5 +1,6 @@
-/* A wheelset that springs hold to a frame of constant speed, on a track that a lateral irregularity moves aside by
- * 0.5 mm: y and yaw over the way. usage: hunting CASE SPEED SPRINGS STEP LENGTH (m/s, a factor, m, m). docs/vehicle.md */
+/* A wheelset that springs hold to a frame of constant speed, on a track that an irregularity moves aside by
+ * 0.5 mm: y and yaw over the way. docs/vehicle.md.
+ * usage: hunting CASE SPEED SPRINGS STEP LENGTH (m/s, a factor of the springs, m, m) */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +8,8 @@
 
 #include <railstrata/railstrata.h>
 
-static const double mass = 1500, inertia = 1000, stiffness_y = 2e6, stiffness_yaw = 2e6, load = 160e3, pi = 3.14159265358979324;
+static const double mass = 1500, inertia = 1000, stiffness_y = 2e6, stiffness_yaw = 2e6, load = 160e3;
+static const double pi = 3.14159265358979324;
 static double speed, springs;
 static rs_wheelset* wheelset;
 static rs_wheelset_forces forces;
@@ -70,7 +72,8 @@ static void solve(double jacobian[4][4], double factor, double b[4]) {
 
 int main(int argc, char** argv) {
   const double gamma = 1 - sqrt(0.5);
-  double q[4] = {0, 0, 0, 0}, next[4], one[4], two[4], jacobian[4][4], x, step, length;
+  double q[4] = {0, 0, 0, 0}, next[4], one[4], two[4], jacobian[4][4];
+  double x, step, length;
   rs_error error;
   int i, side;
   if (argc != 6) return 2;

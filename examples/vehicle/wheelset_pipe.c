@@ -1,5 +1,6 @@
 /* A wheelset for programs that cannot load a library: a state a line on the input (y yaw y_rate yaw_rate speed load
- * rail_y, of both rails; SI), a line of the lateral force, the moment about z and the rolling radii on the output. usage: wheelset_pipe CASE */
+ * rail_y, of both rails; SI), a line of the lateral force, the moment about z and the rolling radii on the output.
+ * usage: wheelset_pipe CASE */
 #include <stdio.h>
 #include <string.h>
 

@@ -217,24 +217,24 @@ RS_API rs_wheelset* rs_wheelset_from_text(const char* toml, const char* const* o
 RS_API void rs_wheelset_free(rs_wheelset* wheelset);
 
 /* Bits of rs_wheelset_state.given: RS_WHEELSET_Z | RS_WHEELSET_ROLL presses each wheel by its own approach, loads are
- * results. RS_WHEELSET_LOAD | RS_WHEELSET_ROLL: z is found. RS_WHEELSET_LOAD: z and roll are found, so that the contacts
- * bear the load and the roll moment, for vehicles without vertical and roll inertia of the wheelset. */
+ * results. RS_WHEELSET_LOAD | RS_WHEELSET_ROLL: z is found. RS_WHEELSET_LOAD: z and roll are found, so that the
+ * contacts bear the load and the roll moment, for vehicles without vertical and roll inertia of the wheelset. */
 #define RS_WHEELSET_Z 1u
 #define RS_WHEELSET_ROLL 2u
 #define RS_WHEELSET_LOAD 4u
 
 typedef struct rs_wheelset_state {
-  size_t size;                     /* sizeof(rs_wheelset_state) */
-  unsigned given;                  /* of z, roll and load, those to be read. All else is read: 0 where nothing moves */
-  double y, z, yaw, roll;          /* m, rad */
-  double speed;                    /* m/s along the track, > 0 */
-  double y_rate, z_rate;           /* m/s */
-  double yaw_rate, roll_rate;      /* rad/s; on the inside of a curve of radius R yaw_rate has speed / R besides */
-  double pitch_rate;               /* rad/s, of the axle beyond speed / r0: > 0 drives */
-  double load;                     /* N, on the axle, down; */
-  double roll_moment;              /* N m, on the axle about x; with RS_WHEELSET_LOAD and no roll */
-  double rail_y[2], rail_z[2];     /* m, of the left and the right rail: irregularity, deflection */
-  double rail_roll[2];             /* rad, about x through the origins of their profiles */
+  size_t size;                 /* sizeof(rs_wheelset_state) */
+  unsigned given;              /* of z, roll and load, those to be read. All else is read: 0 where nothing moves */
+  double y, z, yaw, roll;      /* m, rad */
+  double speed;                /* m/s along the track, > 0 */
+  double y_rate, z_rate;       /* m/s */
+  double yaw_rate, roll_rate;  /* rad/s; on the inside of a curve of radius R yaw_rate has speed / R besides */
+  double pitch_rate;           /* rad/s, of the axle beyond speed / r0: > 0 drives */
+  double load;                 /* N, on the axle, down; */
+  double roll_moment;          /* N m, on the axle about x; with RS_WHEELSET_LOAD and no roll */
+  double rail_y[2], rail_z[2]; /* m, of the left and the right rail: irregularity, deflection */
+  double rail_roll[2];         /* rad, about x through the origins of their profiles */
   double rail_y_rate[2], rail_z_rate[2]; /* m/s, of the rails' material: deflection, not irregularity */
 } rs_wheelset_state;
 
@@ -274,8 +274,8 @@ typedef struct rs_wheelset_forces {
 RS_API int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_wheelset_forces* forces,
                              rs_error* error);
 
-/* Solutions start from the ones before. Trial steps of an integrator: rs_wheelset_keep remembers where the next solution
- * starts from, rs_wheelset_reset returns there; what follows has the bits of what followed the first time.
+/* Solutions start from the ones before. Trial steps of an integrator: rs_wheelset_keep remembers where the next
+ * solution starts from, rs_wheelset_reset returns there; what follows has the bits of what followed the first time.
  * rs_wheelset_forget starts anew. */
 RS_API void rs_wheelset_keep(rs_wheelset* wheelset);
 RS_API void rs_wheelset_reset(rs_wheelset* wheelset);
