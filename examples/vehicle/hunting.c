@@ -8,9 +8,9 @@
 
 #include <railstrata/railstrata.h>
 
-static const double mass = 1500, inertia = 1000, stiffness_y = 2e6, stiffness_yaw = 2e6, load = 160e3;
+static const double mass = 1500, inertia = 1000, stiffness_y = 2e6, stiffness_yaw = 2e6, load = 160e3, radius = 0.46;
 static const double pi = 3.14159265358979324;
-static double speed, springs;
+static double speed, springs, pitch_rate; /* of wheels that roll freely in the middle of the track */
 static rs_wheelset* wheelset;
 static rs_wheelset_forces forces;
 
@@ -25,6 +25,7 @@ static void rates(double x, const double q[4], double out[4]) {
   s.given = RS_WHEELSET_LOAD;
   s.load = load;
   s.speed = speed;
+  s.pitch_rate = pitch_rate;
   s.y = q[0];
   s.yaw = q[1];
   s.y_rate = q[2];
@@ -88,6 +89,8 @@ int main(int argc, char** argv) {
   }
   for (side = RS_LEFT; side <= RS_RIGHT; ++side) rs_set_cell(rs_wheelset_contact(wheelset, side), 1e-3, NULL);
   forces.size = sizeof(forces);
+  rates(0, q, one);
+  pitch_rate = speed / forces.wheel[RS_LEFT].rolling_radius - speed / radius;
   differentiate(jacobian);
   printf("x_m,y_mm,yaw_mrad,radius_difference_mm\n");
   /* ROS2: two stages with one matrix, of second order whatever the matrix is, and stable for stiff creep. */

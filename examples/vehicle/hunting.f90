@@ -2,9 +2,9 @@
 program hunting
   use railstrata
   implicit none
-  real(c_double), parameter :: mass = 1500, inertia = 1000, stiffness_y = 2d6, stiffness_yaw = 2d6, load = 160d3, &
+  real(c_double), parameter :: mass = 1500, inertia = 1000, stiffness_y = 2d6, stiffness_yaw = 2d6, load = 160d3, radius = 0.46d0, &
                                pi = 3.14159265358979324d0, gamma = 1 - sqrt(0.5d0)
-  real(c_double) :: speed, springs, step, length, x, h, q(4) = 0, one(4), two(4), jacobian(4, 4)
+  real(c_double) :: pitch_rate = 0, speed, springs, step, length, x, h, q(4) = 0, one(4), two(4), jacobian(4, 4)
   type(c_ptr) :: wheelset
   type(rs_wheelset_forces) :: forces
   type(rs_error) :: error
@@ -22,6 +22,8 @@ program hunting
     if (rs_set_cell(rs_wheelset_contact(wheelset, side), 1d-3, error) /= rs_ok) call stop_with(error)
   end do
   forces%size = c_sizeof(forces)
+  one = rates(0d0, q)
+  pitch_rate = speed/forces%wheel(1)%rolling_radius - speed/radius
   call differentiate()
   print '(a)', 'x_m,y_mm,yaw_mrad,radius_difference_mm'
   x = 0
@@ -54,6 +56,7 @@ contains
     s%given = rs_wheelset_load
     s%load = load
     s%speed = speed
+    s%pitch_rate = pitch_rate
     s%y = q(1)
     s%yaw = q(2)
     s%y_rate = q(3)

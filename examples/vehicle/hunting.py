@@ -10,7 +10,7 @@ import sys
 import numpy as np
 
 D, I, Z = ctypes.c_double, ctypes.c_int, ctypes.c_size_t
-MASS, INERTIA, STIFFNESS_Y, STIFFNESS_YAW, LOAD = 1500, 1000, 2e6, 2e6, 160e3
+MASS, INERTIA, STIFFNESS_Y, STIFFNESS_YAW, LOAD, RADIUS = 1500, 1000, 2e6, 2e6, 160e3, 0.46
 
 
 def structure(name, *fields):
@@ -39,14 +39,17 @@ class Wheelset:
         if not made:
             raise ValueError(self.error.message.decode())
         self.handle, self.speed, self.springs = ctypes.c_void_p(made), speed, springs
+        self.pitch_rate = 0
         for side in (0, 1):
             self.rs.rs_set_cell(ctypes.c_void_p(self.rs.rs_wheelset_contact(self.handle, side)), D(1e-3), None)
+        self.rates(0, np.zeros(4))  # wheels roll freely in the middle of the track
+        self.pitch_rate = speed / self.forces.wheel[0].rolling_radius - speed / RADIUS
 
     def rates(self, x, q):
         y, yaw, y_rate, yaw_rate = map(float, q)
         aside = 0.25e-3 * (1 - math.cos(math.pi * min(x, 2) / 2))
         state = State(size=ctypes.sizeof(State), given=4, load=LOAD, speed=self.speed, y=y, yaw=yaw, y_rate=y_rate,
-                      yaw_rate=yaw_rate, rail_y=(aside, aside))
+                      yaw_rate=yaw_rate, pitch_rate=self.pitch_rate, rail_y=(aside, aside))
         by_reference = ctypes.byref
         if self.rs.rs_wheelset_solve(self.handle, by_reference(state), by_reference(self.forces),
                                      by_reference(self.error)):

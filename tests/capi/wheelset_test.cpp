@@ -145,7 +145,7 @@ TEST(Wheelset, StatesOfARunAllHaveAnAnswer) {
 struct Linear {
   double force[4], moment[4];
 };
-Linear linear(Set& set, double speed) {
+Linear linear(Set& set, double speed, double pitch_rate) {
   constexpr double kStep = 2e-4;
   double rs_wheelset_state::*const members[] = {&rs_wheelset_state::y, &rs_wheelset_state::yaw,
                                                 &rs_wheelset_state::y_rate, &rs_wheelset_state::yaw_rate};
@@ -154,6 +154,7 @@ Linear linear(Set& set, double speed) {
     for (const double sign : {1.0, -1.0}) {
       rs_wheelset_state state = loaded();
       state.speed = speed;
+      state.pitch_rate = pitch_rate;
       state.*members[j] = sign * kStep;
       EXPECT_EQ(set.solve(state), RS_OK) << set.error.message;
       out.force[j] += sign * set.forces.force[1] / (2 * kStep);
@@ -180,7 +181,7 @@ TEST(Wheelset, ConesRollInTheWavesOfKlingel) {
                base = 0.5 * (left->point[1] - right->point[1]),
                klingel = 2 * std::numbers::pi * std::sqrt(0.46 * base / conicity);
   EXPECT_NEAR(conicity, 0.05, 0.005);
-  const Linear l = linear(set, kSpeed);
+  const Linear l = linear(set, kSpeed, 2 * kSpeed / (left->rolling_radius + right->rolling_radius) - kSpeed / 0.46);
   const double a = l.force[2] * l.moment[3] - l.force[3] * l.moment[2],
                c = l.force[0] * l.moment[1] - l.force[1] * l.moment[0],
                b = l.force[2] * l.moment[1] + l.force[0] * l.moment[3] - l.force[3] * l.moment[0] -
