@@ -2,7 +2,8 @@
 program hunting
   use railstrata
   implicit none
-  real(c_double), parameter :: mass = 1500, inertia = 1000, stiffness_y = 2d6, stiffness_yaw = 2d6, load = 160d3, radius = 0.46d0, &
+  real(c_double), parameter :: mass = 1500, inertia = 1000, stiffness_y = 2d6, &
+                               stiffness_yaw = 2d6, load = 160d3, radius = 0.46d0, &
                                pi = 3.14159265358979324d0, gamma = 1 - sqrt(0.5d0)
   real(c_double) :: pitch_rate = 0, speed, springs, step, length, x, h, q(4) = 0, one(4), two(4), jacobian(4, 4)
   type(c_ptr) :: wheelset
