@@ -18,7 +18,7 @@ struct BemOptions {
   double cell = kDefaultCell;    ///< m
   double largest_patch = 60e-3;  ///< m, of the potential contact area, per direction
   RollingOptions rolling;
-  double balance = 1e-5;         ///< of the weight: how well normal and lateral force together bear it
+  double balance = 1e-5;              ///< of the weight: how well normal and lateral force together bear it
   InfluenceCache* cache = nullptr;    ///< for sweeps; may be null
   BemNeighbour* neighbour = nullptr;  ///< may be null. Becomes this solution where one patch bears the load, else
                                       ///< empty. Numbers then depend on it, within the tolerances of the solver

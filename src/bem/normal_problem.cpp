@@ -49,9 +49,10 @@ class ActiveSetSolver {
     for (int outer = 0; outer < options_.max_outer; ++outer) {
       const double scale = gap_range();
       if (outer == 0 && !start.empty()) follow(scale);
-      const double left = conjugate_gradients(reduce, tolerance_ * scale);
-      const int changed = update_active_set(tolerance_ * scale);
-      if (changed == 0 && left <= tolerance_ * scale) return solution();
+      const double left = conjugate_gradients(reduce, tolerance_ * scale),
+                   close = std::max(tolerance_ * scale, round_off());
+      const int changed = update_active_set(close);
+      if (changed == 0 && left <= close) return solution();
       reduce = changed == 0 ? 1e-4 : changed < 8 ? 1e-3 : 1e-2;
     }
     throw NumericalError(
@@ -74,6 +75,15 @@ class ActiveSetSolver {
     ++iterations_;
     const double first = compute_residual() / scale;
     tolerance_ = std::min(tolerance_, std::max(NormalOptions::kRoundOff, options_.share_of_first * first));
+  }
+
+  /// Of the displacements that fast transforms give [m]: residuals settle at some 13 epsilon of the largest one, and
+  /// directions from such residuals end in 0/0.
+  double round_off() const {
+    constexpr double kOfLargest = 64 * std::numeric_limits<double>::epsilon();
+    double largest = 0;
+    for (const double u : displacement_) largest = std::max(largest, std::abs(u));
+    return kOfLargest * largest;
   }
 
   bool load_given() const { return target_.load.has_value(); }
@@ -201,7 +211,7 @@ class ActiveSetSolver {
   }
 
   /// Preconditioned conjugate gradients on the active cells; a given load is met from the first iterate on. Returns the
-  /// largest residual left, at most the larger of 0.3 floor and `reduce` times the first one.
+  /// largest residual left, at most the largest of 0.3 floor, `reduce` times the first one and half the round-off.
   double conjugate_gradients(double reduce, double floor) {
     if (load_given()) {
       Plane mask(active_.begin(), active_.end());
@@ -212,7 +222,7 @@ class ActiveSetSolver {
     influence_.normal(p_.data(), displacement_.data());
     ++iterations_;
     double left = compute_residual(), previous = 0;
-    const double goal = std::max(0.3 * floor, reduce * left);
+    const double goal = std::max({0.3 * floor, reduce * left, 0.5 * round_off()});
     std::fill(d_.begin(), d_.end(), 0.0);
     for (int it = 0; it < 200 && left > goal; ++it) {
       precondition(residual_, z_);

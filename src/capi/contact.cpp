@@ -77,7 +77,9 @@ Placement placed(const rs_contact& contact, const CaseSpec& spec) {
 }
 
 const BemPatch& patch_of(const rs_contact* contact, int patch) {
-  if (!contact || !contact->last) throw CaseError("there is no solution", contact && contact->state ? "the wheel of the last state is lifted" : "call rs_solve first");
+  if (!contact || !contact->last)
+    throw CaseError("there is no solution",
+                    contact && contact->state ? "the wheel of the last state is lifted" : "call rs_solve first");
   const BemResult& result = *contact->last;
   const int count = static_cast<int>(1 + result.further.size());
   if (patch < 0 || patch >= count)
@@ -164,8 +166,7 @@ void solve(rs_contact& contact, const rs_state* given, rs_forces& forces) {
   BemNeighbour neighbour = contact.start.of(spec);
   options.neighbour = &neighbour;
   constexpr double kFollowed = 1e-2;  // of a start's violation: the smallest change of a state counts
-  if (!neighbour.empty())
-    options.rolling.normal.share_of_first = options.rolling.tangential.share_of_first = kFollowed;
+  if (!neighbour.empty()) options.rolling.normal.share_of_first = options.rolling.tangential.share_of_first = kFollowed;
   capi::answer([&] { contact.last = solve_bem(spec, capi::placed(contact, spec), options); });
   contact.start.add(spec, std::move(neighbour));
   const Summary summary = bem_contact_summary(spec, *contact.last);
