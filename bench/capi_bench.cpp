@@ -1,12 +1,15 @@
 // A vehicle code's use of the C interface: 1,000 contacts along a lateral sweep, as one time step after the other would
 // ask for them (LMA on CN60, 85 kN, creepage 1e-3, cells of 0.5 mm: about 500 in contact). CPU time of one thread.
 //
-// Lines: median and 90 % quantile of a solution, each started from the one before (warm) or anew (cold), without a
-// layer and with 2 mm at 2 E0.
+// Lines: median, 90 % and 99 % quantile of a solution, each started from the one before (warm) or anew (cold), without
+// a layer and with 2 mm at 2 E0; with a yaw, and a roll besides; rs_jacobian by six inputs after each solution.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "capi/railstrata.h"
@@ -24,39 +27,74 @@ constexpr const char *kPlain = "[geometry]\nlateral_shift = \"0 mm\"\n",
                      *kLayered =
                          "[geometry]\nlateral_shift = \"0 mm\"\n[[layer]]\nthickness = \"2 mm\"\nyoung_ratio = 2\n";
 
-void lateral_sweep(benchmark::State& state, const char* text, bool warm) {
+struct Sweep {
+  const char* text = kPlain;
+  bool warm = true;
+  double yaw = 0, roll = 0;
+  bool derivatives = false;
+};
+
+/// Seconds of the derivatives after a solution by what a vehicle's step changes.
+double jacobian_seconds(benchmark::State& state, rs_contact* contact) {
+  constexpr unsigned kInputs[] = {RS_LOAD, RS_LATERAL_SHIFT, RS_YAW, RS_CREEPAGE_X, RS_CREEPAGE_Y, RS_SPIN};
+  rs_derivatives slopes[std::size(kInputs)];
+  for (rs_derivatives& s : slopes) s.size = sizeof(s);
+  rs_error error{};
+  const double begun = cpu_seconds();
+  if (rs_jacobian(contact, kInputs, std::size(kInputs), slopes, &error) != RS_OK) state.SkipWithError(error.message);
+  return cpu_seconds() - begun;
+}
+
+void lateral_sweep(benchmark::State& state, const Sweep& sweep) {
   railstrata::set_threads(1);
   constexpr int kSolutions = 1000;
   rs_error error{};
-  rs_contact* contact = rs_contact_from_text(text, nullptr, 0, &error);
+  rs_contact* contact = rs_contact_from_text(sweep.text, nullptr, 0, &error);
   rs_set_cell(contact, 0.5e-3, &error);
   rs_state s{};
   s.size = sizeof(s);
-  s.given = RS_LATERAL_SHIFT | RS_CREEPAGE_X;
+  s.given = RS_LATERAL_SHIFT | RS_CREEPAGE_X | RS_YAW | RS_ROLL;
+  s.yaw = sweep.yaw;
+  s.roll = sweep.roll;
   s.creepage_x = -1e-3;
   rs_forces forces{};
   forces.size = sizeof(forces);
-  std::vector<double> seconds;
+  std::vector<double> seconds, of_derivatives;
   for (auto _ : state) {
     for (int k = 0; k < kSolutions; ++k) {
       s.lateral_shift = (-2 + 5.0 * k / kSolutions) * 1e-3;
-      if (!warm) rs_forget(contact);
+      if (!sweep.warm) rs_forget(contact);
       const double begun = cpu_seconds();
       if (rs_solve(contact, &s, &forces, &error) != RS_OK) state.SkipWithError(error.message);
       seconds.push_back(cpu_seconds() - begun);
+      if (sweep.derivatives) of_derivatives.push_back(jacobian_seconds(state, contact));
     }
   }
   rs_contact_free(contact);
-  std::sort(seconds.begin(), seconds.end());
-  state.counters["median_ms"] = 1e3 * seconds[seconds.size() / 2];
-  state.counters["ninety_percent_ms"] = 1e3 * seconds[seconds.size() * 9 / 10];
+  const auto tell = [&](std::vector<double>& times, const std::string& name) {
+    if (times.empty()) return;
+    std::sort(times.begin(), times.end());
+    for (const auto& [word, share] : {std::pair("median", 0.5), {"p90", 0.9}, {"p99", 0.99}})
+      state.counters[name + word + "_ms"] =
+          1e3 * times[static_cast<std::size_t>(share * static_cast<double>(times.size()))];
+  };
+  tell(seconds, "");
+  tell(of_derivatives, "jacobian_");
   state.counters["cells"] = forces.cells;
 }
 
-BENCHMARK_CAPTURE(lateral_sweep, plain_warm, kPlain, true)->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK_CAPTURE(lateral_sweep, plain_cold, kPlain, false)->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK_CAPTURE(lateral_sweep, layered_warm, kLayered, true)->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK_CAPTURE(lateral_sweep, layered_cold, kLayered, false)->Unit(benchmark::kMillisecond)->Iterations(1);
+#define SWEEP(name, ...) \
+  BENCHMARK_CAPTURE(lateral_sweep, name, Sweep __VA_ARGS__)->Unit(benchmark::kMillisecond)->Iterations(1)
+SWEEP(plain_warm, {kPlain, true});
+SWEEP(plain_cold, {kPlain, false});
+SWEEP(layered_warm, {kLayered, true});
+SWEEP(layered_cold, {kLayered, false});
+SWEEP(yaw_1e6_warm, {kPlain, true, 1e-6});
+SWEEP(yaw_warm, {kPlain, true, 5e-3});
+SWEEP(yaw_cold, {kPlain, false, 5e-3});
+SWEEP(roll_warm, {kPlain, true, 5e-3, 1e-3});
+SWEEP(plain_derivatives, {kPlain, true, 5e-3, 0, true});
+SWEEP(layered_derivatives, {kLayered, true, 5e-3, 0, true});
 
 }  // namespace
 
