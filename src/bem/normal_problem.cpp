@@ -232,7 +232,9 @@ class ActiveSetSolver {
       for_cells(n_, [&](std::size_t i) { d_[i] = z_[i] + beta * d_[i]; });
       influence_.normal(d_.data(), Ad_.data());
       ++iterations_;
-      const double alpha = rho / dot(d_, Ad_);
+      const double bent = dot(d_, Ad_);
+      if (!(rho > 0 && bent > 0)) break;  // what is left is round-off
+      const double alpha = rho / bent;
       for_cells(
           n_,
           [&](std::size_t i) {

@@ -28,7 +28,7 @@ struct Member {
   double step;  ///< of differences, in the member's unit
 };
 constexpr Member kMembers[] = {{RS_APPROACH, &rs_state::approach, "approach", "vehicle.approach", 1e-10},
-                               {RS_LATERAL_SHIFT, &rs_state::lateral_shift, "lateral_shift", "geometry.lateral_shift", 1e-07},
+                               {RS_LATERAL_SHIFT, &rs_state::lateral_shift, "lateral_shift", "geometry.lateral_shift", 1e-08},
                                {RS_YAW, &rs_state::yaw, "yaw", "geometry.yaw", 1e-07},
                                {RS_ROLL, &rs_state::roll, "roll", "geometry.roll", 1e-07},
                                {RS_SPEED, &rs_state::speed, "speed", "drive.speed", 0.0001},
