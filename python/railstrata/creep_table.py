@@ -19,9 +19,9 @@ Numbers = Union[float, Array]
 
 
 class CreepTable:
-    """A creep-force table of `railstrata creep-table` (docs/creep-table.md): numbers over axes, multilinear between.
+    """A creep-force table of `railstrata creep-table` (docs/creep-table.md): numbers over axes, multilinear between,
+    as rs.open_table of its creep_table.h5 gives it.
 
-        table = rs.open_table("results/quick-table/creep_table.h5")
         table.at(creepage_x=-0.001, creepage_y=0)["force_x"]
 
     axes: name -> values, SI. numbers: name -> values over all axes, in the order of `axes`; NaN where a contact has no

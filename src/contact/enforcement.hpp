@@ -106,11 +106,10 @@ struct EnforcementOptions {
   bool penalty = false;
   double penalty_stiffness = 0;  ///< Pa/m, penalty only
   FrictionLaws friction;
-  std::vector<double>
-      coefficient_across;    ///< of the rail's columns, for that of `friction`; empty: the same everywhere
   double slip_time = 0;      ///< s, falling laws: time constant of the mean slip velocity; 0: that of the step
   double tolerance = 1e-11;  ///< m, change of a relative displacement per step at which the sweeps stop
   int max_sweeps = 100;
+  std::vector<double> coefficient_across{};  ///< of the rail's columns, for that of `friction`; empty: the same
 };
 
 RowLaw row_law(const EnforcementOptions& options, double dt);

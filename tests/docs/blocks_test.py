@@ -87,8 +87,8 @@ def file_name(block):
 
 
 def run_toml(block, folder, rs):
-    """A file that begins with [study] is listed as a study, a validation.toml is run on the locomotive's case and data;
-    all else is a case, whole or in part."""
+    """A file that begins with [study] is listed as a study, a validation.toml is run on its own or the locomotive's
+    case and data; all else is a case, whole or in part."""
     text = block.text
     if block.file:
         file = folder / block.file
@@ -99,7 +99,8 @@ def run_toml(block, folder, rs):
         done(block, folder, folder / "railstrata", "study", block.file, "--dry-run")
     elif file_name(block) == "validation.toml":
         for name in ("case.toml", "data.csv"):
-            shutil.copy(folder / "cases/validation/locomotive" / name, file.parent)
+            if not (file.parent / name).exists():
+                shutil.copy(folder / "cases/validation/locomotive" / name, file.parent)
         done(block, folder, folder / "railstrata", "validate", file.parent.name)
     else:
         rs.Case.from_text(text, str(folder / "case.toml"))

@@ -229,6 +229,25 @@ class CConsumer(Consumer):
         for c, fortran in zip(*numbers_of):
             self.assertAlmostEqual(c, fortran, delta=1e-9 * abs(c))
 
+    def test_a_wheelset_hunts_alike_in_four_languages(self):
+        examples, c = PREFIX / "share/railstrata/examples/vehicle", ["gcc", "-std=c89", "-pedantic", "-Wall", "-Werror"]
+        include = ["-I", PREFIX / "include"]
+        for name in ("hunting", "wheelset_pipe"):
+            done(*c, *include, examples / f"{name}.c", "-o", self.folder / name, *self.links, "-lm")
+        done("gfortran", "-std=f2008", "-Wall", "-Werror", PREFIX / "include/railstrata/railstrata.f90",
+             examples / "hunting.f90", "-o", self.folder / "hunting_f", *self.links, cwd=self.folder)
+        drive = [examples / "case.toml", "10", "0", "0.25", "4"]  # m/s, no springs, m, m
+
+        def trajectory(*program):
+            return [list(map(float, row.split(","))) for row in done(*program, *drive).splitlines()[1:]]
+
+        by_c = trajectory(self.folder / "hunting")
+        self.assertEqual(len(by_c), 16)
+        self.assertGreater(by_c[-1][1], 0.1)  # mm aside
+        self.assertEqual(by_c, trajectory(self.folder / "hunting_f"))
+        self.assertEqual(by_c, trajectory("/usr/bin/python3", examples / "hunting.py", libraries()[0]))
+        self.assertEqual(by_c, trajectory("octave-cli", "--no-gui", "-q", examples / "hunting.m",
+                                          self.folder / "wheelset_pipe"))
 
     def test_the_c_of_the_manuals_compiles(self):
         for page in ("library", "creep-table"):
