@@ -85,9 +85,9 @@ ContactDerivative ContactDerivatives::by(const PlacedCase& more, const PlacedCas
   ContactDerivative out;
   out.angle = slope(more.placement.contact.angle, less.placement.contact.angle);
   if (!spec_.vehicle.approach) {
-    const double by_normal = by_weight(),
-                 missing = slope(static_load(more.spec), static_load(less.spec)) +
-                           (normal * sine + lateral * cosine) * out.angle + d.tangential.force_y * sine;
+    const double by_normal = by_weight(), missing = slope(static_load(more.spec), static_load(less.spec)) +
+                                                    (normal * sine + lateral * cosine) * out.angle +
+                                                    d.tangential.force_y * sine;
     add(d, missing / (cosine - by_normal * sine), *by_load_);
   }
   const double force_y = d.tangential.force_y;

@@ -31,8 +31,9 @@ class NewtonStep {
   /// the linear system; close: a slip that may be left in every cell, 0: `accuracy` alone ends it. Cells that leave
   /// the circle are kLoosened.
   void take(double accuracy, double close = 0);
-  /// Change of the tractions, then of the given forces' creepages, that takes back a change of the slip (two planes) and
-  /// of the given forces (missing_force), sets as they stand; slipping cells turn on their circle. Without VaryingBound.
+  /// Change of the tractions, then of the given forces' creepages, that takes back a change of the slip (two planes)
+  /// and of the given forces (missing_force), sets as they stand; slipping cells turn on their circle. Without
+  /// VaryingBound.
   const Plane& derivative(const Plane& change);
 
  private:

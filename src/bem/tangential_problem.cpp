@@ -345,9 +345,8 @@ TangentialDerivative tangential_derivative(const InfluenceOperator& influence, c
                                            const TangentialProblem& more, const TangentialProblem& less, double step) {
   const std::optional<PatchPart> part = tight_part_with(grid, problem.traction_bound);
   if (!part) return derivative_on(influence, grid, problem, solution, more, less, step);
-  TangentialDerivative d =
-      derivative_on(*influence.part(part->nx, part->ny), part->grid(), taken(*part, problem), taken(*part, solution),
-                    taken(*part, more), taken(*part, less), step);
+  TangentialDerivative d = derivative_on(*influence.part(part->nx, part->ny), part->grid(), taken(*part, problem),
+                                         taken(*part, solution), taken(*part, more), taken(*part, less), step);
   d.q_x = part->put(d.q_x);
   d.q_y = part->put(d.q_y);
   return d;

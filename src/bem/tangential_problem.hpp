@@ -75,8 +75,8 @@ struct TangentialProblem : RollingConditions {
 };
 
 struct TangentialOptions {
-  double tolerance = 1e-5;  ///< of the slip conditions, relative to the largest rigid slip (history counts with a
-                            ///< hundredth), and of a given force, relative to friction
+  double tolerance = 1e-5;    ///< of the slip conditions, relative to the largest rigid slip (history counts with a
+                              ///< hundredth), and of a given force, relative to friction
   double share_of_first = 1;  ///< from a start, what may be left of the violation that it has here: see NormalOptions
   int max_outer = 80;
   bool partial = false;  ///< true: after max_outer steps what was reached is the answer, not an error
@@ -108,8 +108,8 @@ TangentialSolution solve_tangential(const InfluenceOperator& influence, const Pa
                                     const TangentialProblem& problem, const TangentialOptions& options = {},
                                     const TangentialSolution* start = nullptr);
 
-/// Change of a solution per unit of an input, sets of sticking and slipping cells as they are. Of steady rolling without
-/// a bound that varies with slip (VaryingBound::needed).
+/// Change of a solution per unit of an input, sets of sticking and slipping cells as they are. Of steady rolling
+/// without a bound that varies with slip (VaryingBound::needed).
 struct TangentialDerivative {
   Plane q_x, q_y;                         ///< Pa
   double creepage_x = 0, creepage_y = 0;  ///< of given forces

@@ -27,11 +27,12 @@ extern "C" {
 
 /* Of rs_error.code; the program's exit codes have the same meanings. */
 #define RS_OK 0
-#define RS_CASE 2      /* a mistake: an input is misspelt, out of range or at odds with another */
-#define RS_NUMERICS 3  /* an iteration did not converge */
-#define RS_MACHINE 4   /* not enough memory, a file that cannot be read */
-#define RS_NO_ANSWER 5 /* physics: the inputs are in range, and no contact has them. Friction cannot bear the force or
-                        * wedges the wheel; the wheel misses the rail or touches at the end of a profile; the load
+#define RS_CASE 2     /* a mistake: an input is misspelt, out of range or at odds with another */
+#define RS_NUMERICS 3 /* an iteration did not converge */
+#define RS_MACHINE 4  /* not enough memory, a file that cannot be read */
+#define RS_NO_ANSWER                                                                                                   \
+  5                    /* physics: the inputs are in range, and no contact has them. Friction cannot bear the force or \
+                        * wedges the wheel; the wheel misses the rail or touches at the end of a profile; the load     \
                         * flattens the patch */
 #define RS_INTERNAL 70 /* a fault of the library */
 
@@ -109,8 +110,8 @@ RS_API int rs_set_cell(rs_contact* contact, double cell, rs_error* error);
 
 /* Tolerance of solutions, 1e-12 to 1e-3; 1e-5 unless set. The largest slip in sticking cells over the largest rigid
  * slip, the error of forces that friction bears over friction, that of the vertical force over the load; of the gap in
- * contact over its range a hundredth. Sharper ones cost about a Newton step for every two digits. A solution that starts
- * from the one before takes out 99 % of what the state's change made wrong as well, however little that is. */
+ * contact over its range a hundredth. Sharper ones cost about a Newton step for every two digits. A solution that
+ * starts from the one before takes out 99 % of what the state's change made wrong as well, however little that is. */
 RS_API int rs_set_tolerance(rs_contact* contact, double tolerance, rs_error* error);
 
 /* Solves the case with what `state` changes of it; NULL: as it is. After an error the last solution is gone. A wheel
@@ -129,9 +130,9 @@ typedef struct rs_derivatives {
   double contact_angle;
 } rs_derivatives;
 
-/* Derivatives of what rs_solve gave, by `count` inputs, each one bit of rs_state.given; out[k] is that of inputs[k]. All
- * other inputs stay as they were given; what was not given follows as in rs_solve: by RS_YAW the lateral creepage turns
- * with the wheel unless RS_CREEPAGE_Y was given. The equations of the cells in contact, sticking and slipping,
+/* Derivatives of what rs_solve gave, by `count` inputs, each one bit of rs_state.given; out[k] is that of inputs[k].
+ * All other inputs stay as they were given; what was not given follows as in rs_solve: by RS_YAW the lateral creepage
+ * turns with the wheel unless RS_CREEPAGE_Y was given. The equations of the cells in contact, sticking and slipping,
  * linearised at the last solution, so that errors are those of its sets: some 1e-4 after a tolerance of 1e-5, 1e-6
  * after 1e-8. Costs about a warm solution for each input, two for one that moves the wheel. Where a derivative jumps
  * (a cell comes into contact, a profile's curvature changes) it is that of one side.

@@ -27,15 +27,16 @@ struct Member {
   std::string_view name, key;
   double step;  ///< of differences, in the member's unit
 };
-constexpr Member kMembers[] = {{RS_APPROACH, &rs_state::approach, "approach", "vehicle.approach", 1e-10},
-                               {RS_LATERAL_SHIFT, &rs_state::lateral_shift, "lateral_shift", "geometry.lateral_shift", 1e-08},
-                               {RS_YAW, &rs_state::yaw, "yaw", "geometry.yaw", 1e-07},
-                               {RS_ROLL, &rs_state::roll, "roll", "geometry.roll", 1e-07},
-                               {RS_SPEED, &rs_state::speed, "speed", "drive.speed", 0.0001},
-                               {RS_FRICTION, &rs_state::friction, "friction", "drive.friction_coefficient", 1e-07},
-                               {RS_CREEPAGE_X, &rs_state::creepage_x, "creepage_x", "drive.creepage", 1e-08},
-                               {RS_CREEPAGE_Y, &rs_state::creepage_y, "creepage_y", "drive.lateral_creepage", 1e-08},
-                               {RS_SPIN, &rs_state::spin, "spin", "drive.spin", 1e-06}};
+constexpr Member kMembers[] = {
+    {RS_APPROACH, &rs_state::approach, "approach", "vehicle.approach", 1e-10},
+    {RS_LATERAL_SHIFT, &rs_state::lateral_shift, "lateral_shift", "geometry.lateral_shift", 1e-08},
+    {RS_YAW, &rs_state::yaw, "yaw", "geometry.yaw", 1e-07},
+    {RS_ROLL, &rs_state::roll, "roll", "geometry.roll", 1e-07},
+    {RS_SPEED, &rs_state::speed, "speed", "drive.speed", 0.0001},
+    {RS_FRICTION, &rs_state::friction, "friction", "drive.friction_coefficient", 1e-07},
+    {RS_CREEPAGE_X, &rs_state::creepage_x, "creepage_x", "drive.creepage", 1e-08},
+    {RS_CREEPAGE_Y, &rs_state::creepage_y, "creepage_y", "drive.lateral_creepage", 1e-08},
+    {RS_SPIN, &rs_state::spin, "spin", "drive.spin", 1e-06}};
 constexpr unsigned kAllBits = RS_LOAD | RS_APPROACH | RS_LATERAL_SHIFT | RS_YAW | RS_ROLL | RS_SPEED | RS_FRICTION |
                               RS_CREEPAGE_X | RS_CREEPAGE_Y | RS_SPIN | RS_FORCE_X | RS_FORCE_Y;
 
