@@ -72,7 +72,7 @@ class HalfSpaceCommands(FromOutside):
             if (case.name.endswith("expect.toml") or case.is_relative_to(SOURCE / "cases/validation")
                     or "study" in tomllib.loads(case.read_text())):
                 continue
-            small = ["--cell", "0.1 mm"] if case.parent.name == "rigs" else []  # patches of discs, as their page says
+            small = ["--cell", "0.1 mm"] if case.parent.name == "rigs" else []  # patches of discs
             summary = json.loads(self.done("bem", case, *small, "--threads", "1", "--json", "--no-report", "--force",
                                            "--out", self.folder / "shipped"))
             names = {w["name"] for w in summary["warnings"]}

@@ -126,7 +126,8 @@ def test_a_creep_table_has_its_axes_numbers_and_units(table):
     assert table.numbers["force_x"].shape == (3, 2) and not table.numbers["force_x"].flags.writeable
     data = table.to_xarray()
     assert data.force_x.dims == ("creepage_x", "lateral_shift") and data.force_x.attrs["units"] == "N"
-    assert pickle.loads(pickle.dumps(table)).at(creepage_x=0, lateral_shift=0) == table.at(creepage_x=0, lateral_shift=0)
+    place = {"creepage_x": 0, "lateral_shift": 0}
+    assert pickle.loads(pickle.dumps(table)).at(**place) == table.at(**place)
 
 
 def test_a_creep_table_is_linear_between_its_points(table):
