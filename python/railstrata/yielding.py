@@ -190,7 +190,8 @@ def passes(
     try:
         done = _bridge.work(
             "passes", follow if bar is None else bar.of_pass, case=case._loaded, folder=str(folder),
-            rolled=engine == "fem", passes=passes, resume=bool(resume), force=bool(force), page=bool(page), cell=_metres(cell, "cell"),
+            rolled=engine == "fem", passes=passes, resume=bool(resume), force=bool(force), page=bool(page),
+            cell=_metres(cell, "cell"),
             roll_length=_metres(roll_length, "roll_length"), checkpoint_every=float(checkpoint_every),
         )
     except KeyboardInterrupt:
