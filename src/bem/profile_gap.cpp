@@ -31,14 +31,26 @@ struct PlanePoint {
 /// Curves end where they have turned their back on the contact plane (steeper than 87 degrees to it).
 constexpr double kFacing = 0.05, kWalkingStep = 0.05e-3;
 
-/// The same by looking at every place in the section below the axle.
+/// The same by looking at every place in the section below the axle, up to `farthest` (m) from the contact.
 template <class Curve>
-double last_facing_place(const Curve& curve, double begin, int direction) {
+double last_facing_place(const Curve& curve, double begin, int direction, double farthest) {
   const double last = direction > 0 ? curve.profile.s_max() : curve.profile.s_min();
   double s = begin;
-  while ((last - s) * direction > kWalkingStep && curve.at(s + direction * kWalkingStep, 0).dt > kFacing)
+  while ((last - s) * direction > kWalkingStep) {
+    const PlanePoint next = curve.at(s + direction * kWalkingStep, 0);
+    if (!(next.dt > kFacing)) break;
     s += direction * kWalkingStep;
+    if (next.t * direction > farthest) break;
+  }
   return s;
+}
+
+/// Up to where sections of a grid ask for the curve below the axle, m: half the grid's width, and |x| for a section
+/// at x, which lies x tan(yaw) beside it.
+double farthest_of(const PatchGrid& grid) {
+  constexpr double kSpare = 1e-3;
+  return std::max(std::abs(grid.y(0)), std::abs(grid.y(grid.ny - 1))) +
+         std::max(std::abs(grid.x(0)), std::abs(grid.x(grid.nx - 1))) + kSpare;
 }
 
 /// The rail, cut at x from the contact point.
@@ -58,7 +70,7 @@ struct RailCurve {
     return {axes, position, along};
   }
   bool turns() const { return contact.rail_turn != 0; }
-  double end(double begin, int direction) const {
+  double end(double begin, int direction, double) const {
     return last_facing(profile, begin, direction * kWalkingStep, model_to_rail(track, axes.tangent), kFacing);
   }
 };
@@ -80,9 +92,9 @@ struct WheelCurve {
             {contact.wheel_offset_y + across, contact.axle_height - below},
             {p.tangent.y / cosine, r / below * p.tangent.z + along / below * slope * p.tangent.y}};
   }
-  double end(double begin, int direction) const {
+  double end(double begin, int direction, double farthest) const {
     return symmetric() ? last_facing(profile, begin, direction * kWalkingStep, axes.tangent, kFacing)
-                       : last_facing_place(*this, begin, direction);
+                       : last_facing_place(*this, begin, direction, farthest);
   }
   /// The same before and behind the axle.
   bool symmetric() const { return contact.yaw == 0 && contact.x == 0; }
@@ -98,7 +110,9 @@ struct RolledWheelCurve {
     const TurnedPoint p = wheel.cut(s, contact.x + x);
     return {axes, {contact.wheel_offset_y + p.position.y, contact.wheel_offset_z + p.position.z}, p.along};
   }
-  double end(double begin, int direction) const { return last_facing_place(*this, begin, direction); }
+  double end(double begin, int direction, double farthest) const {
+    return last_facing_place(*this, begin, direction, farthest);
+  }
   bool symmetric() const { return false; }
 };
 
@@ -110,8 +124,8 @@ struct Found {
 template <class Curve>
 class HeightOverPlane {
  public:
-  HeightOverPlane(const Curve& curve, double contact_s)
-      : curve_(curve), low_(curve.end(contact_s, -1)), high_(curve.end(contact_s, 1)) {}
+  HeightOverPlane(const Curve& curve, double contact_s, double farthest)
+      : curve_(curve), low_(curve.end(contact_s, -1, farthest)), high_(curve.end(contact_s, 1, farthest)) {}
 
   /// At (x, t), by Newton's method kept inside the facing part; nothing where that has ended. guess: arc length to
   /// start from.
@@ -167,8 +181,8 @@ ProfileGap gap_to(const WheelSection& wheel_curve, const Profile& rail, const Tr
                   const RigidContact& contact, const PatchGrid& grid, FromAxle&& from_axle) {
   const PlaneAxes axes(contact);
   const RailCurve rail_curve{rail, track, contact, axes};
-  const HeightOverPlane rail_height(rail_curve, contact.rail_s);
-  const HeightOverPlane wheel_height(wheel_curve, contact.wheel_s);
+  const HeightOverPlane rail_height(rail_curve, contact.rail_s, farthest_of(grid));
+  const HeightOverPlane wheel_height(wheel_curve, contact.wheel_s, farthest_of(grid));
   std::vector<typename HeightOverPlane<WheelSection>::Reach> reach;
   for (int i = 0; i < grid.nx; ++i) reach.push_back(wheel_height.reach(grid.x(i)));
   ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size()), {}};

@@ -40,15 +40,18 @@ double along_rail(const TrackGeometry& track, const LowestPoint& p) {
 /// At the distance y from the middle of the tape circle, where the gap is least along the rail, which has the radius R
 /// there. On the wheel's circle of radius r, at x of its own frame and the depth d, that is where
 ///   x (1 + d/D) = (r dz/dy + y d/D) tan(psi),   D the depth of the rail's axle.
-LowestPoint lowest_point(const Profile& wheel, const TrackGeometry& track, double y, double rail_radius) {
+/// place: SurfacePlace of the wheel at a y.
+template <class Place>
+LowestPoint lowest_point(const Profile& wheel, Place&& place, const TrackGeometry& track, double y,
+                         double rail_radius) {
   constexpr double kClose = 1e-13;
   constexpr int kMostSteps = 50;
   const double yaw = std::atan(track.yaw), sine = std::sin(yaw), cosine = std::cos(yaw);
   LowestPoint p{0, y};
   for (int i = 0; i < kMostSteps; ++i) {
-    const ProfilePoint w = wheel.at(wheel.s_at_y(p.y));
-    const double radius = track.wheel_radius - w.position.z;
-    p.x = radius * w.tangent.z / w.tangent.y * track.yaw;
+    const SurfacePlace w = place(p.y);
+    const double radius = track.wheel_radius - w.height;
+    p.x = radius * w.slope * track.yaw;
     if (std::isfinite(rail_radius)) {
       const double depths = std::sqrt(radius * radius - p.x * p.x) / axle_depth(rail_radius, along_rail(track, p));
       p.x = (p.x + p.y * depths * track.yaw) / (1 + depths);
@@ -84,13 +87,17 @@ class Gap {
   double wheel_y(double s) const { return rail_point(s).y - offset_y_; }
   LowestPoint on_wheel(double s) const { return lowest_at(rail_point(s)); }
   double value(double s) const { return over(s, rail_point(s)); }
-  /// The same at a place of the rail, in its own frame; nothing where that does not face the wheel. An upright wheel's
-  /// heights come from `wheel`.
+  /// The same at a place of the rail, in its own frame; nothing where that does not face the wheel. Heights of a wheel
+  /// without a roll come from `wheel`.
   std::optional<double> value_if_faced(double s, Vec2 on_rail, RunningSurface& wheel) const {
     const Vec2 rail = roll(cant_, on_rail);
     const double y = rail.y - offset_y_;
     if (!(y >= wheel_begin_ && y <= wheel_end_)) return {};
-    return rolled() || track_.yaw != 0 ? over(s, rail) : wheel.height(y) - rail.z;
+    if (rolled()) return over(s, rail);
+    if (track_.yaw == 0) return wheel.height(y) - rail.z;
+    const LowestPoint p = lowest_point(
+        wheel_, [&](double at) { return wheel.place(at); }, track_, y, rail_radius(rail.z));
+    return over(rail, p, wheel.height(p.y));
   }
   double derivative(double s) const {
     if (rolled()) {
@@ -112,16 +119,22 @@ class Gap {
  private:
   LowestPoint lowest_at(Vec2 rail) const {
     const double wheel_y = rail.y - offset_y_;
-    return track_.yaw == 0 ? LowestPoint{0, wheel_y} : lowest_point(wheel_, track_, wheel_y, rail_radius(rail.z));
+    if (track_.yaw == 0) return {0, wheel_y};
+    return lowest_point(
+        wheel_, [&](double y) { return place_on(wheel_, y); }, track_, wheel_y, rail_radius(rail.z));
   }
   double over(double s, Vec2 rail) const {
     if (rolled()) return outline(s).position.z - rail.z;
     const LowestPoint p = lowest_at(rail);
-    return wheel_.height(p.y) + rise(p) - (rail.z - drop(rail.z, p));
+    return over(rail, p, wheel_.height(p.y));
+  }
+  double over(Vec2 rail, const LowestPoint& p, double height) const {
+    return height + rise(p, height) - (rail.z - drop(rail.z, p));
   }
   /// By how much the point lies above the lowest one of its circle.
-  double rise(const LowestPoint& p) const {
-    return p.x == 0 ? 0.0 : track_.wheel_radius - wheel_.height(p.y) - depth(p);
+  double rise(const LowestPoint& p, double height) const {
+    const double radius = track_.wheel_radius - height;
+    return p.x == 0 ? 0.0 : radius - std::sqrt((radius - p.x) * (radius + p.x));
   }
   /// The same of a rail that is curved along rolling, below its highest one.
   double drop(double z, const LowestPoint& p) const {

@@ -81,14 +81,19 @@ RunningSurface::RunningSurface(const Profile& profile) : profile_(profile) {
   }
 }
 
-double RunningSurface::height(double y) {
-  if (pieces_.empty()) return profile_.height(y);
+SurfacePlace RunningSurface::place(double y) {
+  if (pieces_.empty()) return place_on(profile_, y);
   while (y >= pieces_[at_].end_y) ++at_;
   while (at_ > 0 && y < pieces_[at_ - 1].end_y) --at_;
   const Piece& g = pieces_[at_];
-  if (g.radius == 0) return g.begin.z + (y - g.begin.y) * g.slope;
-  const double across = y - g.centre.y;
-  return g.centre.z + g.side * std::sqrt(std::max(0.0, (g.radius - across) * (g.radius + across)));
+  if (g.radius == 0) return {g.begin.z + (y - g.begin.y) * g.slope, g.slope};
+  const double across = y - g.centre.y, up = std::sqrt(std::max(0.0, (g.radius - across) * (g.radius + across)));
+  return {g.centre.z + g.side * up, -g.side * across / up};
+}
+
+SurfacePlace place_on(const Profile& profile, double y) {
+  const ProfilePoint p = profile.at(profile.s_at_y(y));
+  return {p.position.z, p.tangent.z / p.tangent.y};
 }
 
 }  // namespace railstrata

@@ -15,12 +15,20 @@ std::vector<Vec2> even_positions(const Profile& profile, double begin, double st
 /// curve ends, up to which all of them from k = 1 on have tangents t with t·direction > cosine. cosine: 0 or more.
 double last_facing(const Profile& profile, double begin, double step, Vec2 direction, double cosine);
 
-/// Heights of the running surface, z(y): fast where one y lies near the one before. Keeps the profile by reference.
+/// Of the running surface at one y: z and dz/dy.
+struct SurfacePlace {
+  double height, slope;
+};
+SurfacePlace place_on(const Profile& profile, double y);
+
+/// Places of the running surface: fast where one y lies near the one before. Keeps the profile by reference.
 class RunningSurface {
  public:
   explicit RunningSurface(const Profile& profile);
-  /// As Profile::height; y within [y_min, y_max].
-  double height(double y);
+  /// y within [y_min, y_max].
+  SurfacePlace place(double y);
+  /// As Profile::height.
+  double height(double y) { return place(y).height; }
 
  private:
   struct Piece {

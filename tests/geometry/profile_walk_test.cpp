@@ -57,14 +57,15 @@ TEST(ProfileWalk, FacingEndsWhereALookAtEveryPlaceSaysIt) {
           }
 }
 
-TEST(ProfileWalk, HeightsAreThoseOfTheProfileWhereverTheNextOneLies) {
+TEST(ProfileWalk, HeightsAndSlopesAreThoseOfTheProfileWhereverTheNextOneLies) {
   for (const Profile& p : all_profiles()) {
     RunningSurface surface(p);
     const double width = p.y_max() - p.y_min();
     for (int k = 0; k <= 4000; ++k) {
       const double share = k < 2000 ? k / 2000.0 : std::fmod(0.61803398875 * k, 1.0), y = p.y_min() + share * width;
-      const double steep = std::abs(p.at(p.s_at_y(y)).tangent.z / p.at(p.s_at_y(y)).tangent.y);
-      EXPECT_NEAR(surface.height(y), p.height(y), 1e-14 * (1 + std::min(steep, 1e6))) << p.name() << " at " << y;
+      const double slope = place_on(p, y).slope, steep = 1 + std::min(std::abs(slope), 1e6);
+      EXPECT_NEAR(surface.height(y), p.height(y), 1e-14 * steep) << p.name() << " at " << y;
+      EXPECT_NEAR(std::atan(surface.place(y).slope), std::atan(slope), 1e-13 * steep) << p.name() << " at " << y;
     }
   }
 }
