@@ -338,7 +338,7 @@ rs_wheelset* new_wheelset(const char* const* overrides, int count, const char* c
   rs_error error{};
   Wheel left = wheel_from(make(overrides, count, &error), error);
   Wheel other = wheel_from(make(of_right.data(), count + right_count, &error), error);
-  return new rs_wheelset{{std::move(left), std::move(other)}, {}, 0, 0, {}};
+  return new rs_wheelset(std::move(left), std::move(other));
 }
 
 }  // namespace

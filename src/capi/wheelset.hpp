@@ -2,6 +2,7 @@
 // The handle of a wheelset.
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "capi/contact.hpp"
 #include "geometry/wheelset.hpp"
@@ -40,6 +41,8 @@ struct Wheel {
 }  // namespace railstrata::capi
 
 struct rs_wheelset {
+  rs_wheelset(railstrata::capi::Wheel left, railstrata::capi::Wheel right)
+      : wheels{std::move(left), std::move(right)} {}
   std::array<railstrata::capi::Wheel, 2> wheels;
   std::array<railstrata::capi::Stiffening, 2> stiffening;
   double roll = 0;  ///< rad, of the last solution
