@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capi/guarded.hpp"
@@ -234,6 +235,34 @@ double lean(rs_wheelset& set, const rs_wheelset_state& state) {
   throw NumericalError("height and roll of the wheelset under its load were not found");
 }
 
+/// A member that counts and is no number would be answered as a wheel that misses its rail.
+void require_numbers(const rs_wheelset_state& s) {
+  using S = rs_wheelset_state;
+  const auto number = [](const std::string& name, double value) {
+    if (!std::isfinite(value))
+      throw CaseError(fmt::format("rs_wheelset_state.{} = {:g}", name, value), "give a finite number");
+  };
+  if (s.given & RS_WHEELSET_Z) number("z", s.z);
+  if (s.given & RS_WHEELSET_ROLL) number("roll", s.roll);
+  if (s.given == RS_WHEELSET_LOAD) number("roll_moment", s.roll_moment);
+  constexpr std::pair<const char*, double S::*> kNumbers[] = {{"y", &S::y},
+                                                              {"yaw", &S::yaw},
+                                                              {"y_rate", &S::y_rate},
+                                                              {"z_rate", &S::z_rate},
+                                                              {"yaw_rate", &S::yaw_rate},
+                                                              {"roll_rate", &S::roll_rate},
+                                                              {"pitch_rate", &S::pitch_rate}};
+  for (const auto& [name, member] : kNumbers) number(name, s.*member);
+  using OfRails = double(S::*)[2];
+  constexpr std::pair<const char*, OfRails> kOfRails[] = {{"rail_y", &S::rail_y},
+                                                          {"rail_z", &S::rail_z},
+                                                          {"rail_roll", &S::rail_roll},
+                                                          {"rail_y_rate", &S::rail_y_rate},
+                                                          {"rail_z_rate", &S::rail_z_rate}};
+  for (const auto& [name, member] : kOfRails)
+    for (int side : {RS_LEFT, RS_RIGHT}) number(fmt::format("{}[{}]", name, side), (s.*member)[side]);
+}
+
 void require_state(const rs_wheelset_state& s) {
   if (s.size != sizeof(rs_wheelset_state))
     throw CaseError(fmt::format("rs_wheelset_state.size = {} is of another version of the library", s.size),
@@ -246,15 +275,7 @@ void require_state(const rs_wheelset_state& s) {
     throw CaseError(fmt::format("rs_wheelset_state.speed = {:g}", s.speed), "give a speed above 0 m/s");
   if ((s.given & RS_WHEELSET_LOAD) && !(s.load > 0 && std::isfinite(s.load)))
     throw CaseError(fmt::format("rs_wheelset_state.load = {:g}", s.load), "give a load above 0 N");
-  const auto number = [](const char* name, double value) {
-    if (!std::isfinite(value))
-      throw CaseError(fmt::format("rs_wheelset_state.{} = {:g}", name, value), "give a finite number");
-  };
-  number("y", s.y);
-  number("yaw", s.yaw);
-  if (s.given & RS_WHEELSET_Z) number("z", s.z);
-  if (s.given & RS_WHEELSET_ROLL) number("roll", s.roll);
-  if (s.given == RS_WHEELSET_LOAD) number("roll_moment", s.roll_moment);
+  require_numbers(s);
 }
 
 void put(double (&out)[3], Vec3 v, bool mirror, bool axial) {

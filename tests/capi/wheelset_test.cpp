@@ -122,6 +122,17 @@ TEST(Wheelset, AWheelThatLiftsIsAnAnswer) {
   EXPECT_EQ(set.solve(tipped), RS_NO_ANSWER);
 }
 
+TEST(Wheelset, WhatIsNoNumberIsAMistakeWithItsName) {
+  Set set;
+  rs_wheelset_state rate = loaded(), rail = loaded();
+  rate.y_rate = std::nan("");
+  rail.rail_z[RS_RIGHT] = std::nan("");
+  EXPECT_EQ(set.solve(rate), RS_CASE);
+  EXPECT_NE(std::string(set.error.message).find("rs_wheelset_state.y_rate = nan"), std::string::npos);
+  EXPECT_EQ(set.solve(rail), RS_CASE);
+  EXPECT_NE(std::string(set.error.message).find("rs_wheelset_state.rail_z[1] = nan"), std::string::npos);
+}
+
 TEST(Wheelset, StatesOfARunAllHaveAnAnswer) {
   const char* many = std::getenv("RAILSTRATA_STATES");
   const int states = many ? std::atoi(many) : 40;
