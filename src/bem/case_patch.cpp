@@ -216,8 +216,7 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   const HertzContact estimate = hertz_estimate(spec, placement.contact);
   if (const std::string note = note_of_instability(spec, estimate); !note.empty()) patch.notes.push_back(note);
   if (!spec.friction.lateral_table.empty()) contact.local_friction = friction_across(spec, placement, patch);
-  if (contact.friction > 0)
-    contact.lateral_share = spec.friction.lateral_coefficient.value_or(contact.friction) / contact.friction;
+  contact.lateral_share = lateral_friction_share(spec);
   fill_heat(spec, patch, estimate);
   contact.speed = spec.drive.speed;
 }

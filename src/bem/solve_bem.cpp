@@ -18,9 +18,7 @@ namespace {
 
 void check_friction(const CaseSpec& spec, double load, double normal) {
   const double along = spec.drive.traction().value_or(0), across = spec.drive.lateral_traction_coefficient.value_or(0),
-               share = spec.friction.lateral_coefficient.value_or(spec.drive.friction_coefficient) /
-                       spec.drive.friction_coefficient,
-               wanted = std::hypot(along, across == 0 ? 0 : across / share) * load,
+               wanted = std::hypot(along, across / lateral_friction_share(spec)) * load,
                available = spec.drive.friction_coefficient * normal;
   if (wanted == 0 || wanted < available) return;
   const std::string sideways = across == 0 ? "" : fmt::format(" along and {:g} across the rail", across);

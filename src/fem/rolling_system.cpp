@@ -140,8 +140,7 @@ ExplicitOptions explicit_options(const Model& m) {
   out.contact.penalty = spec.contact.method == ContactMethod::penalty;
   out.contact.penalty_stiffness = penalty_rule(m);
   out.contact.friction = {spec.drive.friction_coefficient, third_body(spec), falling_friction(spec)};
-  if (spec.friction.lateral_coefficient)
-    out.contact.friction.lateral_share = *spec.friction.lateral_coefficient / spec.drive.friction_coefficient;
+  out.contact.friction.lateral_share = lateral_friction_share(spec);
   out.contact.slip_time = vibration_time(spec);
   return out;
 }

@@ -156,6 +156,11 @@ ThirdBody third_body(const CaseSpec& spec) {
           t.modulus_by_pressure};
 }
 
+double lateral_friction_share(const CaseSpec& spec) {
+  const double along = spec.drive.friction_coefficient;
+  return along > 0 ? spec.friction.lateral_coefficient.value_or(along) / along : 1;
+}
+
 double static_load(const CaseSpec& spec) {
   return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
 }

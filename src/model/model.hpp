@@ -30,6 +30,8 @@ double static_load(const CaseSpec& spec);
 /// The laws of friction that a case asks for.
 FallingFriction falling_friction(const CaseSpec& spec);
 ThirdBody third_body(const CaseSpec& spec);
+/// Friction across rolling over friction along it; 1 without friction.
+double lateral_friction_share(const CaseSpec& spec);
 
 /// Hertz with the curvatures at the rigid contact point: an estimate for search distances and checks, not a result. A
 /// line contact's b is half the line, its approach NaN.

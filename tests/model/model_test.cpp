@@ -104,6 +104,16 @@ TEST(StaticLoad, IsTheWeightOfWheelAndSprungMass) {
 
 // Two equal principal curvatures 1/R: a = (3 F R/(4 E*))^(1/3), p0 = 3 F/(2 pi a^2), approach a^2/R [Johnson1985 eqs.
 // 4.22-4.24].
+TEST(LateralFrictionShare, IsThatOfTheCaseOrOne) {
+  CaseSpec spec = crossed_cylinders();
+  spec.drive.friction_coefficient = 0.4;
+  EXPECT_EQ(lateral_friction_share(spec), 1);
+  spec.friction.lateral_coefficient = 0.3;
+  EXPECT_DOUBLE_EQ(lateral_friction_share(spec), 0.75);
+  spec.drive.friction_coefficient = 0;
+  EXPECT_EQ(lateral_friction_share(spec), 1);
+}
+
 TEST(HertzEstimate, OfCrossedCylindersIsTheSpheres) {
   CaseSpec spec = crossed_cylinders();
   spec.wheel_material.young = 2 * kYoung;
