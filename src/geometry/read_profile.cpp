@@ -48,17 +48,24 @@ Extent extent_z(const std::vector<Vec2>& points) {
   return extent(points, [](Vec2 p) { return p.z; });
 }
 
+NumberTable table_in(ProfileKind kind, std::string_view text, const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  if (ending == ".prr" || ending == ".prw") return parse_simpack(kind, text, file.string());
+  if (ending == ".ban" || ending == ".whl") return parse_miniprof(text, file.string());
+  return parse_number_table(text, file.string());
+}
+
 NumberTable table_of(ProfileKind kind, std::string_view text, const std::filesystem::path& file) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw CaseError("this profile is in UTF-16", "save it as UTF-8 or plain text", file.string());
   if (const std::string sign = sign_of_binary(text); !sign.empty())
     throw CaseError(fmt::format("this is not a text: {}", sign),
                     "give a table of y and z as a text, or a file of Simpack or MiniProf", file.string());
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  if (ending == ".prr" || ending == ".prw") return parse_simpack(kind, text, file.string());
-  if (ending == ".ban" || ending == ".whl") return parse_miniprof(text, file.string());
-  return parse_number_table(text, file.string());
+  const DecodedText readable = decoded(std::string(text));
+  NumberTable out = table_in(kind, readable.text, file);
+  if (readable.from_windows_1252) out.notes.emplace_back("It is not in UTF-8: it was read as Windows-1252.");
+  return out;
 }
 
 class Reading {

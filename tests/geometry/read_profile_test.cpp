@@ -339,6 +339,17 @@ TEST_F(ReadProfile, what_is_written_for_Simpack_and_MiniProf_is_read_back) {
   }
 }
 
+TEST_F(ReadProfile, a_list_in_Windows_1252_is_read_as_other_files_are_and_that_is_said) {
+  std::vector<std::string> notes;
+  const Profile read = read_profile(ProfileKind::rail, written(crown("# H\xF6he \xB5m?\n")), &notes);
+  EXPECT_NEAR(read.height(16 * mm), -2.56 * mm, 1e-6 * mm);
+  EXPECT_TRUE(mentions(notes, "list.csv: It is not in UTF-8: it was read as Windows-1252."));
+  EXPECT_NE(error_of(crown() + "40 -10 n\xE4he\n").find("'40 -10 nähe' has 3 numbers"), std::string::npos);
+  notes.clear();
+  read_profile(ProfileKind::rail, written(crown("# Höhe\n")), &notes);
+  EXPECT_FALSE(mentions(notes, "1252"));
+}
+
 TEST_F(ReadProfile, a_Simpack_file_tells_its_unit) {
   std::vector<std::string> notes;
   const Profile metres = read_profile(
