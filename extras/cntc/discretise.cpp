@@ -44,6 +44,8 @@ Hertz hertz_of(const Settings& s) {
   const HertzContact hertz = hertz_contact(out.A, out.B, modulus, hertz_load(s, modulus, 0, 0, &gap));
   out.a = hertz.a;
   out.b = hertz.b;
+  out.approach = hertz.approach;
+  out.load = hertz.load;
   return out;
 }
 

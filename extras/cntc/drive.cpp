@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cntc/discretise.hpp"
+#include "cntc/simplified.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata::cntc {
@@ -173,7 +174,25 @@ class Drive {
       throw Refused(kFriction,
                     "a film (M = 4) under friction that falls with slip (L = 3 to 5) needs a memory, MEMDST");
     check_step(out.on.grid);
+    check_simplified(out);
     return out;
+  }
+
+  void check_simplified(const Solved& next) const {
+    const Materials& m = settings_.materials;
+    const int bound = flag(settings_, kBound);
+    if (!m.simplified) {
+      if (bound != 0) throw Refused(kOther, "B = 2 and 3 are offered with M = 3 and 5; set B = 0");
+      return;
+    }
+    if (tang_ <= kTransient || flag(settings_, kForce) != 0)
+      throw Refused(kOther, "M = 3 and 5 are offered in steady rolling with given creepages, T = 3 and F = 0");
+    if (!m.layers[0].empty() || !m.layers[1].empty())
+      throw Refused(kOther, "M = 3 and 5 are of homogeneous bodies: take the layers off");
+    if (!next.friction.by_temperature.empty())
+      throw Refused(kFriction, "M = 3 and 5 are offered with L = 0 and 3 to 5");
+    if (bound != 0 && settings_.grid.number >= 0)
+      throw Refused(kOther, "B = 2 and 3 are of a Hertzian contact, IPOTCN < 0");
   }
 
   void check_step(const PatchGrid& g) {
@@ -232,6 +251,8 @@ class Drive {
       remarks_.emplace_back("there is no case before: P = 2 is taken");
       return nullptr;
     }
+    if (last->flexibility[0] > 0)
+      throw Refused(kOther, "the case before was solved by simplified theory (M = 3, 5): start with P = 2");
     const std::optional<Offset> by = offset_of(g, last->on.grid);
     if (!by)
       throw Refused(kGrid,
@@ -270,6 +291,8 @@ class Drive {
     try {
       if (tang_ == kFrictionless)
         without_friction(next, g, c, start);
+      else if (settings_.materials.simplified)
+        simplified(next, g, c, start);
       else
         with_friction(next, g, c, start, turn_it);
       if (settings_.heat && tang_ >= kTransient) next.temperature = temperature(next, g, c);
@@ -325,6 +348,19 @@ class Drive {
     blank(t, g.size(), next.rolling.normal.pressure);
     t.creepage_x = c.x.creepage;
     t.creepage_y = c.y.creepage;
+  }
+
+  void simplified(Solved& next, const PatchGrid& g, const RollingContact& c, const RollingSolution* start) const {
+    const int bound = flag(settings_, kBound);
+    next.rolling.normal = bound != 0 ? assumed_pressure(next.on, g, bound == 3)
+                                     : solve_normal(*next.influence, g, c.gap, c.target, options().normal,
+                                                    start ? start->normal.pressure : Plane{});
+    SimplifiedSolution found = solve_simplified(settings_.materials, next.on.hertz, g, next.rolling.normal, c);
+    next.rolling.tangential = std::move(found.tangential);
+    next.flexibility = found.flexibility;
+    next.reduction = found.reduction;
+    next.friction.at_rest = found.friction;
+    next.friction.falling = {};
   }
 
   /// Where the approach is given, forces over the load that comes out are found in turn.

@@ -20,7 +20,8 @@ struct Rule {
 constexpr Rule kRules[] = {
     {kConfiguration, 1, -kAny, kAny, "C1, CONFIG", "is of module 1"},
     {kTime, 2, 0, 2, "P, PVTIME", "P = 0 (goes on from the case before) and 2 (starts) are offered"},
-    {kBound, 0, 0, 0, "B, BOUND", "B = 0 is offered, the traction bound of the full solution"},
+    {kBound, 0, 0, 3, "B, BOUND",
+     "B = 0 is offered, the traction bound of the full solution; 2 and 3 with M = 3 and 5"},
     {kTang, 3, 0, 3, "T, TANG", "T = 0 to 3 are offered"},
     {kNorm, 1, 0, 1, "N, NORM", "N = 0 and 1 are offered"},
     {kForce, 0, 0, 2, "F, FORCE", "F = 0 to 2 are offered"},
@@ -55,7 +56,7 @@ const Rule* rule_of(int code) {
 }
 
 bool offered(const Rule& rule, int value) {
-  return value >= rule.low && value <= rule.high && !(rule.code == kTime && value == 1);
+  return value >= rule.low && value <= rule.high && !((rule.code == kTime || rule.code == kBound) && value == 1);
 }
 
 }  // namespace
@@ -88,6 +89,7 @@ int get_flag(const Problem& problem, int code) {
   if (code == kCaseNumber) return problem.cases;
   if (code == kFrictionLaw) return s.friction ? s.friction->digit : 0;
   if (code == kHeat) return s.heat ? 3 : 0;
+  if (code == kMaterialLaw && s.materials.simplified) return s.materials.simplified->strips ? 5 : 3;
   if (code == kMaterialLaw) return s.materials.film.thickness > 0 ? 4 : 0;
   return flag(s, code);
 }

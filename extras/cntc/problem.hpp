@@ -38,8 +38,15 @@ enum class Setting {
   temperature
 };
 
+/// Simplified theory in place of half-spaces under friction, M = 3 and 5: the slope reduction K0_MF, ALFAMF, BETAMF.
+struct SimplifiedTheory {
+  double k0 = 1, alpha = 1, beta = 1;
+  bool strips = false;  ///< M = 5, FaStrip
+};
+
 struct Materials {
   std::array<HalfSpaceMaterial, 2> body;
+  std::optional<SimplifiedTheory> simplified;
   std::array<std::vector<HalfSpaceLayer>, 2> layers;
   ThirdBody film;
 };
@@ -84,6 +91,8 @@ struct Settings {
 struct Hertz {
   double A = 0, B = 0;  ///< 1/m
   double a = 0, b = 0;  ///< m
+  double approach = 0;  ///< m
+  double load = 0;      ///< N
   double scale = 0;
 };
 
@@ -101,7 +110,9 @@ struct Solved {
   RollingSolution rolling;
   FrictionLaw friction;
   ThirdBody film;
-  Plane temperature;  ///< of each element, °C; empty: H = 0
+  std::array<double, 2> flexibility{0, 0};  ///< m/Pa, L / k of simplified theory along x and y; 0: half-spaces
+  double reduction = 1;                     ///< k of simplified theory
+  Plane temperature;                        ///< of each element, °C; empty: H = 0
   double speed = 1;
   double spin = 0;     ///< 1/m, or rad of a shift
   bool shift = false;  ///< slip and creepages are distances

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cntc/discretise.hpp"
+#include "cntc/simplified.hpp"
 
 namespace railstrata::cntc {
 namespace {
@@ -24,6 +25,11 @@ PlanePair tangential_displacement(const Solved& s) {
   const PatchGrid& g = s.on.grid;
   const TangentialSolution& t = s.rolling.tangential;
   PlanePair out{Plane(g.size()), Plane(g.size())};
+  if (s.flexibility[0] > 0) {
+    add_scaled(out.x, s.flexibility[0], t.q_x);
+    add_scaled(out.y, s.flexibility[1], t.q_y);
+    return out;
+  }
   s.influence->tangential(t.q_x.data(), t.q_y.data(), out.x.data(), out.y.data(), g.nx);
   if (!s.influence->couples()) return out;
   PlanePair by_pressure{Plane(g.size()), Plane(g.size())};
@@ -78,16 +84,19 @@ const Plane& temperatures(const Solved& s) {
   return s.temperature;
 }
 
-double combined(double one, double other) { return 0.5 * (one + other); }
-
 std::vector<double> material_numbers(const Problem& p) {
   const Materials& m = p.settings.materials;
   const double g1 = m.body[0].shear(), g2 = m.body[1].shear(), n1 = m.body[0].poisson, n2 = m.body[1].poisson;
-  const double shear = 1 / combined(1 / g1, 1 / g2), unit = p.units.area();
-  const double poisson = shear * combined(n1 / g1, n2 / g2);
+  const auto [shear, poisson] = pair_moduli(m);
+  const double unit = p.units.area();
   const double difference = 0.25 * shear * ((1 - 2 * n1) / g1 - (1 - 2 * n2) / g2);
   std::vector<double> out{g1 * unit, g2 * unit, shear * unit, n1, n2, poisson, difference};
   out.resize(22, 0.0);
+  if (m.simplified) {
+    const SimplifiedTheory& t = *m.simplified;
+    std::copy_n(std::array{t.k0, t.alpha, t.beta}.begin(), 3, out.begin() + 10);
+    if (p.solved) out[13] = p.solved->reduction;
+  }
   out[14] = m.film.shear_modulus * unit;
   out[15] = m.film.thickness / p.units.length;
   return out;
@@ -115,18 +124,17 @@ std::array<double, 4> forces(const Problem& p) {
   const Solved& s = solution(p);
   const PatchGrid& g = s.on.grid;
   const TangentialSolution& t = s.rolling.tangential;
-  double sum[4] = {0, 0, 0, 0};
+  double sum[3] = {0, 0, 0};
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {
       const std::size_t k = g.index(i, j);
       const double p_x = -t.q_x[k], p_y = -t.q_y[k];
-      sum[0] += s.rolling.normal.pressure[k];
-      sum[1] += p_x;
-      sum[2] += p_y;
-      sum[3] += g.x(i) * p_y - g.y(j) * p_x;
+      sum[0] += p_x;
+      sum[1] += p_y;
+      sum[2] += g.x(i) * p_y - g.y(j) * p_x;
     }
   const double area = g.cell_area(), body = p.units.body;
-  return {area * sum[0], body * area * sum[1], body * area * sum[2], body * area * sum[3] / p.units.length};
+  return {s.rolling.normal.load, body * area * sum[0], body * area * sum[1], body * area * sum[2] / p.units.length};
 }
 
 std::array<double, 3> creepages(const Problem& p) {

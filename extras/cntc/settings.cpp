@@ -100,10 +100,12 @@ std::vector<double> in_si(Numbers values, std::initializer_list<int> powers_of_l
 }  // namespace
 
 void set_materials(Problem& p, int digit, Numbers v) {
-  if (digit != 0 && digit != 4)
-    throw Refused(kOther,
-                  fmt::format("material M = {} is not offered: 0 (elastic) and 4 (with an elastic film) are", digit));
-  require_count(v, digit == 0 ? 4 : 8, kOther, fmt::format("M = {}", digit));
+  const bool simple = digit == 3 || digit == 5;
+  if (digit != 0 && digit != 4 && !simple)
+    throw Refused(kOther, fmt::format("material M = {} is not offered: 0 (elastic), 3 (FASTSIM), 4 (with an elastic "
+                                      "film) and 5 (FaStrip) are",
+                                      digit));
+  require_count(v, digit == 0 ? 4 : simple ? 7 : 8, kOther, fmt::format("M = {}", digit));
   const double stress = 1 / p.units.area();
   Materials& m = p.settings.materials;
   const std::array<HalfSpaceMaterial, 2> bodies{material(v[0], v[2] * stress), material(v[1], v[3] * stress)};
@@ -120,8 +122,12 @@ void set_materials(Problem& p, int digit, Numbers v) {
       if (film.hardening < 0) film.residual = kNoStrength * film.yield_shear;
     }
   }
+  if (simple && !(v[4] > 0 && v[4] <= 1 && v[5] >= 0 && v[5] <= 1 && v[6] >= 0))
+    throw Refused(kOther, "M = 3 and 5 have K0_MF above 0 to 1, ALFAMF from 0 to 1 and BETAMF of 0 or more");
   m.body = bodies;
   m.film = film;
+  m.simplified.reset();
+  if (simple) m.simplified = {v[4], v[5], v[6], digit == 5};
   p.settings.has_materials = true;
 }
 

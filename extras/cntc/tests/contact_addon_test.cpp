@@ -88,7 +88,7 @@ TEST(ContactFlags, HaveContactsDefaultsAndRefuseWhatIsNotOffered) {
   EXPECT_EQ(get_flag(p, kTime), 2);
   EXPECT_EQ(get_flag(p, kNorm), 1);
   EXPECT_EQ(get_flag(p, kUnits), 1934);
-  for (const auto& [flag, value] : {std::pair{kTime, 1}, {kBound, 2}, {kTang, 4}, {kForce, 3}, {kInfluence, 3}})
+  for (const auto& [flag, value] : {std::pair{kTime, 1}, {kBound, 4}, {kTang, 4}, {kForce, 3}, {kInfluence, 3}})
     EXPECT_THROW(set_flag(p, flag, value), Refused) << flag;
   EXPECT_NE(set_flag(p, kMatFile, 1), "");
   EXPECT_EQ(set_flag(p, kMatFile, 0), "");

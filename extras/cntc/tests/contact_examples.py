@@ -18,6 +18,7 @@ from contact_library import Contact
 
 ROLLING = "CHI DQ VELOC"
 FRICTION = {0: 2, 2: 7, 3: 7, 4: 7, 5: 3, 6: 6}
+MORE_OF_MATERIAL = {0: 0, 3: 3, 4: 4, 5: 3}
 SOLVER_LINES = {0: [5], 1: [], 2: [5, 4], 3: [5, 4], 4: [5, 2], 5: [5]}
 CLOSE = 6e-4  # of a number of four digits
 FLAGS = {"P": 1970, "B": 1971, "T": 1972, "N": 1973, "F": 1974, "C": 1978, "E": 1980, "I": 1983}
@@ -94,9 +95,9 @@ def materials(c, text, t, m, heat):
         c.call("cntc_setrollingstepsize", chi, dq)
         c.call("cntc_setreferencevelocity", velocity)
     values = text.take(4)
-    if m not in (0, 4):
+    if m not in MORE_OF_MATERIAL:
         raise Unread(f"M = {m}")
-    c.set("cntc_setmaterialparameters", m, values + (text.take(4) if m == 4 else []))
+    c.set("cntc_setmaterialparameters", m, values + text.take(MORE_OF_MATERIAL[m]))
     if heat == 3:
         c.set("cntc_settemperaturedata", 3, text.take(8))
 

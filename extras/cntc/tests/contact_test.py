@@ -406,6 +406,37 @@ class Interface(unittest.TestCase):
         c.set("cntc_setmaterialparameters", 4, [0.28, 0.28, 82000, 82000, 8200, 1.25, 0, 0])
         self.against_curve(c, "locomotive_contact", "traction", 4e-4)
 
+    def test_simplified_theories_are_those_of_fastsim_and_tractcurv(self):
+        shear = [0.28, 0.28, 82000, 82000]
+        self.addCleanup(Contact(library).flags, B=0)
+        for row in table("contact_simplified.csv"):
+            c, case = self.locomotive(), int(row["case"])
+            slope = [1, 1, 1]
+            if row["example"] == "fastsim":
+                c.set("cntc_setfrictionmethod", 0, [0.3, 0.3])
+                c.call("cntc_setnormalforce", 82000.0)
+                c.set("cntc_sethertzcontact", -3, [int(row["mx"]), int(row["my"]), 8, 4, 1.1])
+            elif case > 90:
+                c.set("cntc_setfrictionmethod", 4, [0.1368, 0.2232, 990, 0, 1, 0.003, 1])
+                slope = [0.54, 0.02, 0.62]
+            c.set("cntc_setmaterialparameters", int(row["M"]), shear + slope)
+            c.flags(B=int(row["B"]))
+            c.call("cntc_setrollingstepsize", math.pi * int(row["back"]), 0.4)
+            c.call("cntc_setcreepages", *(float(row[key]) for key in ("xi", "eta", "phi_1_per_mm")))
+            self.assertGreaterEqual(c.calculate(), 0, c.error())
+            found = [*c.forces()[1:], c.p_max()]
+            for key, value in zip(("Fx_N", "Fy_N", "Mz_Nmm", "p_max_MPa"), found):
+                self.assertAlmostEqual(value, float(row[key]), delta=6e-4 * abs(float(row[key])) + 1e-3, msg=str(row))
+            self.assertEqual(c.counts(), (int(row["contact"]), int(row["slip"])), row)
+            if case == 91:
+                numbers = np.zeros(14)
+                c.call("cntc_getparameters", 2, 14, numbers)
+                self.assertAlmostEqual(numbers[13], 0.5391, delta=5e-5)  # K_EFF
+            if row["example"] == "tractcurv":  # springs: u(x) - u(x + dx) = dx (s - w)
+                inside, dx = c.division()[:, :-1] > 0, c.numbers("cntc_getgriddiscretization", 2)[0]
+                change, slip = -np.diff(c.field(7), axis=1), c.field(15)[:, :-1]
+                np.testing.assert_allclose(change[inside], dx * (slip[inside] - float(row["xi"])), atol=1e-9)
+
     def test_films_that_yield_are_those_of_tractcurve_plast(self):
         c = self.locomotive()
         c.set("cntc_sethertzcontact", -2, [44, 44, 0.0008, 0.5, 1.1])
@@ -568,10 +599,10 @@ class Interface(unittest.TestCase):
             begin(folder, output=0, name=b"drive")
             c = self.contact()
             self.assertEqual(list(pathlib.Path(folder).iterdir()), [])
-            c.flags(B=3)
+            c.flags(B=4)
             c.calculate()
             text = (pathlib.Path(folder) / "drive.out").read_text()
-            self.assertIn("ire 3, icp 1: cntc_calculate: error -99: cntc_setflags: flag 1971 (B, BOUND) = 3", text)
+            self.assertIn("ire 3, icp 1: cntc_calculate: error -99: cntc_setflags: flag 1971 (B, BOUND) = 4", text)
             begin(None)
 
     def test_module_one_and_wrong_numbers(self):
