@@ -10,6 +10,7 @@
 #include "cntc/discretise.hpp"
 #include "cntc/simplified.hpp"
 #include "core/faults.hpp"
+#include "friction/falling_friction.hpp"
 
 namespace railstrata::cntc {
 namespace {
@@ -363,6 +364,49 @@ class Drive {
     next.friction.falling = {};
   }
 
+  /// A step of rolling under friction so steep that it has several answers is solved in turn with its slip.
+  RollingSolution rolled(const InfluenceOperator& influence, const PatchGrid& g, const RollingContact& c,
+                         const RollingSolution* start) const {
+    try {
+      return solve_rolling(influence, g, c, options(), start);
+    } catch (const CaseError& e) {
+      if (tang_ != kTransient || e.diagnostics.front().where != "friction.half_velocity") throw;
+    }
+    return by_turns(influence, g, c, start);
+  }
+
+  /// Slip gives friction, friction gives slip: from no slip upwards to the least slip that repeats, from a slip of V
+  /// downwards to the largest one, or from the slip of the step before (INISLP > 0, < 0, = 0).
+  RollingSolution by_turns(const InfluenceOperator& influence, const PatchGrid& g, RollingContact c,
+                           const RollingSolution* start) const {
+    constexpr int kMostTurns = 2000;
+    const FallingFriction law = std::exchange(c.falling, {});
+    const auto speed = [&](const RollingSolution& s) {
+      Plane out(g.size());
+      for (std::size_t k = 0; k < out.size(); ++k)
+        out[k] = c.speed * std::hypot(s.tangential.slip_x[k], s.tangential.slip_y[k]);
+      return out;
+    };
+    Plane slip(g.size(), settings_.first_slip < 0 ? c.speed : 0.0);
+    if (settings_.first_slip == 0 && start) slip = speed(*start);
+    c.local_friction.resize(g.size());
+    RollingSolution s;
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+      for (std::size_t k = 0; k < slip.size(); ++k)
+        c.local_friction[k] = c.friction * friction_share(law, {slip[k]}).value;
+      s = solve_rolling(influence, g, c, options(), turn == 0 ? start : &s);
+      const Plane next = speed(s);
+      double change = 0, size = 0;
+      for (std::size_t k = 0; k < slip.size(); ++k) {
+        change += (next[k] - slip[k]) * (next[k] - slip[k]);
+        size += next[k] * next[k];
+      }
+      slip = next;
+      if (change <= settings_.tolerance * settings_.tolerance * size) return s;
+    }
+    throw NumericalError("slip and friction do not settle against each other");
+  }
+
   /// Where the approach is given, forces over the load that comes out are found in turn.
   void with_friction(Solved& next, const PatchGrid& g, RollingContact& c, const RollingSolution* start,
                      bool turn_it) const {
@@ -376,7 +420,7 @@ class Drive {
               .load;
     for (int k = 0; k < kMostTurns; ++k) {
       set_forces(c, load, turn_it);
-      next.rolling = solve_rolling(*next.influence, g, c, options(), k == 0 ? start : &next.rolling);
+      next.rolling = rolled(*next.influence, g, c, k == 0 ? start : &next.rolling);
       const double before = std::exchange(load, next.rolling.normal.load);
       if (load_given || !driven || std::abs(load - before) <= kSettled * load) return;
     }

@@ -86,6 +86,7 @@ struct Settings {
   std::optional<double> step;             ///< m
   double speed = 1;                       ///< m/s
   double tolerance = 1e-5;
+  int first_slip = 0;  ///< INISLP
 };
 
 struct Hertz {

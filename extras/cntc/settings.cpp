@@ -317,6 +317,7 @@ void set_solver(Problem& p, int digit, std::span<const int> ints, Numbers reals)
   // Never looser than the engine's own, which costs little: Newton's method.
   constexpr double kSharpest = 1e-9, kStandard = 1e-5;
   p.settings.tolerance = std::clamp(reals[0], kSharpest, kStandard);
+  if (digit >= 2 && digit <= 4) p.settings.first_slip = ints[4];
 }
 
 }  // namespace railstrata::cntc

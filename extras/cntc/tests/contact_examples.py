@@ -83,10 +83,18 @@ def solver(c, text, digit):
     """Reads the lines of G and sets EPS."""
     if digit not in SOLVER_LINES:
         raise Unread(f"G = {digit}")
-    for k, count in enumerate(SOLVER_LINES[digit]):
-        values = text.take(count)
-        if k == 0:
-            c.call("cntc_setsolverflags", 0, 4, [int(v) for v in values[:4]], 1, [values[4]])
+    lines = [text.take(count) for count in SOLVER_LINES[digit]]
+    if not lines:
+        return
+    whole, others = [int(v) for v in lines[0][:4]], [lines[0][4]]
+    if digit in (2, 3):
+        omega_h, omega_s, slip, omega_slip = lines[1]
+        whole, others = whole + [int(slip)], others + [omega_h, omega_s, omega_slip]
+    elif digit == 4:
+        whole, others = whole + [int(lines[1][0])], others + [lines[1][1]]
+    else:
+        digit = 0
+    c.call("cntc_setsolverflags", digit, len(whole), whole, len(others), others)
 
 
 def materials(c, text, t, m, heat):

@@ -437,6 +437,28 @@ class Interface(unittest.TestCase):
                 change, slip = -np.diff(c.field(7), axis=1), c.field(15)[:, :-1]
                 np.testing.assert_allclose(change[inside], dx * (slip[inside] - float(row["xi"])), atol=1e-9)
 
+    def test_steps_under_steep_friction_are_those_of_veldep_fric(self):
+        c = Contact(library, 7)
+        c.materials(0.28, 0.28, 82000, 82000)
+        c.set("cntc_setfrictionmethod", 4, [0.18, 0.12, 100, 0, 1, 0, 1])
+        c.call("cntc_setnormalforce", 622216.0)
+        c.call("cntc_setreferencevelocity", 45000.0)
+        c.call("cntc_setrollingstepsize", 0.0, 0.1)
+        c.grid(3, [92, 1, -4.6, 0, 0.1, 200])
+        c.gap(2, [2, 0, 460, -10, 20, 0, 0])
+        for row in table("contact_steep_friction.csv"):
+            c.flags(P=2 if row["T"] == "3" else 0, T=int(row["T"]))
+            c.call("cntc_setsolverflags", 4, 5, [5000, 2000, 30, 1, int(row["INISLP"])], 2, [1e-7, 1.1])
+            c.call("cntc_setcreepages", float(row["xi"]), 0.0, 0.0)
+            self.assertEqual(c.calculate(), 0, c.error())
+            self.assertAlmostEqual(c.forces()[1], float(row["Fx_N"]), delta=51, msg=row)
+            if row["slip"]:
+                self.assertEqual(c.counts()[1], int(row["slip"]), row)
+            slip = 45 * np.abs(c.field(15)).ravel()
+            friction = (0.18 + 0.12 * 2 ** (-slip / 0.1))[slip > 0]
+            carried = (np.abs(c.field(3)) / np.maximum(c.field(5), 1e-9)).ravel()[slip > 0]
+            np.testing.assert_allclose(carried, friction, rtol=1e-4)
+
     def test_films_that_yield_are_those_of_tractcurve_plast(self):
         c = self.locomotive()
         c.set("cntc_sethertzcontact", -2, [44, 44, 0.0008, 0.5, 1.1])
