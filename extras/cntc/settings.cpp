@@ -38,6 +38,7 @@ void take_memory(double distance, double velocity, double unit, FallingFriction&
     throw Refused(kFriction, fmt::format("MEMDST and MEM_S0 are 0 or more, not {:g} and {:g}", distance, velocity));
   law.memory_distance = distance * unit;
   law.memory_velocity = velocity * unit;
+  law.implicit_memory = true;
 }
 
 /// One of the two terms of CONTACT's falling laws; the other has to be 0.

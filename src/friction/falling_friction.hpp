@@ -21,10 +21,11 @@ struct FrictionPoint {
 
 struct FallingFriction {
   FrictionForm form = FrictionForm::coulomb;
-  double kinetic_share = 1;    ///< f_kin/f_stat, 0 to 1
-  double half_velocity = 1;    ///< m/s, > 0
-  double memory_distance = 0;  ///< m; 0: the coefficient follows the slip at once, else friction_memory.hpp
-  double memory_velocity = 0;  ///< m/s, >= 0: by which the coefficient comes back at rest
+  double kinetic_share = 1;      ///< f_kin/f_stat, 0 to 1
+  double half_velocity = 1;      ///< m/s, > 0
+  double memory_distance = 0;    ///< m; 0: the coefficient follows the slip at once, else friction_memory.hpp
+  double memory_velocity = 0;    ///< m/s, >= 0: by which the coefficient comes back at rest
+  bool implicit_memory = false;  ///< a step of the memory by Euler's backward rule, as other programs have it
 
   RAILSTRATA_POINTWISE bool remembers() const { return falls() && memory_distance > 0; }
   RAILSTRATA_POINTWISE bool falls() const { return form != FrictionForm::coulomb && kinetic_share < 1; }

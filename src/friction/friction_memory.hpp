@@ -5,6 +5,7 @@
 // d [m] memory distance, v_0 [m/s] the least velocity by which it follows, so that friction comes back at rest. A
 // particle enters the contact with m = 1. Over a step of constant v, exactly:
 //   m = m_s + (m_before - m_s) exp(-max(v, v_0) dt/d)
+// and by Euler's backward rule, on request, with 1/(1 + max(v, v_0) dt/d) in place of the exponential function.
 // The stored value is the lost share 1 - m: 0 for a particle that has not slipped.
 //
 // Stability of sliding of two half-spaces, quasi-dynamic: inertia as the plane waves that both radiate, traction
@@ -35,8 +36,9 @@ RAILSTRATA_POINTWISE RememberedShare remembered_share(const FallingFriction& law
   const FrictionShare steady = friction_share(law, point);
   if (!law.remembers()) return {steady, 0};
   const double v = point.slip_velocity, rate = std::max(v, law.memory_velocity) / law.memory_distance,
-               kept = std::exp(-rate * dt), excess = lost - (1 - steady.value);
-  const double by_way = v > law.memory_velocity ? excess * kept * dt / law.memory_distance : 0.0;
+               kept = law.implicit_memory ? 1 / (1 + rate * dt) : std::exp(-rate * dt),
+               falls = law.implicit_memory ? kept * kept : kept, excess = lost - (1 - steady.value);
+  const double by_way = v > law.memory_velocity ? excess * falls * dt / law.memory_distance : 0.0;
   return {{steady.value - excess * kept, (1 - kept) * steady.by_slip_velocity + by_way}, kept};
 }
 

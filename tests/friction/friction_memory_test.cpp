@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <complex>
+#include <iterator>
 #include <numbers>
+#include <vector>
 
 #include "friction/friction_step.hpp"
 
@@ -37,6 +39,22 @@ TEST(FrictionMemory, ComesBackAtRestByItsLeastVelocity) {
   }
 }
 
+// Steps by the backward rule come to the exact decay from above, to first order in their length.
+TEST(FrictionMemory, BackwardStepsGoTowardsTheExactDecay) {
+  for (FallingFriction law : kLaws) {
+    const double v = 0.5, aim = 1 - friction_share(law, {v}).value, exact = aim * (1 - std::exp(-1.0));
+    law.implicit_memory = true;
+    EXPECT_NEAR(lost_after(law, 0, v, kDistance / v), aim / 2, 1e-14);
+    const auto error = [&](int steps) {
+      double lost = 0;
+      for (int i = 0; i < steps; ++i) lost = lost_after(law, lost, v, kDistance / v / steps);
+      return exact - lost;
+    };
+    EXPECT_GT(error(100), 0);
+    EXPECT_NEAR(error(100) / error(200), 2, 0.02);
+  }
+}
+
 // Without a distance the law itself, to the last bit; over a long one friction stays that at rest.
 TEST(FrictionMemory, LiesBetweenTheLawAndFrictionAtRest) {
   for (FallingFriction law : kLaws)
@@ -56,7 +74,12 @@ TEST(FrictionMemory, LiesBetweenTheLawAndFrictionAtRest) {
 
 TEST(FrictionMemory, DerivativesAreTheSlopes) {
   const double dt = 3e-5, h = 1e-6;
-  for (const FallingFriction& law : kLaws)
+  std::vector<FallingFriction> laws(std::begin(kLaws), std::end(kLaws));
+  for (FallingFriction law : kLaws) {
+    law.implicit_memory = true;
+    laws.push_back(law);
+  }
+  for (const FallingFriction& law : laws)
     for (const double lost : {0.0, 0.35})
       for (const double v : {0.1, 0.7, 4.0}) {
         const auto value = [&](double before, double velocity) {

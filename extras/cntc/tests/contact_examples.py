@@ -21,7 +21,6 @@ FRICTION = {0: 2, 2: 7, 3: 7, 4: 7, 5: 3, 6: 6}
 MORE_OF_MATERIAL = {0: 0, 3: 3, 4: 4, 5: 3}
 SOLVER_LINES = {0: [5], 1: [], 2: [5, 4], 3: [5, 4], 4: [5, 2], 5: [5]}
 CLOSE = 6e-4  # of a number of four digits
-FLAGS = {"P": 1970, "B": 1971, "T": 1972, "N": 1973, "F": 1974, "C": 1978, "E": 1980, "I": 1983}
 
 
 class Unread(Exception):
@@ -102,6 +101,7 @@ def materials(c, text, t, m, heat):
         chi, dq, velocity = text.take(3)
         c.call("cntc_setrollingstepsize", chi, dq)
         c.call("cntc_setreferencevelocity", velocity)
+    text.at += "'" in text.lines[text.at]  # CFNAME, a file of influence coefficients
     values = text.take(4)
     if m not in MORE_OF_MATERIAL:
         raise Unread(f"M = {m}")
@@ -112,10 +112,9 @@ def materials(c, text, t, m, heat):
 
 def grid(c, text):
     kind = int(text.take(1)[0])
-    if kind < 0:
-        c.hertz(kind, text.take(5))
-    else:
-        c.grid(kind, text.take(6))
+    values = text.take(5 if kind < 0 else 6)
+    c.cells = [int(v) for v in values[:2]]
+    (c.hertz if kind < 0 else c.grid)(kind, values)
     return kind
 
 
@@ -126,6 +125,8 @@ def gap(c, text):
     if base == 2:
         head = text.take(5)
         values = head + text.take(int(head[0]))
+    elif base == 9:
+        values = text.take(math.prod(c.cells))
     else:
         if base not in (1, 3):
             raise Unread(f"IBASE = {base}")
@@ -140,7 +141,7 @@ def set_case(c, text, kind):
     heat, g, i, *_ = (int(v) for v in text.word().zfill(7))
     if kind is None and not (law != 1 and d == influence == z == 2):
         raise Unread("follows one that was not read")
-    c.flags(P=p, T=t, N=n, F=f, B=b, I=i)
+    c.flags(P=p, T=t, N=n, F=f, B=b, I=i, E=min(e, 1))
     solver(c, text, g)
     normal, x, y, spin = text.take(4)
     c.call("cntc_setnormalforce" if n == 1 else "cntc_setpenetration", normal)
@@ -152,7 +153,8 @@ def set_case(c, text, kind):
         c.set("cntc_setfrictionmethod", law, text.take(FRICTION[law]))
     if heat == 0:
         c.set("cntc_settemperaturedata", 0, [])
-    if influence == 2:
+    if influence in (2, 9):
+        c.flags(C=influence)
         materials(c, text, t, m, heat)
     elif influence not in (0, 1):
         raise Unread(f"C = {influence}")
@@ -160,8 +162,11 @@ def set_case(c, text, kind):
         kind = grid(c, text)
     if z == 2 and kind > 0:
         gap(c, text)
-    if e == 1:
-        raise Unread("E = 1")
+    if e == 9:
+        slip = text.take(2 * math.prod(c.cells))
+        c.call("cntc_setextrarigidslip", len(slip) // 2, slip[::2], slip[1::2])
+    elif e not in (0, 1):
+        raise Unread(f"E = {e}")
     return kind
 
 

@@ -4,7 +4,7 @@ from ctypes import POINTER, c_char_p, c_double, c_int
 
 import numpy as np
 
-UNITS, P, T, N, F, B, INFLUENCE, ESTIMATE = 1933, 1970, 1972, 1973, 1974, 1971, 1978, 1983
+UNITS, P, T, N, F, B, INFLUENCE, EXTRA_SLIP, ESTIMATE = 1933, 1970, 1972, 1973, 1974, 1971, 1978, 1980, 1983
 MM, SIMPACK, SI = 1934, 1935, 1936
 
 # i: int by reference or array; d: double by reference or array; s: text.
@@ -69,7 +69,7 @@ class Contact:
         self.call("cntc_setflags", len(pairs) // 2, list(pairs[::2]), list(pairs[1::2]))
 
     def flags(self, **values):
-        names = {"P": P, "T": T, "N": N, "F": F, "B": B, "I": ESTIMATE, "C": INFLUENCE}
+        names = {"P": P, "T": T, "N": N, "F": F, "B": B, "I": ESTIMATE, "C": INFLUENCE, "E": EXTRA_SLIP}
         for name, value in values.items():
             self.flag(names[name], value)
 
