@@ -10,6 +10,7 @@
 
 #include "core/printable.hpp"
 #include "io/summary_json.hpp"
+#include "judge/answer.hpp"
 #include "judge/check_limits.hpp"
 #include "judge/verdict.hpp"
 #include "result/result_table.hpp"
@@ -31,7 +32,7 @@ std::string numbers_text(const Summary& s) {
   const bool bars = std::isfinite(s.contact.error.p_max);
   std::string out;
   for (const ResultNumber& n : result_numbers()) {
-    if (!n.shown) continue;
+    if (!n.shown || n.group == kShakedownGroup || n.group == kLayersGroup) continue;  // by zone, below
     const double v = shown_value(n, s);
     if (!std::isfinite(v)) continue;
     const ResultNumber* error = find_error_bar(n);
@@ -71,9 +72,11 @@ std::string maximum_text(const StressMaximum& m) {
                      signed_mm(m.x), signed_mm(m.y), fixed(1e3 * m.depth, 2));
 }
 
-/// Zones that the case has; of the wheel only if one of its layers makes more of them than the surface and below.
+/// Zones that the case has; of the wheel only if one of its layers makes more of them than the surface and below. The
+/// layers' σ₁ stands below, with the stress of the process and the surface, where a strength asks for it.
 std::string stresses_text(const Summary& s) {
-  std::string out;
+  std::string out = "  stresses of the contact alone\n";
+  const bool elsewhere = std::isfinite(layer_worst(s).sigma_1);
   for (const StressBody& body : stress_bodies()) {
     const StressSummary& stress = s.*body.member;
     if (body.key == "wheel" && !stress.layer) continue;
@@ -82,8 +85,9 @@ std::string stresses_text(const Summary& s) {
       if (!pair) continue;
       out += "  " + padded(fmt::format("{} {}", body.key, zone.name), 24);
       for (const StressMeasure& m : stress_measures())
-        out += fmt::format("{}{} {}", m.member == stress_measures().front().member ? "" : "; ", m.name,
-                           maximum_text((*pair).*m.member));
+        if (!(elsewhere && zone.key == "layer" && m.key == "sigma1_max"))
+          out += fmt::format("{}{} {}", m.member == stress_measures().front().member ? "" : "; ", m.name,
+                             maximum_text((*pair).*m.member));
       out += "\n";
     }
   }
@@ -109,8 +113,9 @@ std::string interface_text(const InterfaceSummary& i) {
 }
 
 std::string brittle_text(const BrittleSummary& z) {
-  if (!std::isfinite(z.share_of_tensile) && !std::isfinite(z.critical_flaw)) return {};
-  std::string out = fmt::format("    {}: sigma_1 {} at {:.2f} mm", printable(z.zone), mpa(z.sigma1), 1e3 * z.depth);
+  if (!std::isfinite(z.share_of_tensile) && !std::isfinite(z.critical_flaw) && !std::isfinite(z.thickness)) return {};
+  std::string out = fmt::format("    {}: σ₁ {} {}, residual stress included", printable(z.zone), mpa(z.sigma1),
+                                depth_in_words(z.depth));
   if (std::isfinite(z.share_of_tensile)) out += fmt::format(", {:.2f} of its tensile strength", z.share_of_tensile);
   if (z.critical_flaw > z.thickness)
     out += fmt::format(", opens no flaw within its thickness of {:.3g} mm", 1e3 * z.thickness);
@@ -141,10 +146,10 @@ std::string shakedown_text(const Summary& s) {
   for (const BodyShakedown& b : s.shakedown.bodies) {
     for (const ZoneShakedown& z : b.zones)
       out += fmt::format(
-          "  {}{}; load factors: first yield {}, shakedown {} to {}, kinematic {}; decided {:.2f} mm deep\n",
+          "  {}{}; load factors: first yield {}, shakedown {} (one track {}, at most {}), kinematic {}; decided {}\n",
           padded(z.zone == b.body ? b.body : b.body + ", " + z.zone, 24), verdict_text(verdict_of(z.factors)),
-          factor_text(z.factors.first_yield), factor_text(z.factors.wandering), factor_text(z.factors.upper),
-          factor_text(z.factors.kinematic), 1e3 * z.depth);
+          factor_text(z.factors.first_yield), factor_text(z.factors.wandering), factor_text(z.factors.single_track),
+          factor_text(z.factors.upper), factor_text(z.factors.kinematic), depth_in_words(z.depth));
     for (const std::string& note : b.notes) out += fmt::format("  {}\n", printable(note));
   }
   return out;
@@ -152,15 +157,10 @@ std::string shakedown_text(const Summary& s) {
 
 /// The answer in a line.
 std::string lasts_text(const Summary& s) {
-  if (s.shakedown.bodies.empty()) return {};
-  std::string why;
-  const std::vector<Verdict> failing = fails_by(s);
-  if (failing == std::vector{Verdict::one_track})
-    return fmt::format("  {}in one track only: wheels that wander sideways make it yield again and again\n",
-                       padded("does it last?", 24));
-  for (const Verdict v : failing) why += fmt::format("{}{}", why.empty() ? "" : "; ", verdict_text(v));
-  const std::string yes = fmt::format("yes: {}", verdict_text(verdict_of(s.shakedown)));
-  return fmt::format("  {}{}\n", padded("does it last?", 24), why.empty() ? yes : "no: " + why);
+  const std::optional<Answer> answer = answer_of(s);
+  if (!answer) return {};
+  return fmt::format("  {}{}: {}\n", padded("does it last?", 24), lasts_row(answer->lasts).word,
+                     printable(answer->reason));
 }
 
 std::string steps_text(const RunSummary& r) {

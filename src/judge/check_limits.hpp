@@ -32,7 +32,8 @@ struct CheckRow {
   double fem_limit = kNone, bem_limit = kNone;  ///< SI; of kind `engines` the same
   std::string_view case_option{};               ///< where the limit comes from, if from the case
   std::string_view advice{};                    ///< of a warning: what follows, what to do
-  bool own_text = false;  ///< of a warning: its text in the result names this case's numbers and is shown
+  bool own_text = false;    ///< of a warning: its text in the result names this case's numbers and is shown
+  bool takes_back = false;  ///< of a warning: the stresses are not those of the case; no "it lasts" stands beside it
 
   static constexpr CheckRow of_engines(std::string_view key, std::string_view name, std::string_view what,
                                        double limit) {
@@ -138,7 +139,8 @@ inline constexpr std::array kCheckRows{
              .kind = CheckKind::warning,
              .unit = unit::kMillimetres,
              .case_option = "layer.width",
-             .advice = "a larger layer.width holds it"},
+             .advice = "a larger layer.width holds it",
+             .takes_back = true},
     CheckRow{.key = "patch_near_border_of_fine_zone",
              .name = "Patch near the border of the fine mesh",
              .what = "the contact patch nearly fills the fine mesh",
@@ -161,7 +163,8 @@ inline constexpr std::array kCheckRows{
              .fem_limit = kElementOfPatch,
              .bem_limit = kCellOfPatch,
              .advice = "slip area, largest shear and surface stresses err by more than a few per cent; a smaller "
-                       "--cell or mesh.element_size resolves it"},
+                       "--cell or mesh.element_size resolves it",
+             .takes_back = true},
     CheckRow{.key = "patch_spans_angle",
              .name = "Patch on a turning profile",
              .what = "angle that the profiles' normal spans over the patch",
@@ -182,7 +185,8 @@ inline constexpr std::array kCheckRows{
              .kind = CheckKind::warning,
              .bem_limit = kLargestOfEdgeDistance,
              .advice = "half-spaces have no edge; the finite elements have",
-             .own_text = true},
+             .own_text = true,
+             .takes_back = true},
     CheckRow{.key = "second_contact",
              .name = "Second contact",
              .what = "overlap of the bodies at a second place, which is left out",
@@ -190,7 +194,8 @@ inline constexpr std::array kCheckRows{
              .unit = unit::kMicrometres,
              .fem_limit = 0,
              .advice = "the load is shared there; `railstrata bem` shares it between both",
-             .own_text = true},
+             .own_text = true,
+             .takes_back = true},
     CheckRow{.key = "patches_near_each_other",
              .name = "Patches near each other",
              .what = "curvature that the other patches give the surfaces, of the contact's own",
@@ -217,7 +222,8 @@ inline constexpr std::array kCheckRows{
              .kind = CheckKind::warning,
              .unit = unit::kMillimetres,
              .case_option = "height of the flange less 2 mm",
-             .advice = "check lateral_shift, gauge and back_to_back"},
+             .advice = "check lateral_shift, gauge and back_to_back",
+             .takes_back = true},
     CheckRow{.key = "flange_outside_gauge",
              .name = "Flange outside the gauge",
              .what = "the flange's crest stands beyond the rail's gauge face",
@@ -225,14 +231,27 @@ inline constexpr std::array kCheckRows{
              .unit = unit::kMillimetres,
              .fem_limit = 0,
              .bem_limit = 0,
-             .advice = "such a wheel is derailed; check lateral_shift, gauge and back_to_back"},
+             .advice = "such a wheel is derailed; check lateral_shift, gauge and back_to_back",
+             .takes_back = true},
     CheckRow{.key = "stress_maximum_at_rim",
              .name = "Stress maximum at the rim",
              .what = "stress that still rises at the rim of the search, of the largest pressure",
              .kind = CheckKind::warning,
              .bem_limit = kReportedTension,
              .advice = "a larger one may lie beyond",
-             .own_text = true},
+             .own_text = true,
+             .takes_back = true},
+    CheckRow{.key = "process_stress_beyond_yield",
+             .name = "Residual stress beyond yield",
+             .what = "von Mises stress of what the process leaves (initial_stress), of the yield strength there",
+             .kind = CheckKind::warning,
+             .fem_limit = 1,
+             .bem_limit = 1,
+             .advice =
+                 "the material would have yielded or cracked before the first wheel; give the stress that is left "
+                 "after that",
+             .own_text = true,
+             .takes_back = true},
     CheckRow{.key = "measured_within_torque_ramp",
              .name = "Measured while the torque rises",
              .what = "the measuring window begins before the torque has its full value",

@@ -79,6 +79,14 @@ void warn_of_flange(const PatchSurroundings& around, Warnings& out) {
   out.above("flange_outside_gauge", around.flange->beyond_gauge);
 }
 
+/// The zone whose process stress is the largest share of its strength.
+void warn_of_process_stress(const CaseSpec& spec, Warnings& out) {
+  ProcessStress worst;
+  for (const BodyId body : {BodyId::rail, BodyId::wheel})
+    if (ProcessStress found = largest_process_stress(spec, body); found.share > worst.share) worst = std::move(found);
+  out.above("process_stress_beyond_yield", worst.share, fmt::format(", in {}", worst.zone));
+}
+
 /// Where the case gives the rail's strength, its load factors replace the common strength.
 void warn_of_stress(const Summary& s, const CaseSpec& spec, Warnings& out) {
   if (!strength_given(spec, BodyId::rail)) out.above("von_mises_above_common_rail_yield", largest_von_mises(s.rail));
@@ -113,6 +121,7 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const P
   out.above("plastic_strain_large", s.plastic.strain);
   warn_of_second_contact(around, s.contact.contact_angle, out);
   warn_of_flange(around, out);
+  warn_of_process_stress(spec, out);
   warn_of_stress(s, spec, out);
   return out.take();
 }

@@ -13,6 +13,7 @@ double film_shear(const CaseSpec& spec, const PatchMeasures& patch);
 
 /// Warnings from a summary and the surroundings of its patch; element: edge of a cell or element, m. From both engines:
 /// few_cells_over_patch, contact_on_flange_crest, flange_outside_gauge, patch_wider_than_layer,
+/// process_stress_beyond_yield,
 /// von_mises_above_common_rail_yield; of finite elements patch_near_border_of_fine_zone (nearer than an element on each
 /// side) and second_contact; of half-spaces patches_near_each_other, patch_spans_angle, patch_large_against_radius,
 /// patch_near_edge, soft_film, stress_maximum_at_rim. Limits and words: check_limits.hpp; reasons: docs/checks.md.

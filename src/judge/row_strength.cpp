@@ -94,6 +94,29 @@ std::function<double(double, bool)> shear_strength_by_depth(const CaseSpec& spec
   };
 }
 
+ProcessStress largest_process_stress(const CaseSpec& spec, BodyId body) {
+  constexpr int kPieces = 50;
+  constexpr double kOfBody = 50e-3;  // m, below its layers
+  ProcessStress out;
+  const std::vector<std::size_t> layers = layers_on(spec, body);
+  double top = 0;
+  for (std::size_t k = 0; k <= layers.size(); ++k) {
+    const int number = k < layers.size() ? static_cast<int>(k) + 1 : 0;
+    const ZoneStrength zone(zone_of(spec, body, number));
+    const double thickness = number > 0 ? spec.layers[layers[k]].thickness : kOfBody;
+    for (int i = 0; i <= kPieces; ++i) {
+      const double depth = std::min(top + thickness * i / kPieces, zone.end());
+      const StressPoint s = zone.residual(depth);
+      const double von_mises =
+                       std::sqrt(s.longitudinal * s.longitudinal + s.lateral * s.lateral - s.longitudinal * s.lateral),
+                   share = von_mises / zone.yield(depth);
+      if (share > out.share) out = {share, zone_name(spec, body, number)};
+    }
+    top += thickness;
+  }
+  return out;
+}
+
 RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory& rows) {
   std::vector<ZoneStrength> zones;
   const int layers = static_cast<int>(layers_on(spec, body).size());

@@ -25,6 +25,13 @@ bool strength_given(const CaseSpec& spec, BodyId body);
 /// and wheel count from the running surface. Throws CaseError where a table ends above the deepest row of its zone.
 RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory& rows);
 
+/// Von Mises stress of the process over the yield strength where it is largest, and the zone; 0 where neither is given.
+struct ProcessStress {
+  double share = 0;
+  std::string zone;
+};
+ProcessStress largest_process_stress(const CaseSpec& spec, BodyId body);
+
 /// Pa, in shear, at a depth, of an interface above or below it; below the end of a table its last value.
 std::function<double(double depth, bool below_interface)> shear_strength_by_depth(const CaseSpec& spec, BodyId body);
 

@@ -80,7 +80,7 @@ class NearestEdge {
       : middle_(0.5 * (patch.low + patch.high)), half_(0.5 * (patch.high - patch.low)), out_(out) {}
   /// At t in the contact plane, on the side of `direction`; y in its body's own frame.
   void offer(double t, int direction, const std::string& what, double y) {
-    const double distance = std::max((t - middle_) * direction, 1e-3 * half_), share = half_ / distance;
+    const double distance = std::max((t - middle_) * direction, half_), share = half_ / distance;
     if (share <= out_.edge_share) return;
     out_.edge_share = share;
     out_.edge = fmt::format("{} at y = {:.1f} mm", what, 1e3 * y);

@@ -22,8 +22,8 @@ struct PatchEdges {
   /// half the change of the angle between the two profiles over the patch: of circular profiles the half-width over
   /// their relative radius, b (1/R_wheel + 1/R_rail)
   double half_width_over_radius = 0;
-  double edge_share =
-      0;             ///< half-width, of the distance from the patch's middle to the nearest edge of a body or layer
+  double edge_share = 0;  ///< half-width, of the distance from the patch's middle to the nearest edge of a body or
+                          ///< layer; 1: the patch reaches it, or beyond
   std::string edge;  ///< what edge that is and at which y of its body
 };
 
