@@ -272,6 +272,7 @@ void add_block(Problem& p, const BlockInput& in) {
 
 void solve_blocks(Problem& p) {
   const Solved& s = solution(p);
+  if (!s.late[0].empty()) throw Refused(kOther, "stresses in viscoelastic bodies (M = 1) are not offered");
   for (Block& b : p.blocks) {
     const Points points = points_of(b, s.on.grid);
     if (points.count() > kMostPoints) throw Refused(kGrid, "a block has more than 20 million points");

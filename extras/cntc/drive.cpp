@@ -9,6 +9,7 @@
 
 #include "cntc/discretise.hpp"
 #include "cntc/simplified.hpp"
+#include "cntc/viscoelastic.hpp"
 #include "core/faults.hpp"
 #include "friction/falling_friction.hpp"
 
@@ -143,6 +144,9 @@ class Drive {
     if (turn_it) {
       turn(next.rolling);
       reverse(next.temperature);
+      for (Plane& late : next.late) reverse(late);
+      for (Plane* part : {&next.late[1], &next.late[2]})
+        for (double& value : *part) value = -value;
     }
     next.border_cells = border_cells(next);
     problem_.solved = std::move(next);
@@ -156,6 +160,8 @@ class Drive {
     const Materials& m = settings_.materials;
     out.upper = {m.layers[0], m.body[0]};
     out.lower = {m.layers[1], m.body[1]};
+    if (m.viscosity)
+      for (LayeredHalfSpace* body : {&out.upper, &out.lower}) body->substrate = soft(body->substrate, *m.viscosity);
     out.influence = problem_.cache.get(out.upper, out.lower, out.on.grid, m.film.flexibility());
     out.shift = tang_ == kShift;
     const Creepages& c = settings_.creepages;
@@ -176,6 +182,9 @@ class Drive {
                     "a film (M = 4) under friction that falls with slip (L = 3 to 5) needs a memory, MEMDST");
     check_step(out.on.grid);
     check_simplified(out);
+    if (m.viscosity &&
+        (tang_ <= kTransient || out.influence->couples() || !m.layers[0].empty() || !m.layers[1].empty()))
+      throw Refused(kOther, "M = 1 is offered in steady rolling (T = 3) of bodies of one elasticity without layers");
     return out;
   }
 
@@ -252,8 +261,8 @@ class Drive {
       remarks_.emplace_back("there is no case before: P = 2 is taken");
       return nullptr;
     }
-    if (last->flexibility[0] > 0)
-      throw Refused(kOther, "the case before was solved by simplified theory (M = 3, 5): start with P = 2");
+    if (last->flexibility[0] > 0 || !last->late[0].empty())
+      throw Refused(kOther, "the case before was one of M = 1, 3 or 5, of steady rolling: start with P = 2");
     const std::optional<Offset> by = offset_of(g, last->on.grid);
     if (!by)
       throw Refused(kGrid,
@@ -364,6 +373,11 @@ class Drive {
     next.friction.falling = {};
   }
 
+  bool delayed() const {
+    const std::optional<Viscosity>& v = settings_.materials.viscosity;
+    return v && v->share > 0 && v->time > 0;
+  }
+
   /// A step of rolling under friction so steep that it has several answers is solved in turn with its slip.
   RollingSolution rolled(const InfluenceOperator& influence, const PatchGrid& g, const RollingContact& c,
                          const RollingSolution* start) const {
@@ -420,7 +434,9 @@ class Drive {
               .load;
     for (int k = 0; k < kMostTurns; ++k) {
       set_forces(c, load, turn_it);
-      next.rolling = rolled(*next.influence, g, c, k == 0 ? start : &next.rolling);
+      const RollingSolution* from = k == 0 ? start : &next.rolling;
+      next.rolling = delayed() ? solve_delayed(*next.influence, settings_.materials, g, c, options(), from, next.late)
+                               : rolled(*next.influence, g, c, from);
       const double before = std::exchange(load, next.rolling.normal.load);
       if (load_given || !driven || std::abs(load - before) <= kSettled * load) return;
     }

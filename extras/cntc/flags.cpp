@@ -89,6 +89,7 @@ int get_flag(const Problem& problem, int code) {
   if (code == kCaseNumber) return problem.cases;
   if (code == kFrictionLaw) return s.friction ? s.friction->digit : 0;
   if (code == kHeat) return s.heat ? 3 : 0;
+  if (code == kMaterialLaw && s.materials.viscosity) return 1;
   if (code == kMaterialLaw && s.materials.simplified) return s.materials.simplified->strips ? 5 : 3;
   if (code == kMaterialLaw) return s.materials.film.thickness > 0 ? 4 : 0;
   return flag(s, code);

@@ -44,9 +44,16 @@ struct SimplifiedTheory {
   bool strips = false;  ///< M = 5, FaStrip
 };
 
+/// A standard linear solid, M = 1, both bodies: FG and TC.
+struct Viscosity {
+  double share = 0;  ///< of the late compliance in that at once
+  double time = 0;   ///< s
+};
+
 struct Materials {
   std::array<HalfSpaceMaterial, 2> body;
   std::optional<SimplifiedTheory> simplified;
+  std::optional<Viscosity> viscosity;
   std::array<std::vector<HalfSpaceLayer>, 2> layers;
   ThirdBody film;
 };
@@ -113,6 +120,7 @@ struct Solved {
   ThirdBody film;
   std::array<double, 2> flexibility{0, 0};  ///< m/Pa, L / k of simplified theory along x and y; 0: half-spaces
   double reduction = 1;                     ///< k of simplified theory
+  std::array<Plane, 3> late;                ///< m, displacement by delay along the normal, x and y; empty: elastic
   Plane temperature;                        ///< of each element, °C; empty: H = 0
   double speed = 1;
   double spin = 0;     ///< 1/m, or rad of a shift

@@ -31,6 +31,10 @@ PlanePair tangential_displacement(const Solved& s) {
     return out;
   }
   s.influence->tangential(t.q_x.data(), t.q_y.data(), out.x.data(), out.y.data(), g.nx);
+  if (!s.late[0].empty()) {
+    add_scaled(out.x, 1, s.late[1]);
+    add_scaled(out.y, 1, s.late[2]);
+  }
   if (!s.influence->couples()) return out;
   PlanePair by_pressure{Plane(g.size()), Plane(g.size())};
   s.influence->tangential_from_pressure(s.rolling.normal.pressure.data(), by_pressure.x.data(), by_pressure.y.data(),
@@ -45,6 +49,7 @@ Plane normal_displacement(const Solved& s) {
   const TangentialSolution& t = s.rolling.tangential;
   Plane out(n), by_traction(n);
   s.influence->normal(s.rolling.normal.pressure.data(), out.data());
+  if (!s.late[0].empty()) add_scaled(out, 1, s.late[0]);
   if (!s.influence->couples()) return out;
   s.influence->normal_from_traction(t.q_x.data(), t.q_y.data(), by_traction.data());
   add_scaled(out, 1, by_traction);

@@ -102,9 +102,9 @@ std::vector<double> in_si(Numbers values, std::initializer_list<int> powers_of_l
 
 void set_materials(Problem& p, int digit, Numbers v) {
   const bool simple = digit == 3 || digit == 5;
-  if (digit != 0 && digit != 4 && !simple)
-    throw Refused(kOther, fmt::format("material M = {} is not offered: 0 (elastic), 3 (FASTSIM), 4 (with an elastic "
-                                      "film) and 5 (FaStrip) are",
+  if (digit != 0 && digit != 1 && digit != 4 && !simple)
+    throw Refused(kOther, fmt::format("material M = {} is not offered: 0 (elastic), 1 (viscoelastic), 3 (FASTSIM), 4 "
+                                      "(with an elastic film) and 5 (FaStrip) are",
                                       digit));
   require_count(v, digit == 0 ? 4 : simple ? 7 : 8, kOther, fmt::format("M = {}", digit));
   const double stress = 1 / p.units.area();
@@ -125,8 +125,12 @@ void set_materials(Problem& p, int digit, Numbers v) {
   }
   if (simple && !(v[4] > 0 && v[4] <= 1 && v[5] >= 0 && v[5] <= 1 && v[6] >= 0))
     throw Refused(kOther, "M = 3 and 5 have K0_MF above 0 to 1, ALFAMF from 0 to 1 and BETAMF of 0 or more");
+  if (digit == 1 && !(v[4] >= 0 && v[6] >= 0 && v[4] == v[5] && v[6] == v[7]))
+    throw Refused(kOther, "M = 1 has FG and TC of 0 or more, the same ones for both bodies");
   m.body = bodies;
   m.film = film;
+  m.viscosity.reset();
+  if (digit == 1) m.viscosity = {v[4], v[6]};
   m.simplified.reset();
   if (simple) m.simplified = {v[4], v[5], v[6], digit == 5};
   p.settings.has_materials = true;

@@ -12,7 +12,7 @@ using Numbers = std::span<const double>;
 
 /// H = 0, 1 (as before) and 3, temperatures of steady rolling.
 void set_heat(Problem& problem, int digit, Numbers values);
-/// M = 0; with an elastic or elastic-plastic film, 4; simplified theory, 3 and 5.
+/// M = 0; viscoelastic bodies, 1; with an elastic or elastic-plastic film, 4; simplified theory, 3 and 5.
 void set_materials(Problem& problem, int digit, Numbers values);
 /// Layers on body 1 or 2, from the surface down.
 void set_layers(Problem& problem, int body, int count, Numbers thickness, Numbers young, Numbers poisson);

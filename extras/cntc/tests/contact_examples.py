@@ -18,7 +18,7 @@ from contact_library import Contact
 
 ROLLING = "CHI DQ VELOC"
 FRICTION = {0: 2, 2: 7, 3: 7, 4: 7, 5: 3, 6: 6}
-MORE_OF_MATERIAL = {0: 0, 3: 3, 4: 4, 5: 3}
+MORE_OF_MATERIAL = {0: 0, 1: 4, 3: 3, 4: 4, 5: 3}
 SOLVER_LINES = {0: [5], 1: [], 2: [5, 4], 3: [5, 4], 4: [5, 2], 5: [5]}
 CLOSE = 6e-4  # of a number of four digits
 
@@ -181,7 +181,9 @@ def printed(path):
                 if line.split()[:4] == names.split():
                     found.update(zip(line.split(), (float(v.replace("D", "E")) for v in numbers_or_nan(lines[k + 1]))))
             if "PMAX" in line and line.split()[0] == "FN/G":
-                found["PMAX"] = float(numbers_or_nan(lines[k + 1])[4])
+                values = [float(v.replace("D", "E")) for v in numbers_or_nan(lines[k + 1])]
+                found.update(zip(("APPROACH", "PMAX"), values[3:]))
+                found.update(zip(("CREEPX", "CREEPY"), values[1:]) if "CREEP X" in line else {})
         out.append(found)
     return out
 
@@ -193,18 +195,20 @@ def numbers_or_nan(line):
 def answers(c):
     fn, fx, fy, mz = c.forces()
     kinds = collections.Counter(c.division().ravel().tolist())
-    return {"FN": fn, "FX": fx, "FY": fy, "MZ": mz, "PMAX": c.p_max(), "NCON": kinds[1] + kinds[2] + kinds[3],
-            "NADH": kinds[1], "NSLIP": kinds[2]}
+    along, across, _ = c.creepages()
+    return {"FN": fn, "FX": fx, "FY": fy, "MZ": mz, "CREEPX": along, "CREEPY": across, "APPROACH": c.approach(),
+            "PMAX": c.p_max(), "NCON": kinds[1] + kinds[2] + kinds[3], "NADH": kinds[1], "NSLIP": kinds[2]}
 
 
 def differences(found, wanted):
-    scale = abs(wanted.get("FN", 1))
+    creep = max(abs(wanted.get(name, 0)) for name in ("CREEPX", "CREEPY"))
+    small = {"PMAX": 0, "APPROACH": 0, "CREEPX": 1e-3 * creep, "CREEPY": 1e-3 * creep}
     out = []
     for name, value in found.items():
         if name not in wanted:
             continue
         whole = name.startswith("N")
-        allowed = 0 if whole else CLOSE * max(abs(wanted[name]), 0 if name == "PMAX" else 1e-3 * scale)
+        allowed = 0 if whole else CLOSE * max(abs(wanted[name]), small.get(name, 1e-3 * abs(wanted.get("FN", 1))))
         if not abs(value - wanted[name]) <= allowed:
             out.append(f"{name} {value:.6g} for {wanted[name]:.6g}")
     return out

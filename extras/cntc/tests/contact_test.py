@@ -459,6 +459,47 @@ class Interface(unittest.TestCase):
             carried = (np.abs(c.field(3)) / np.maximum(c.field(5), 1e-9)).ravel()[slip > 0]
             np.testing.assert_allclose(carried, friction, rtol=1e-4)
 
+    def test_viscoelastic_cylinders_are_those_of_visc_cylindr(self):
+        c = Contact(library, 8)
+        c.friction(0.3)
+        c.call("cntc_setnormalforce", 600000.0)
+        c.call("cntc_setreferencevelocity", 1000.0)
+        c.grid(3, [99, 1, -7.92, 0, 0.16, 1000])
+        c.gap(1, [0.01, 0, 0, 0, 0, 0])
+        c.call("cntc_settangentialforces", -0.6, 0.0)
+        c.flags(F=2)
+        for row in table("contact_viscoelastic.csv"):
+            time = float(row["TC_s"])
+            c.set("cntc_setmaterialparameters", 1, [0.4, 0.4, 1143, 1143, 1, 1, time, time])
+            self.assertEqual(c.calculate(), 0, c.error())
+            self.assertAlmostEqual(c.creepages()[0], float(row["creepage"]), delta=6e-4 * float(row["creepage"]))
+            self.assertAlmostEqual(c.approach(), float(row["approach_mm"]), delta=5e-5)
+            self.assertAlmostEqual(c.p_max(), float(row["p_max_MPa"]), delta=0.02)  # CONTACT integrates to 1e-3
+            self.assertEqual(c.counts(), (int(row["contact"]), int(row["slip"])), row)
+            inside = c.field(5) > 0  # the surfaces touch: h + u_n = approach
+            np.testing.assert_allclose((c.field(1) + c.field(9))[inside], c.approach(), rtol=1e-5)
+            both = c.division()[0, 1:] * c.division()[0, :-1] == 1  # they stick: u(x) - u(x + dx) = -dx w
+            step = -np.diff(c.field(7), axis=1)[0][both]
+            np.testing.assert_allclose(step, -0.16 * c.creepages()[0], rtol=1e-4)
+        c.set("cntc_setmaterialparameters", 1, [0.4, 0.4, 1143, 1143, 1, 1, 0.009, 0.009])
+        c.grid(3, [99, 1, -7.84, 0, 0.16, 1000])
+        self.assertEqual(c.calculate(), 0, c.error())
+        forward, moved = c.field(5), c.field(7)
+        self.assertGreater(np.abs(forward - forward[:, ::-1]).max(), 0.1 * c.p_max())
+        c.call("cntc_setrollingstepsize", math.pi, 0.16)
+        c.call("cntc_settangentialforces", 0.6, 0.0)
+        self.assertEqual(c.calculate(), 0, c.error())
+        np.testing.assert_allclose(c.field(5)[:, ::-1], forward, atol=1e-4 * c.p_max())
+        np.testing.assert_allclose(c.field(7)[:, ::-1], -moved, atol=1e-4 * np.abs(moved).max())
+        c.block(9, [1], [1], [1])
+        error = c_int(0)
+        c.call("subs_calculate", error)
+        self.assertEqual(error.value, -99)
+        c.materials(0.4, 0.4, 1143, 1143)
+        c.flags(P=0, T=2)
+        self.assertEqual(c.calculate(), -99)
+        self.assertIn("P = 2", c.error()[1])
+
     def test_films_that_yield_are_those_of_tractcurve_plast(self):
         c = self.locomotive()
         c.set("cntc_sethertzcontact", -2, [44, 44, 0.0008, 0.5, 1.1])
@@ -530,7 +571,9 @@ class Interface(unittest.TestCase):
         refusals = [
             (lambda c: c.flags(B=3), -99, "B = 0"), (lambda c: c.flags(C=4), -99, "C3 = 2"),
             (lambda c: c.flag(1988, 3), -99, "sensitivities"), (lambda c: c.flag(1933, 1937), -99, "units"),
-            (lambda c: c.set("cntc_setmaterialparameters", 1, [0.3] * 8), -99, "M = 1"),
+            (lambda c: c.set("cntc_setmaterialparameters", 1, [0.3, 0.3, 1, 1, 1, 2, 1, 1]), -99, "M = 1"),
+            (lambda c: c.set("cntc_setmaterialparameters", 2, [0.3] * 8), -99, "M = 2"),
+            (lambda c: c.set("cntc_setmaterialparameters", 3, [0.3, 0.3, SHEAR, SHEAR, 2, 1, 1]), -99, "K0_MF"),
             (lambda c: c.set("cntc_setmaterialparameters", 0, [0.3] * 3), -99, "4 numbers"),
             (lambda c: c.set("cntc_setfrictionmethod", 2, [0.1] * 7), -33, "L = 2"),
             (lambda c: c.set("cntc_setfrictionmethod", 10, [1, 0, 0.3, 0.3]), -33, "V = 1"),
