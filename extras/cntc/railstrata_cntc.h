@@ -47,7 +47,8 @@ RSCNTC_API void cntc_setmetadata(const int* ire, const int* icp, const int* lenm
                                  const double* values);
 RSCNTC_API void cntc_setsolverflags(const int* ire, const int* icp, const int* gdigit, const int* nints,
                                     const int* iparam, const int* nreals, const double* rparam);
-/* mdigit 0: nu1, nu2, g1, g2; 4 with an elastic film: nu1, nu2, g1, g2, g3, laythk, 0, 0 */
+/* mdigit 0: nu1, nu2, g1, g2; and after these 1 viscoelastic: fg1, fg2, tc1, tc2; 3 FASTSIM, 5 FaStrip: k0_mf, alfamf,
+   betamf; 4 with a film: g3, laythk, tau_c0, k_tau */
 RSCNTC_API void cntc_setmaterialparameters(const int* ire, const int* icp, const int* mdigit, const int* nparam,
                                            const double* rparam);
 RSCNTC_API void cntc_settemperaturedata(const int* ire, const int* icp, const int* imeth, const int* nparam,
