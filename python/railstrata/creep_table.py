@@ -19,13 +19,14 @@ Numbers = Union[float, Array]
 
 
 class CreepTable:
-    """A creep-force table of `railstrata creep-table` (docs/creep-table.md): numbers over axes, multilinear between,
+    """A creep-force table of `railstrata creep-table` (docs/creep-table.md): numbers over axes, interpolated between,
     as rs.open_table of its creep_table.h5 gives it.
 
         table.at(creepage_x=-0.001, creepage_y=0)["force_x"]
 
-    axes: name -> values, SI. numbers: name -> values over all axes, in the order of `axes`; NaN where a contact has no
-    answer. units: of both, "" of a plain number. Arrays are read-only views.
+    axes: name -> values, SI; of creepages and spin of a scaled table the two ends. grid: the axes of the points, those
+    of `axes` but in a scaled table. numbers: name -> values over the grid, in the order of
+    `grid`; NaN where a contact has no answer. units: of all, "" of a plain number. Arrays are read-only views.
     """
 
     def __init__(self, file: Union[str, "os.PathLike[str]"]) -> None:
@@ -34,13 +35,14 @@ class CreepTable:
         self.file = os.fspath(file)
         self._table = _bridge.call("open_table", file=self.file)
         self.axes: dict[str, Any] = {name: at for name, _, at in self._table["axes"]}
+        self.grid: dict[str, Any] = {name: at for name, _, at in self._table["grid"]}
         self.numbers: dict[str, Any] = {name: values for name, _, values in self._table["numbers"]}
         self.units: dict[str, str] = {
-            name: unit for name, unit, _ in [*self._table["axes"], *self._table["numbers"]]}
+            name: unit for name, unit, _ in [*self._table["axes"], *self._table["grid"], *self._table["numbers"]]}
 
     def at(self, point: Optional[Mapping[str, Any]] = None, **axes: Any) -> dict[str, Numbers]:
-        """The numbers at a point, or at many: linear along every axis while the others rest, some ten nanoseconds for
-        every corner of a cell.
+        """The numbers at a point, or at many: linear along every axis while the others rest, of a scaled table cubic
+        along its own three; some ten nanoseconds for every corner of a cell.
 
         point, axes: a value for every axis, SI; arrays are broadcast against each other, the numbers have their shape.
         point is for names that are no words of Python, {"layer.0.thickness": 1e-3}. A number is NaN where a corner
@@ -66,10 +68,10 @@ class CreepTable:
     def to_xarray(self) -> "xarray.Dataset":
         """The whole table as a dataset: a dimension an axis, a variable a number, with units."""
         module = needs("xarray", "python3-xarray")
-        names = list(self.axes)
+        names = list(self.grid)
         whole: xarray.Dataset = module.Dataset(
             {name: (names, values, {"units": self.units[name]}) for name, values in self.numbers.items()},
-            {name: (name, at, {"units": self.units[name]}) for name, at in self.axes.items()},
+            {name: (name, at, {"units": self.units[name]}) for name, at in self.grid.items()},
         )
         return whole
 
@@ -77,7 +79,7 @@ class CreepTable:
         return CreepTable, (self.file,)
 
     def __repr__(self) -> str:
-        shape = " x ".join(str(len(at)) for at in self.axes.values())
+        shape = " x ".join(str(len(at)) for at in self.grid.values())
         return f"<railstrata.CreepTable {shape} over {', '.join(self.axes)}: {', '.join(self.numbers)}>"
 
 

@@ -27,6 +27,7 @@ struct CreepCurveOptions {
 };
 struct CreepTableCommandOptions {
   std::vector<std::string> axes;  ///< --axis
+  std::string scaled;             ///< --scaled ANGLES:SPINS:SIZES; empty: a plain table
   int places = 200;               ///< --places, where interpolation is compared with direct solutions
   bool resume = false;            ///< --resume
 };

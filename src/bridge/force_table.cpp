@@ -17,15 +17,17 @@ struct OpenTable {
 
 void open_table(Call& call) {
   const auto opened = std::make_shared<OpenTable>(read_force_table(call.text("file")));
-  Json axes = Json::array(), numbers = Json::array();
+  Json axes = Json::array(), grid = Json::array(), numbers = Json::array();
   std::vector<std::size_t> shape;
   for (const TableAxis& axis : opened->table.axes) {
     shape.push_back(axis.at.size());
-    axes.push_back({axis.name, axis.unit, Call::view(axis.at.data(), {axis.at.size()})});
+    grid.push_back({axis.name, axis.unit, Call::view(axis.at.data(), {axis.at.size()})});
+    const TableAxis& asked = opened->table.asked(shape.size() - 1);
+    axes.push_back({asked.name, asked.unit, Call::view(asked.at.data(), {asked.at.size()})});
   }
   for (const TableNumber& n : opened->table.numbers)
     numbers.push_back({n.name, n.unit, Call::view(n.values.data(), shape)});
-  call.answer = {{"axes", axes}, {"numbers", numbers}};
+  call.answer = {{"axes", axes}, {"grid", grid}, {"numbers", numbers}};
   call.make(opened);
 }
 
@@ -39,7 +41,7 @@ void look_up(Call& call) {
   for (std::size_t k = 0; k < n; ++k) {
     const double* point = points.data + axes * k;
     for (std::size_t a = 0; a < axes; ++a)
-      if (std::isnan(point[a])) throw std::invalid_argument(opened->table.axes[a].name + ": not a number");
+      if (std::isnan(point[a])) throw std::invalid_argument(opened->table.asked(a).name + ": not a number");
     beyond += opened->between.at(point, out.data() + numbers * k);
   }
   call.answer["beyond"] = beyond;

@@ -1,4 +1,4 @@
-! railstrata.h for Fortran 2003: wheelsets. Meanings, units and signs stand there. Arrays count from 1: wheel(1) and
+! railstrata.h for Fortran 2003: wheelsets and creep tables. Meanings, units and signs stand there. Arrays count from 1: wheel(1) and
 ! rail_y(1) are the left ones.
 module railstrata
   use, intrinsic :: iso_c_binding
@@ -85,6 +85,38 @@ module railstrata
       real(c_double), value :: cell
       type(rs_error), intent(out) :: error
       integer(c_int) :: code
+    end function
+
+    function rs_table_open(file, error) bind(c) result(table)
+      import
+      character(kind=c_char), intent(in) :: file(*)
+      type(rs_error), intent(out) :: error
+      type(c_ptr) :: table
+    end function
+
+    subroutine rs_table_close(table) bind(c)
+      import
+      type(c_ptr), value :: table
+    end subroutine
+
+    function rs_table_axes(table) bind(c) result(count)
+      import
+      type(c_ptr), value :: table
+      integer(c_int) :: count
+    end function
+
+    function rs_table_numbers(table) bind(c) result(count)
+      import
+      type(c_ptr), value :: table
+      integer(c_int) :: count
+    end function
+
+    function rs_table_at(table, at, out) bind(c) result(beyond)
+      import
+      type(c_ptr), value :: table
+      real(c_double), intent(in) :: at(*)
+      real(c_double), intent(out) :: out(*)
+      integer(c_int) :: beyond
     end function
   end interface
 end module

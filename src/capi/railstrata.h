@@ -194,7 +194,8 @@ RS_API int rs_table_numbers(const rs_table* table);
 RS_API const char* rs_table_number(const rs_table* table, int number);
 RS_API const char* rs_table_number_unit(const rs_table* table, int number);
 
-/* Interpolates, linear along every axis: `at` has a value for each axis, `out` room for each number. A number is NaN
+/* Interpolates, linear along every axis (of a scaled table cubic along its own, which are not seen here: docs/
+ * creep-table.md): `at` has a value for each axis, `out` room for each number. A number is NaN
  * where a corner of the cell around has no answer. Returns how many values of `at` lie beyond their axis: these are
  * taken at its end. -1: `table`, `at` or `out` is NULL, or a value is NaN. */
 RS_API int rs_table_at(const rs_table* table, const double* at, double* out);

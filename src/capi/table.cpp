@@ -21,7 +21,10 @@ const Part* part(const std::vector<Part>& parts, int index) {
   return index >= 0 && static_cast<std::size_t>(index) < parts.size() ? &parts[static_cast<std::size_t>(index)]
                                                                       : nullptr;
 }
-const TableAxis* axis_of(const rs_table* table, int axis) { return table ? part(table->table.axes, axis) : nullptr; }
+const TableAxis* axis_of(const rs_table* table, int axis) {
+  if (!table || axis < 0 || static_cast<std::size_t>(axis) >= table->table.axes.size()) return nullptr;
+  return &table->table.asked(static_cast<std::size_t>(axis));
+}
 const TableNumber* number_of(const rs_table* table, int number) {
   return table ? part(table->table.numbers, number) : nullptr;
 }

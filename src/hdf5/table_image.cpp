@@ -3,6 +3,7 @@
 #include <hdf5.h>
 #include <hdf5_hl.h>
 
+#include <array>
 #include <string_view>
 
 #include "hdf5/hdf5_handle.hpp"
@@ -10,7 +11,7 @@
 namespace railstrata {
 namespace {
 
-constexpr const char *kUnits = "units", *kAxes = "axes";
+constexpr const char *kUnits = "units", *kAxes = "axes", *kScaled = "scaled", *kStiffness = "creep_stiffness_";
 constexpr std::size_t kGrowth = std::size_t{1} << 20, kMostPoints = 100'000'000;
 
 struct Refused {};  // by HDF5
@@ -56,6 +57,21 @@ std::string text_of(hid_t at, const char* name) {
   return out.c_str();
 }
 
+void add_values(hid_t at, const char* name, const std::array<double, 3>& values) {
+  const hsize_t size = values.size();
+  const TableHandle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  const TableHandle attribute(H5Acreate2(at, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  checked(H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data()));
+}
+
+std::array<double, 3> values_of(hid_t at, const char* name) {
+  const TableHandle attribute(H5Aopen(at, name, H5P_DEFAULT), H5Aclose), space(H5Aget_space(attribute), H5Sclose);
+  std::array<double, 3> out{};
+  if (H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(out.size())) throw Refused{};
+  checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, out.data()));
+  return out;
+}
+
 /// Without the time of day in it: the same table has the same bytes.
 void add_numbers(hid_t file, const std::string& name, const std::string& unit, const std::vector<hsize_t>& size,
                  const std::vector<double>& values) {
@@ -65,6 +81,21 @@ void add_numbers(hid_t file, const std::string& name, const std::string& unit, c
   const TableHandle set(H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
   checked(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   add_text(set, kUnits, unit);
+}
+
+/// What a scaled table has besides: ends of the asked axes, stiffnesses, in the attribute the largest size, load and
+/// friction.
+void fill_scaling(hid_t file, const ForceTable& table, const TableScaling& scaling) {
+  add_values(file, kScaled, {scaling.largest_size, scaling.load, scaling.friction});
+  for (const TableAxis& axis : scaling.asked) {
+    add_numbers(file, axis.name, axis.unit, {axis.at.size()}, axis.at);
+    const TableHandle set(H5Dopen2(file, axis.name.c_str(), H5P_DEFAULT), H5Dclose);
+    checked(H5DSset_scale(set, axis.name.c_str()));
+  }
+  std::vector<hsize_t> size;
+  for (std::size_t k = kScaledAxes; k < table.axes.size(); ++k) size.push_back(table.axes[k].at.size());
+  if (size.empty()) size.push_back(1);
+  for (const TableNumber& k : scaling.stiffness) add_numbers(file, k.name, k.unit, size, k.values);
 }
 
 void fill(hid_t file, const ForceTable& table, const TableRemarks& remarks) {
@@ -87,6 +118,7 @@ void fill(hid_t file, const ForceTable& table, const TableRemarks& remarks) {
       checked(H5DSattach_scale(set, scale, static_cast<unsigned>(k)));
     }
   }
+  if (table.scaling) fill_scaling(file, table, *table.scaling);
 }
 
 std::string image_of(const ForceTable& table, const TableRemarks& remarks) {
@@ -119,6 +151,25 @@ herr_t collect(hid_t group, const char* name, const H5L_info_t*, void* names) {
   return 0;
 }
 
+TableNumber number_in(hid_t file, const std::string& name) {
+  const TableHandle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  return {name, text_of(set, kUnits), numbers_of(set)};
+}
+
+void read_scaling(hid_t file, ForceTable& table) {
+  TableScaling& scaling = table.scaling.emplace();
+  const auto [largest_size, load, friction] = values_of(file, kScaled);
+  scaling.largest_size = largest_size;
+  scaling.load = load;
+  scaling.friction = friction;
+  constexpr const char *kAsked[] = {"creepage_x", "creepage_y", "spin"}, *kOf[] = {"x", "y", "spin"};
+  for (std::size_t k = 0; k < kScaledAxes; ++k) {
+    const TableHandle set(H5Dopen2(file, kAsked[k], H5P_DEFAULT), H5Dclose);
+    scaling.asked[k] = {kAsked[k], text_of(set, kUnits), numbers_of(set)};
+    scaling.stiffness[k] = number_in(file, std::string(kStiffness) + kOf[k]);
+  }
+}
+
 ForceTable table_in(hid_t file) {
   ForceTable out;
   std::string names = text_of(file, kAxes);
@@ -131,10 +182,9 @@ ForceTable table_in(hid_t file) {
   }
   std::vector<std::string> numbers;
   checked(H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &numbers));
-  for (const std::string& name : numbers) {
-    const TableHandle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-    out.numbers.push_back({name, text_of(set, kUnits), numbers_of(set)});
-  }
+  if (H5Aexists(file, kScaled) > 0) read_scaling(file, out);
+  for (const std::string& name : numbers)
+    if (!out.scaling || name.rfind(kStiffness, 0) != 0) out.numbers.push_back(number_in(file, name));
   return out;
 }
 

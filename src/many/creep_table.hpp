@@ -24,6 +24,11 @@ inline constexpr std::size_t kMostTablePoints = 2'000'000;
 inline constexpr std::size_t kCreepNumbers = 10;
 using CreepNumbers = std::array<double, kCreepNumbers>;
 
+/// Points of a scaled table (table/force_table.hpp) along its first three axes.
+struct ScaledCounts {
+  int angles = 12, spins = 17, sizes = 13;
+};
+
 struct CreepTableOptions {
   BemOptions bem;                                ///< its cache and neighbour are not used
   const Control* control = nullptr;              ///< asked to stop, rows that have not begun are left out
@@ -38,9 +43,11 @@ struct CreepTableOptions {
 /// so that a table does not depend on the number of threads or on interruptions.
 class CreepTable {
  public:
-  /// Loads the case once for every combination of the axes that are not creepages. Throws CaseError: the case refuses a
-  /// value or two axes together, too many points.
-  CreepTable(const LoadedCase& base, const std::vector<std::string>& overrides, std::vector<NumberAxis> axes);
+  /// Loads the case once for every combination of the axes that are not creepages. A scaled table takes the ends of the
+  /// axes creepage_x, creepage_y and spin, and has its own three in their place. Throws CaseError: the case refuses a
+  /// value or two axes together, too many points, a scaled table without one of the three.
+  CreepTable(const LoadedCase& base, const std::vector<std::string>& overrides, std::vector<NumberAxis> axes,
+             std::optional<ScaledCounts> scaled = {});
   ~CreepTable();
   CreepTable(CreepTable&&) noexcept;
   CreepTable& operator=(CreepTable&&) = delete;
@@ -58,17 +65,23 @@ class CreepTable {
 
   void solve(const CreepTableOptions& options);
 
-  /// The numbers at any place within the axes, solved for; none where it fails.
+  /// "creepage_x = -0.001, load = 80000 N": a place as it is asked for.
+  std::string place_words(const std::vector<double>& asked, bool without_creepages = false) const;
+
+  /// The numbers at any place within the axes as they are asked for, solved for; none where it fails.
   std::optional<CreepNumbers> direct(const std::vector<double>& point, const BemOptions& bem) const;
 
  private:
   struct Outer;
   struct Row;
   std::vector<std::size_t> index_of(std::size_t point) const;
-  std::vector<double> place_of(std::size_t point) const;
   const Outer& outer_at(std::size_t point) const;
   Outer load(const std::vector<std::string>& values) const;
-  CaseSpec spec_at(const Outer& outer, const std::vector<double>& place) const;
+  CaseSpec spec_at(const Outer& outer, const std::vector<double>& asked) const;
+  void start_scaled(const ScaledCounts& counts);
+  void check_scaled() const;
+  void find_scaling(const CreepTableOptions& options);
+  CreepStiffness stiffness_of(const Outer& outer, const ScaledLoad& at, const BemOptions& bem) const;
   Row row(std::size_t number) const;
   std::vector<std::optional<CreepNumbers>> solve_row(const Row& row, const CreepTableOptions& options,
                                                      InfluenceCache& cache);

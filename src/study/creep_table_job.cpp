@@ -31,13 +31,14 @@ std::string with_unit(const std::string& name, std::string unit) {
   return unit.empty() ? name : name + "_" + unit;
 }
 
+/// Axes and places as whoever asks gives them.
 std::vector<CsvColumn> columns_of(const ForceTable& table) {
   std::vector<CsvColumn> out;
-  std::size_t after = table.points();
-  for (const TableAxis& axis : table.axes) {
-    after /= axis.at.size();
-    out.push_back({with_unit(axis.name, axis.unit), {}});
-    for (std::size_t k = 0; k < table.points(); ++k) out.back().values.push_back(axis.at[k / after % axis.at.size()]);
+  for (std::size_t k = 0; k < table.axes.size(); ++k)
+    out.push_back({with_unit(table.asked(k).name, table.asked(k).unit), {}});
+  for (std::size_t point = 0; point < table.points(); ++point) {
+    const std::vector<double> place = asked_place(table, point);
+    for (std::size_t k = 0; k < place.size(); ++k) out[k].values.push_back(place[k]);
   }
   for (const TableNumber& number : table.numbers) out.push_back({with_unit(number.name, number.unit), number.values});
   return out;
@@ -50,6 +51,9 @@ TableRemarks remarks_of(const std::vector<std::string>& lines, const TableError&
     accuracy += fmt::format("{}{} {:.3g} {}", accuracy.empty() ? "" : ", ", n.name, n.largest, n.unit);
   TableRemarks out{{"origin", origin}};
   if (error.places > 0)
+    accuracy += fmt::format("; creep force by {:.3g} of friction times normal force, 95 % of the places by {:.3g}",
+                            error.creep_force.largest, error.creep_force.most);
+  if (error.places > 0)
     out.emplace_back("interpolation_error",
                      fmt::format("largest differences at {} places: {}", error.places, accuracy));
   return out;
@@ -59,7 +63,7 @@ class CreepTableJob : public CaseJob {
  public:
   CreepTableJob(LoadedCase base, CreepTableOrder order, Control& control)
       : CaseJob(kCreepTable, std::move(base), order_in(order), control),
-        table_(loaded_, order.overrides, std::move(order.axes)),
+        table_(loaded_, order.overrides, std::move(order.axes), order.scaled),
         places_(order.places) {
     require_table_files();
     options_.bem.cell = order.cell;
@@ -73,10 +77,18 @@ class CreepTableJob : public CaseJob {
     nlohmann::ordered_json out;
     for (const TableAxis& axis : table_.table().axes)
       out["axes"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"values", axis.at}});
+    if (const std::optional<TableScaling>& scaling = table_.table().scaling)
+      for (const TableAxis& axis : scaling->asked)
+        out["asked"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"ends", axis.at}});
     out["points"] = table_.points();
     out["missing"] = table_.missing();
     out["faults"] = table_.faults();
     out["interpolation"]["places"] = error_.places;
+    if (error_.places > 0) {
+      const TableError::CreepForce& force = error_.creep_force;
+      out["interpolation"]["creep_force"] = {
+          {"half_below", force.half}, {"most_below", force.most}, {"largest", force.largest}, {"where", force.where}};
+    }
     for (const TableError::Number& n : error_.numbers)
       out["interpolation"]["numbers"].push_back({{"name", n.name},
                                                  {"unit", n.unit},

@@ -2,6 +2,7 @@
 // A table of creep forces as a job: creep_table.h5 (io/table_file.hpp), creep_table.csv and creep_table.json at the
 // end, creep_table.begun.h5 on the way.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace railstrata {
 struct CreepTableOrder : JobOrder {
   std::vector<std::string> overrides;  ///< of the case
   std::vector<NumberAxis> axes;
-  double cell = kDefaultCell;  ///< m
-  int places = 200;            ///< where interpolation is compared with direct solutions
+  std::optional<ScaledCounts> scaled{};  ///< none: a plain table
+  double cell = kDefaultCell;            ///< m
+  int places = 200;                      ///< where interpolation is compared with direct solutions
 };
 
 /// Carries the table out; checks fail where points have no answer. To resume where no table was begun begins one.

@@ -54,6 +54,38 @@ TEST_F(CTable, AnswersByNamesUnitsAndEnds) {
   rs_table_close(nullptr);
 }
 
+TEST_F(CTable, InScaledCreepagesIsAskedForPlainOnes) {
+  ForceTable scaled{scaled_axes(4, 5, 4), {{"approach", "m", {}}, {"force_x", "N", {}}}};
+  scaled.axes.push_back({"load", "N", {50e3, 1e5}});
+  scaled.scaling = {{{{"creepage_x", "", {-0.01, 0.01}}, {"creepage_y", "", {-0.02, 0.02}}, {"spin", "1/m", {-1, 1}}}},
+                    {{{"creep_stiffness_x", "N^(1/3)", {4e3, 5e3}},
+                      {"creep_stiffness_y", "N^(1/3)", {4e3, 5e3}},
+                      {"creep_stiffness_spin", "m", {0.2, 0.3}}}},
+                    0.8,
+                    0,
+                    0.3};
+  for (std::size_t k = 0; k < scaled.points(); ++k) {
+    scaled.numbers[0].values.push_back(1e-4 + 1e-7 * static_cast<double>(k));
+    scaled.numbers[1].values.push_back(static_cast<double>(k * k % 71));
+  }
+  write_force_table(file_, scaled, {});
+  rs_error error;
+  rs_table* table = rs_table_open(file_.c_str(), &error);
+  ASSERT_TRUE(table) << error.message;
+  ASSERT_EQ(rs_table_axes(table), 4);
+  EXPECT_STREQ(rs_table_axis(table, 1), "creepage_y");
+  EXPECT_STREQ(rs_table_axis(table, 3), "load");
+  EXPECT_EQ(rs_table_axis_last(table, 2), 1);
+  ASSERT_EQ(rs_table_numbers(table), 2) << "stiffnesses are none";
+  const double at[] = {-0.003, 0.004, 0.1, 70e3};
+  double read[2], held[2];
+  EXPECT_EQ(rs_table_at(table, at, read), 0);
+  TableInterpolation(scaled).at(at, held);
+  EXPECT_EQ(read[0], held[0]);
+  EXPECT_EQ(read[1], held[1]);
+  rs_table_close(table);
+}
+
 TEST_F(CTable, ThatIsNotThereIsRefusedWithTheRemedy) {
   rs_error error;
   EXPECT_EQ(rs_table_open("/nowhere/creep_table.h5", &error), nullptr);

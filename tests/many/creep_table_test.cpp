@@ -9,6 +9,7 @@
 
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "halfspace/creep_theories.hpp"
 
 namespace railstrata {
 namespace {
@@ -193,6 +194,80 @@ TEST(CreepTable, SaysWhichPointsHaveNoAnswer) {
   EXPECT_EQ(table.missing(), 2u) << "the wheel has left the rail";
   ASSERT_FALSE(table.faults().empty());
   EXPECT_NE(table.faults()[0].find("lateral_shift = 0.03 m"), std::string::npos) << table.faults()[0];
+}
+
+namespace {
+
+const std::vector<std::string> kCreepageEnds = {"creepage_x=-0.01,0.01", "creepage_y=-0.01,0.01", "spin=-0.5,0.5 1/m"};
+
+CreepTable scaled_ball(const ScaledCounts& counts, std::vector<std::string> more = {}) {
+  more.insert(more.begin(), kCreepageEnds.begin(), kCreepageEnds.end());
+  return {ball(), {}, axes_of(more), counts};
+}
+
+std::string refusal_of_scaled(const LoadedCase& base, const std::vector<std::string>& axes) {
+  try {
+    CreepTable(base, {}, axes_of(axes), ScaledCounts{});
+  } catch (const CaseError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(ScaledCreepTable, HasKalkersStiffnessesAndTheSameForAnyLoad) {
+  CreepTable table = scaled_ball({4, 5, 4}, {"load=60 kN,120 kN"});
+  table.solve(coarse());
+  ASSERT_EQ(table.missing(), 0u);
+  const MaterialSpec steel = ball().spec.rail_material;
+  const double poisson = steel.poisson, shear = steel.young / (2 * (1 + poisson));
+  const CreepCoefficients kalker = kalker_coefficients(1, poisson);
+  const std::size_t area = number(table.table(), "patch_area");
+  for (std::size_t load = 0; load < 2; ++load) {
+    const auto& stiffness = table.table().scaling->stiffness;
+    const double n = table.table().axes[3].at[load], c2 = table.table().numbers[area].values[load] / std::numbers::pi,
+                 tolerance = 0.05;  // 12 to 15 cells across the patch, 1 % from slip at a hundredth of the unit
+    EXPECT_NEAR(stiffness[0].values[load] * std::pow(n, 2.0 / 3) / (shear * c2 * kalker.c11), 1, tolerance);
+    EXPECT_NEAR(stiffness[1].values[load] * std::pow(n, 2.0 / 3) / (shear * c2 * kalker.c22), 1, tolerance);
+    EXPECT_NEAR(stiffness[2].values[load] * n / (shear * std::pow(c2, 1.5) * kalker.c23), 1, tolerance);
+  }
+}
+
+TEST(ScaledCreepTable, IsNearDirectSolutionsBetweenItsPointsAndNearerWithMore) {
+  double before = 1;
+  for (const ScaledCounts counts : {ScaledCounts{6, 7, 6}, ScaledCounts{12, 13, 12}}) {
+    CreepTable table = scaled_ball(counts);
+    table.solve(coarse());
+    const TableError error = interpolation_error(table, 40, coarse());
+    EXPECT_EQ(error.places, 40);
+    EXPECT_LE(error.creep_force.half, error.creep_force.most);
+    EXPECT_LE(error.creep_force.most, error.creep_force.largest);
+    EXPECT_GT(error.creep_force.half, 0);
+    EXPECT_LT(error.creep_force.most, 0.4 * before) << "cubic: an eighth and less but for the edge of full sliding";
+    before = error.creep_force.most;
+  }
+  EXPECT_LT(before, 0.01);
+}
+
+TEST(ScaledCreepTable, IsRefusedWithTheReasonWhereNothingScalesIt) {
+  LoadedCase pressed = ball(), smooth = ball();
+  pressed.source_text += "[vehicle]\napproach = \"60 um\"\n";
+  smooth.source_text = std::string(smooth.source_text).replace(smooth.source_text.find("0.3"), 3, "0.0");
+  std::vector<std::string> two = kCreepageEnds;
+  two.erase(two.begin() + 1);
+  EXPECT_NE(refusal_of_scaled(pressed, kCreepageEnds).find("scaled by the load, which is a result"), std::string::npos);
+  EXPECT_NE(refusal_of_scaled(smooth, kCreepageEnds).find("without friction"), std::string::npos);
+  EXPECT_NE(refusal_of_scaled(ball(), two).find("needs an axis of drive.lateral_creepage"), std::string::npos);
+}
+
+TEST(ScaledCreepTable, GoesOnWithTheSameEndsAlone) {
+  CreepTable begun = scaled_ball({4, 5, 4}), same = scaled_ball({4, 5, 4});
+  begun.solve(coarse());
+  same.take(begun.table());
+  CreepTable other(ball(), {}, axes_of({"creepage_x=-0.02,0.02", kCreepageEnds[1], kCreepageEnds[2]}),
+                   ScaledCounts{4, 5, 4});
+  EXPECT_THROW(other.take(begun.table()), CaseError);
 }
 
 TEST(CreepTable, ErrorOfInterpolationFallsWithTheSquareOfItsCells) {

@@ -140,6 +140,18 @@ def test_a_creep_table_is_linear_between_its_points(table):
         assert table.at(creepage_x=-0.5, lateral_shift=0)["force_x"] == force[0, 0]
 
 
+def test_a_scaled_creep_table_is_asked_as_a_plain_one_is(program, tmp_path):
+    subprocess.run([program, "creep-table", rs.shipped_data() / "cases/quick", "--axis", "creepage_x=-0.002,0.002",
+                    "--axis", "creepage_y=-0.002,0.002", "--axis", "spin=-0.2,0.2 1/m", "--scaled", "4:5:4", "--cell",
+                    "2 mm", "--places", "0", "--out", tmp_path / "out"], check=True, capture_output=True)
+    table = rs.open_table(tmp_path / "out/creep_table.h5")
+    assert list(table.axes) == ["creepage_x", "creepage_y", "spin"] and table.axes["spin"] == pytest.approx([-0.2, 0.2])
+    assert list(table.grid) == ["creepage_angle", "spin_angle", "creepage_size"]
+    assert table.numbers["force_x"].shape == (4, 5, 4)
+    forces = table.at(creepage_x=[-0.001, 0.001], creepage_y=0, spin=0)["force_x"]
+    assert forces[0] > 1000 and forces[1] < -1000
+
+
 def test_a_creep_table_refuses_what_is_none(table, tmp_path):
     with pytest.raises(TypeError, match="no lateral_shift; the axes are creepage_x, lateral_shift"):
         table.at(creepage_x=0)

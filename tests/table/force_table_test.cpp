@@ -73,4 +73,88 @@ TEST(ForceTable, RefusesAxesThatDoNotAscendAndValuesThatAreMissing) {
   EXPECT_THROW(check(ForceTable{}), CaseError);
 }
 
+namespace {
+
+constexpr double kPlaces[][4] = {{1e-3, -2e-3, 0.1, 70e3}, {-4e-3, 5e-4, 0, 55e3}, {3e-3, 6e-3, -0.3, 98e3}};
+
+/// Similar at any load: |F| = f N tanh(r) against the creepage, whatever its direction, and a patch area as N^(2/3).
+ForceTable similar(int angles = 12) {
+  ForceTable t{scaled_axes(angles, 17, 13),
+               {{"patch_area", "m2", {}}, {"lateral_force", "N", {}}, {"force_x", "N", {}}}};
+  t.axes.push_back({"load", "N", {50e3, 1e5}});
+  t.scaling = {{{{"creepage_x", "", {-0.01, 0.01}}, {"creepage_y", "", {-0.01, 0.01}}, {"spin", "1/m", {-1, 1}}}},
+               {{{"x", "", {4e3, 4e3}}, {"y", "", {5e3, 5e3}}, {"spin", "", {0.2, 0.2}}}},
+               0.8,
+               0,
+               0.3};
+  for (std::size_t k = 0; k < t.points(); ++k) {
+    const std::vector<double> place = grid_place(t, k);
+    const double force = -0.3 * place[3] * std::tanh(creep_radius(0.8 * place[2]));
+    t.numbers[0].values.push_back(1e-7 * std::pow(place[3], 2.0 / 3));
+    t.numbers[1].values.push_back(force * std::sin(place[0]));
+    t.numbers[2].values.push_back(force * std::cos(place[0]));
+  }
+  return t;
+}
+
+}  // namespace
+
+TEST(CreepScaling, UnitsAreThoseOfKalkerAndPlacesGoBothWays) {
+  const CreepUnits units = creep_units({4e3, 5e3, 0.2}, 64e3, 0.3);
+  EXPECT_DOUBLE_EQ(units.x, 4e3 * std::pow(64e3, 2.0 / 3) / (3 * 0.3 * 64e3)) << "k_x / (3 f N)";
+  EXPECT_DOUBLE_EQ(units.spin, 0.2 * 64e3 / (0.3 * 64e3)) << "k_s / (f N)";
+  for (const auto& place : kPlaces) {
+    const Creepages back = creepages_at(scaled_place({place[0], place[1], place[2]}, units), units);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], place[k], 1e-15);
+  }
+}
+
+TEST(ScaledTable, HasItsPointsAtTheirPlaces) {
+  const ForceTable t = similar();
+  const TableInterpolation between(t);
+  double out[3];
+  for (std::size_t k = 0; k < t.points(); k += 7) {
+    const std::vector<double> place = asked_place(t, k);
+    if (between.at(place.data(), out) > 0) continue;  // beyond what may be asked for
+    for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(out[n], t.numbers[n].values[k], 1e-9 * 30e3) << "point " << k;
+  }
+}
+
+TEST(ScaledTable, IsExactForAnyLoadWhereContactsAreSimilarAndForAnyDirectionOfTheForce) {
+  const ForceTable t = similar(), fewer_angles = similar(5);
+  for (const auto& place : kPlaces) {
+    double out[3], fewer[3];
+    EXPECT_EQ(TableInterpolation(t).at(place, out), 0);
+    TableInterpolation(fewer_angles).at(place, fewer);
+    const double r_x = 4e3 / std::cbrt(place[3]) / 0.9 * place[0], r_y = 5e3 / std::cbrt(place[3]) / 0.9 * place[1];
+    EXPECT_NEAR(out[0], 1e-7 * std::pow(place[3], 2.0 / 3), 1e-12);
+    EXPECT_NEAR(out[1] * r_x, out[2] * r_y, 1e-10 * 30e3) << "against the creepage";
+    const double r = std::hypot(r_x, r_y, 0.2 / 0.3 * place[2]);
+    EXPECT_NEAR(std::hypot(out[1], out[2]), 0.3 * place[3] * std::tanh(r), 1e-3 * 0.3 * place[3]) << "a cubic of r";
+    EXPECT_NEAR(fewer[1], out[1], 1e-10 * 30e3);
+    EXPECT_NEAR(fewer[2], out[2], 1e-10 * 30e3);
+  }
+}
+
+TEST(ScaledTable, TakesWhatLiesBeyondAtTheEndsOfCreepages) {
+  const ForceTable t = similar();
+  const double beyond[] = {5, 0, -7, 1e6}, at_the_ends[] = {0.01, 0, -1, 1e5};
+  double out[3], ends[3];
+  EXPECT_EQ(TableInterpolation(t).at(beyond, out), 3);
+  TableInterpolation(t).at(at_the_ends, ends);
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(out[n], ends[n]);
+}
+
+TEST(ScaledTable, WithoutItsOwnAxesStiffnessesOrFrictionIsRefused) {
+  ForceTable t = similar();
+  t.axes[1].at[3] += 0.01;
+  EXPECT_THROW(check(t), CaseError);
+  t = similar();
+  t.scaling->stiffness[2].values.pop_back();
+  EXPECT_THROW(check(t), CaseError);
+  t = similar();
+  t.scaling->friction = 0;
+  EXPECT_THROW(check(t), CaseError);
+}
+
 }  // namespace railstrata
