@@ -5,7 +5,7 @@ set(dirty false)
 if(GIT)
   execute_process(COMMAND ${GIT} -C ${SOURCE} rev-parse --short=12 HEAD
     OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-  execute_process(COMMAND ${GIT} -C ${SOURCE} status --porcelain -- src extras cmake report CMakeLists.txt
+  execute_process(COMMAND ${GIT} -C ${SOURCE} status --porcelain -- src extras cmake CMakeLists.txt
     OUTPUT_VARIABLE changes ERROR_QUIET)
   if(changes)
     set(dirty true)

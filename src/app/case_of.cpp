@@ -1,5 +1,7 @@
 #include "app/case_of.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include "app/shipped_files.hpp"
@@ -11,6 +13,13 @@ void warn_of(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) spdlog::warn("{}", note);
 }
 
+/// Under its own title a changed case would be taken for the case as it stands in its file.
+std::string title_of(const std::string& title, const std::vector<std::string>& overrides) {
+  for (const std::string& given : overrides)
+    if (given.starts_with("case.title")) return title;
+  return overrides.empty() ? title : fmt::format("{} [{}]", title, fmt::join(overrides, ", "));
+}
+
 }  // namespace
 
 LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
@@ -19,6 +28,7 @@ LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
   if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error))
     file /= "case.toml";
   LoadedCase loaded = load_case(file, options.overrides);
+  loaded.spec.title = title_of(loaded.spec.title, options.overrides);
   warn_of(loaded.notes);
   if (use != CaseUse::yielding) warn_of(loaded.elastic_notes);
   if (use == CaseUse::contact) warn_of(loaded.static_notes);

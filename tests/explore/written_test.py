@@ -46,6 +46,12 @@ class Written(unittest.TestCase):
             if words:  # without words it is a shipped case
                 self.assertEqual((found["case"], found["name"]), (self.case, self.folder.name), words)
 
+    def test_the_title_says_what_set_changes_unless_it_is_set_itself(self):
+        for words, title in ((["--set", "layer.0.thickness=0.3 mm"], "2 E0, coarse [layer.0.thickness=0.3 mm]"),
+                             (["--set", "layer.0.thickness=0.3 mm", "--set", "case.title=thin"], "thin")):
+            self.explore("mine.toml", *words, "--force")
+            self.assertTrue(seed((self.folder / "explore.html").read_text())["title"].endswith(title), words)
+
     def test_profiles_beside_the_case_go_with_it_under_their_names(self):
         profile = "".join(f"{y} {y * y / 600}\n" for y in range(-30, 31))
         (self.folder / "head.txt").write_text(profile)
@@ -69,6 +75,7 @@ class Kept(unittest.TestCase):
             now, then = (file.read_text() for file in (page, SOURCES / "web/explore.html"))
         self.assertNotIn(str(SOURCES), then)
         texts = [text.replace(seed(text)["version"], "VERSION") for text in (now, then)]
+        self.assertNotIn("+dirty", seed(then)["version"], "commit src/, then run `./railstrata wasm`")
         self.assertTrue(texts[0] == texts[1], "run `./railstrata wasm`")
 
 
