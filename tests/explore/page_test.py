@@ -125,13 +125,20 @@ class Explorer(unittest.TestCase):
         self.assertIn("layer.0.thickness=1.2 mm", self.data("command"))
         self.agrees_with_the_program()
 
+    def dimmed(self):
+        """Opacity of tiles and figures, and whether the button is off."""
+        return BROWSER.js("const of = (s) => getComputedStyle(document.querySelector(s)).opacity;"
+                          "return [of('.tiles'), of('.results'), document.getElementById('b-command').disabled]")
+
     def test_what_cannot_be_is_said_and_can_be_taken_back(self):
         self.assertEqual(self.move(t=0.49, f=0.2), "refused")
+        self.assertEqual(self.dimmed(), ["0.35", "0.35", True], "the old answer is dimmed, its state has no command")
         words = BROWSER.text("#faults")
         self.assertIn("friction", words)
         self.assertIn("What to do", words)
         self.assertEqual(self.move(t=0.1), "settled")
         self.assertEqual(BROWSER.text("#faults"), "")
+        self.assertEqual(self.dimmed(), ["1", "1", False])
 
     def test_a_thickness_below_zero_is_not_none(self):
         self.assertEqual(self.move(h1=-5), "refused")

@@ -92,8 +92,17 @@ function link(): void {
 
 const sameState = (a: Answer) => JSON.stringify(a.request.set) === JSON.stringify(state.forEngine());
 
+/// The state of the sliders has no answer: what is shown is of the one before, and there is no command that computes
+/// it.
+function refuse(refused: boolean): void {
+  root.classList.toggle("refused", refused);
+  commandButton.disabled = refused;
+}
+
 function take(a: Answer): void {
   if (!begun) return begin(a);
+  root.classList.remove("waiting");
+  refuse(false);
   faultBox.replaceChildren();
   const last = shown?.now;
   // stresses of before stay until those of now are there
@@ -183,12 +192,15 @@ function showFaults(faults: Fault[]): void {
       "p", {}, element("b", {}, f.message), f.where ? element("small", {}, ` (${f.where})`) : null,
       f.remedy ? element("span", {class: "remedy"}, `What to do: ${f.remedy}`) : null);
   faultBox.replaceChildren(...faults.map(text));
-  status.textContent = "no answer for this state; the figures show the last one";
-  root.classList.add("coarse");
+  status.textContent =
+      shown ? "no answer for this state; the dimmed figures show the last one" : "no answer for this case";
+  root.classList.remove("waiting");
+  refuse(true);
 }
 
 function broken(message: string): void {
   mark("broken");
+  root.classList.remove("waiting");
   faultBox.replaceChildren(element(
       "p", {}, element("b", {}, `The engine has stopped: ${message}`),
       element(
@@ -208,7 +220,7 @@ function takeProfile(kind: Kind, name: string, text: string): void {
 const profileBox = profiles(takeProfile, (words) => faultBox.replaceChildren(element("p", {}, words)));
 const side = controls(state, changed);
 
-function button(words: string, what: string, act: () => void): HTMLElement {
+function button(words: string, what: string, act: () => void): HTMLButtonElement {
   const b =
       element("button", {type: "button", title: what, id: `b-${words.toLowerCase().replace(/\W+/g, "-")}`}, words);
   b.onclick = act;
@@ -218,6 +230,10 @@ function button(words: string, what: string, act: () => void): HTMLElement {
 const say = (words: string) => {
   status.textContent = words;
 };
+
+const commandButton = button(
+    "Command", "copy the command line that computes this state",
+    () => void copy(state.command(cell), say, "Command line"));
 
 function pin(): void {
   if (!shown || !settled) return;
@@ -282,15 +298,14 @@ function cellChoice(): HTMLElement {
 }
 
 function build(): void {
-  const title = element("div", {}, element("h1", {}, "What if?"), element("p", {class: "sub"}, seed.name));
+  const title = element(
+      "div", {}, element("h1", {}, "What if?"),
+      element("p", {class: "sub"}, `RailStrata: wheel on rail, beginning with the case “${seed.name}”`));
   const buttons = element(
       "div", {class: "buttons"}, button("Pin", "compare what follows with this state", pin),
       button("Unpin", reported ? "compare with the report again" : "compare with nothing", unpin),
       button("Reset", "the case as it was given", reset),
-      button("Case file", "copy and save the case with every option", caseFile),
-      button(
-          "Command", "copy the command line that computes this state",
-          () => void copy(state.command(cell), say, "Command line")),
+      button("Case file", "copy and save the case with every option", caseFile), commandButton,
       button("CSV", "numbers, patch, lines and sections", csv),
       reported ? null : button("Link", "copy a link to this state", address));
   const grid = (kind: string, all: Figure[]) => element("div", {class: `grid ${kind}`}, ...all.map(frame));
@@ -311,6 +326,7 @@ function licences(): HTMLElement {
   return element("details", {}, element("summary", {}, "Software inside"), element("pre", {}, embedded("licences")));
 }
 
+root.classList.add("waiting");
 build();
 addEventListener("resize", askFrame);
 addEventListener("hashchange", () => {
