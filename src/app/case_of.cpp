@@ -13,11 +13,15 @@ void warn_of(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) spdlog::warn("{}", note);
 }
 
-/// Under its own title a changed case would be taken for the case as it stands in its file.
+/// Under its own title a changed case would be taken for the case as it stands in its file. What is written of a result
+/// changes none.
 std::string title_of(const std::string& title, const std::vector<std::string>& overrides) {
-  for (const std::string& given : overrides)
+  std::vector<std::string> changes;
+  for (const std::string& given : overrides) {
     if (given.starts_with("case.title")) return title;
-  return overrides.empty() ? title : fmt::format("{} [{}]", title, fmt::join(overrides, ", "));
+    if (!given.starts_with("output.")) changes.push_back(given);
+  }
+  return changes.empty() ? title : fmt::format("{} [{}]", title, fmt::join(changes, ", "));
 }
 
 }  // namespace
