@@ -71,8 +71,8 @@ class Calculix(Exported):
             print("skipped: CalculiX (calculix-ccx) is not installed")
             sys.exit(77)
         cls.deck = cls.export(CASE, "calculix")
-        subprocess.run(["ccx", "preload"], cwd=cls.deck, env={**os.environ, "OMP_NUM_THREADS": "1"}, check=True,
-                       capture_output=True, timeout=500)
+        cls.screen = subprocess.run(["ccx", "preload"], cwd=cls.deck, env={**os.environ, "OMP_NUM_THREADS": "1"},
+                                    check=True, capture_output=True, text=True, timeout=500).stdout
         cls.nodes, cls.fields = frd_blocks(cls.deck / "preload.frd")
         cls.ours = cls.folder / "ours"
         done = railstrata("run", CASE, "--out", cls.ours, "--no-report")
@@ -113,6 +113,10 @@ class Calculix(Exported):
     def test_the_rail_bears_the_load_and_its_weight(self):
         words = (self.deck / "preload.dat").read_text().split("total force")[1].split()
         self.assertLess(abs(float(words[-1]) / 60000 - 1), 0.001)
+
+    def test_the_readme_has_the_number_of_equations(self):
+        there = int(self.screen.split("number of equations")[1].split()[0])
+        self.assertIn(f"\n  {there} equations", (self.deck / "README.txt").read_text())
 
     def test_the_folder_says_what_it_lost(self):
         self.says_what_it_lost(self.deck, "exact profiles")
