@@ -6,13 +6,16 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/axle_report.hpp"
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
+#include "case/track_facts.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
+#include "io/geometry_json.hpp"
 #include "judge/run_advice.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/memory_need.hpp"
@@ -37,12 +40,18 @@ void print_geometry(const CaseSpec& spec, const Placement& placement) {
   fmt::print("contact point  y = {:.3f} mm, z = {:.3f} mm; on the wheel at y = {:.3f} mm\n", 1e3 * c.point.y,
              1e3 * c.point.z, 1e3 * wheel_y(placement));
   fmt::print("contact angle  {:.2f} mrad; rolling radius {:.3f} mm\n", 1e3 * c.angle, 1e3 * c.rolling_radius);
+  const char* name = "track";
+  for (const TrackFact& f : track_facts(spec.geometry)) {
+    fmt::print("{:<14} {}: {} ({})\n", name, f.label, f.value, f.from);
+    name = "";
+  }
   if (c.rail_turn != 0)
     fmt::print("rail           {} of {:.3f} mm along rolling at the contact\n", c.rail_turn > 0 ? "roller" : "hollow",
                1e3 / std::abs(c.rail_turn));
   if (c.yaw != 0)
     fmt::print("yaw            {:.3f} mrad; the contact lies {:.3f} mm before the axle\n", 1e3 * c.yaw, 1e3 * c.x);
   if (c.roll != 0) fmt::print("roll           {:.3f} mrad, field side up\n", 1e3 * c.roll);
+  fmt::print("{}", axle_text(spec, placement));
   if (spec.vehicle.approach)
     fmt::print("approach       {:.4g} mm, given: the load is a result, {:.3f} kN by Hertz\n",
                1e3 * *spec.vehicle.approach, 1e-3 * hertz.load);
@@ -139,6 +148,7 @@ nlohmann::ordered_json as_json(const CaseSpec& spec, const Placement& placement)
   const RigidContact& c = placement.contact;
   const HertzContact hertz = hertz_estimate(spec, c);
   return {{"title", spec.title},
+          {"track", track_json(spec.geometry)},
           {"contact",
            {{"x_m", c.x},
             {"y_m", c.point.y},
@@ -149,6 +159,7 @@ nlohmann::ordered_json as_json(const CaseSpec& spec, const Placement& placement)
             {"roll_rad", c.roll},
             {"rolling_radius_m", c.rolling_radius},
             {"rail_turn_per_m", c.rail_turn}}},
+          {"axle", axle_json(spec, placement)},
           {"load_N", hertz.load},
           {"hertz", {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}}}};
 }

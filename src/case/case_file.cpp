@@ -14,6 +14,7 @@
 #include "case/load_rows.hpp"
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
+#include "case/track_facts.hpp"
 #include "case/transient_rules.hpp"
 #include "core/nearest_word.hpp"
 #include "geometry/profile_names.hpp"
@@ -99,8 +100,9 @@ void read_load_file(LoadedCase& loaded, CaseSource& source) {
   std::error_code error;
   const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
   try {
-    read_load_table(read_text_file(file, "name a CSV file, relative to the case file", &loaded.notes), file,
-                    loaded.spec);
+    const std::string note = read_load_table(
+        read_text_file(file, "name a CSV file, relative to the case file", &loaded.notes), file, loaded.spec);
+    if (!note.empty()) loaded.notes.push_back(note);
     loaded.inputs.push_back(file);
   } catch (const CaseError& e) {
     for (const Diagnostic& d : e.diagnostics)
@@ -153,6 +155,7 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
     loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),
                                        overrides.empty() ? "" : ", but for what --set gives"));
   for (std::string& note : idle_settings(loaded.spec)) loaded.notes.push_back(std::move(note));
+  for (std::string& note : track_notes(loaded.spec, source)) loaded.notes.push_back(std::move(note));
   loaded.elastic_notes = unread_hardening(loaded.spec);
   loaded.static_notes = void_drive(loaded.spec, source);
   return loaded;

@@ -23,6 +23,7 @@ class TreeReader {
 
   void read(const toml::table& document) {
     take_condition(document);
+    take_track(document);
     for (const auto& [key, node] : document) read_top(std::string(key.str()), key, node);
     finish_derived();
     const std::vector<TablePoint>& across = spec_.friction.lateral_table;
@@ -56,6 +57,20 @@ class TreeReader {
       remember_place(source_, "friction.condition", *document["friction"]["condition"].node());
       source_.complain("friction.condition", e.diagnostics.front().message, e.diagnostics.front().remedy);
     }
+  }
+
+  /// The numbers of a track are the defaults of the keys beside it.
+  void take_track(const toml::table& document) {
+    GeometrySpec& g = spec_.geometry;
+    const auto given = [&](const char* key) { return document["geometry"][key].value<std::string>(); };
+    const TrackPreset& p =
+        track_preset_of(track_kind_named(given("track").value_or("")), given("wheel_profile").value_or(g.wheel_profile),
+                        given("rail_profile").value_or(g.rail_profile));
+    g.gauge = p.gauge;
+    g.gauge_depth = p.gauge_depth;
+    g.back_to_back = p.back_to_back;
+    g.cant = p.cant;
+    g.wheel_radius = p.wheel_radius;
   }
 
   struct Derived {

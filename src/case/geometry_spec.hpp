@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geometry/body_shapes.hpp"
+#include "geometry/track_presets.hpp"
 
 namespace railstrata {
 
@@ -15,10 +16,13 @@ enum class ContactShape {
 struct GeometrySpec {
   std::string rail_profile = "CN60";  ///< a built-in name or a file
   std::string wheel_profile = "LMA";
+  bool rail_mirror = false, wheel_mirror = false;  ///< of a file: y changes its sign, before the offset is added
+  double rail_offset = 0, wheel_offset = 0;        ///< m, to the y of a file's points
   RailShape rail_shape = RailShape::rail;
   WheelShape wheel_shape = WheelShape::wheel;
   ContactShape contact = ContactShape::point;
   std::optional<double> line_length;  ///< m, of a line contact: what bears the load
+  TrackKind track = TrackKind::by_profile;  ///< whose numbers the next line and cant, wheel_radius have if not given
   double gauge = 1.435, gauge_depth = 0.016, back_to_back = 1.353, flange_back_to_tape = 0.070;
   double cant = 0.025;  ///< tangent (1:40)
   double lateral_shift = 0.0;

@@ -16,6 +16,13 @@ Slot load(CaseSpec& spec, std::size_t index) {
 bool has_loads(const CaseSpec& spec, std::size_t) { return !spec.loads.empty(); }
 bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(index).name.empty(); }
 
+/// Each axle has this wheel and another like it: N = MGT / (2 wheel loads).
+double passages_of(const CaseSpec& spec, std::size_t index, double million_tonnes) {
+  const VehicleSpec& v = spec.vehicle;
+  const double wheel = spec.loads.at(index).wheel_load.value_or((v.wheel_mass + v.sprung_mass) * v.gravity);
+  return million_tonnes * 1e9 * v.gravity / (2 * wheel);
+}
+
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
 
 std::vector<Option> force_options() {
@@ -46,6 +53,12 @@ OptionTable load_table() {
        option("axle_load", load<&LoadSpec::wheel_load>,
               "Load of both wheels on the track, a force or a mass; this wheel carries half", kForce, above(0, 2e7))
            .derived({half, "choose a load in this range", true}),
+       option(
+           "mgt", load<&LoadSpec::passages>,
+           "Million gross tonnes of such axles, instead of passages: each brings two wheels of the row's load, one of "
+           "them over this rail, so passages = mgt / (2 wheel_load)",
+           kNumber, above(0, 1e6))
+           .derived({passages_of, "choose less, or give passages"}),
        option("lateral_shift", load<&LoadSpec::lateral_shift>, "Of the wheel, positive to the field side", kLength,
               {-0.05, 0.05}),
        option("yaw", load<&LoadSpec::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}),
@@ -54,6 +67,7 @@ OptionTable load_table() {
        option("speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200))},
       list_of<&CaseSpec::loads>(),
       {{"wheel_load", "axle_load"},
+       {"passages", "mgt"},
        {"traction_coefficient", "creepage"},
        {"lateral_traction_coefficient", "lateral_creepage"}}};
   append(out.options, force_options());

@@ -1,16 +1,73 @@
 #include "case/load_rows.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
+#include "case/load_series.hpp"
 #include "case/option_table.hpp"
 #include "case/unit_table.hpp"
 
 namespace railstrata {
 namespace {
+
+struct ColumnWord {
+  std::string_view key, word;
+};
+/// Headings of spreadsheets beside the keys: German, French, Swedish, Chinese.
+constexpr std::array kColumnWords{ColumnWord{"name", "Name"},
+                                  ColumnWord{"name", "Fahrzeug"},
+                                  ColumnWord{"name", "Véhicule"},
+                                  ColumnWord{"name", "Fordon"},
+                                  ColumnWord{"name", "名称"},
+                                  ColumnWord{"passages", "Überrollungen"},
+                                  ColumnWord{"passages", "Anzahl"},
+                                  ColumnWord{"passages", "Nombre"},
+                                  ColumnWord{"passages", "Antal"},
+                                  ColumnWord{"passages", "通过次数"},
+                                  ColumnWord{"mgt", "MGT"},
+                                  ColumnWord{"mgt", "Mio. t"},
+                                  ColumnWord{"mgt", "总重"},
+                                  ColumnWord{"wheel_load", "Q"},
+                                  ColumnWord{"wheel_load", "Radlast"},
+                                  ColumnWord{"wheel_load", "Charge par roue"},
+                                  ColumnWord{"wheel_load", "Hjullast"},
+                                  ColumnWord{"wheel_load", "轮重"},
+                                  ColumnWord{"axle_load", "Radsatzlast"},
+                                  ColumnWord{"axle_load", "Achslast"},
+                                  ColumnWord{"axle_load", "Charge par essieu"},
+                                  ColumnWord{"axle_load", "Axellast"},
+                                  ColumnWord{"axle_load", "轴重"},
+                                  ColumnWord{"lateral_shift", "y"},
+                                  ColumnWord{"lateral_shift", "Querverschiebung"},
+                                  ColumnWord{"lateral_shift", "Déplacement latéral"},
+                                  ColumnWord{"lateral_shift", "Sidoförskjutning"},
+                                  ColumnWord{"lateral_shift", "横移量"},
+                                  ColumnWord{"yaw", "psi"},
+                                  ColumnWord{"yaw", "Anlaufwinkel"},
+                                  ColumnWord{"yaw", "Angle d'attaque"},
+                                  ColumnWord{"yaw", "Anloppsvinkel"},
+                                  ColumnWord{"yaw", "冲角"},
+                                  ColumnWord{"curve_radius", "Bogenradius"},
+                                  ColumnWord{"curve_radius", "Rayon de courbe"},
+                                  ColumnWord{"curve_radius", "Kurvradie"},
+                                  ColumnWord{"curve_radius", "曲线半径"},
+                                  ColumnWord{"speed", "Geschwindigkeit"},
+                                  ColumnWord{"speed", "Vitesse"},
+                                  ColumnWord{"speed", "Hastighet"},
+                                  ColumnWord{"speed", "速度"},
+                                  ColumnWord{"friction_coefficient", "Reibwert"},
+                                  ColumnWord{"friction_coefficient", "Coefficient de frottement"},
+                                  ColumnWord{"friction_coefficient", "Friktionskoefficient"},
+                                  ColumnWord{"friction_coefficient", "摩擦系数"},
+                                  ColumnWord{"traction_coefficient", "Kraftschluss"},
+                                  ColumnWord{"traction_coefficient", "Coefficient d'adhérence"},
+                                  ColumnWord{"traction_coefficient", "Adhesionskoefficient"},
+                                  ColumnWord{"traction_coefficient", "牵引系数"}};
 
 /// A fault of a row.
 struct RowFault {
@@ -100,21 +157,32 @@ std::string load_name(const CaseSpec& spec, std::size_t index) {
   return name.empty() ? fmt::format("load {}", index + 1) : name;
 }
 
-void read_load_table(const std::string& text, const std::filesystem::path& path, CaseSpec& spec) {
+std::string read_load_table(const std::string& text, const std::filesystem::path& path, CaseSpec& spec) {
   const std::filesystem::path file = path.filename();
   const OptionTable& options = *find_table("load");
   UnitTableForm form{{}, options.rivals, "a load", "wheel_load [kN], lateral_shift [mm], passages"};
   for (const Option& option : options.options) form.columns.push_back({&option, option.key});
+  for (const ColumnWord& w : kColumnWords)
+    for (const Option& option : options.options)
+      if (option.key == w.key) form.columns.push_back({&option, w.word});
+  const bool series = names_series(text);
+  form.others = series;
   form.blanks = true;
   form.gravity = spec.vehicle.gravity;
   const UnitTable table = read_unit_table(text, file, form);
   for (const UnitTable::Row& row : table.rows) {
     spec.loads.emplace_back();
-    for (std::size_t k = 0; k < row.cells.size(); ++k)
-      put(row.cells[k], *table.columns[k], spec, spec.loads.size() - 1);
+    for (const Option& option : options.options)  // in the table's order: mgt counts over the load
+      for (std::size_t k = 0; k < row.cells.size(); ++k)
+        if (table.columns[k] == &option) put(row.cells[k], option, spec, spec.loads.size() - 1);
     if (const auto fault = fault_of(spec, spec.loads.back()))
       refuse_in_table(file, row.line, fault->message, fault->remedy);
   }
+  if (!series) return {};
+  const std::size_t samples = spec.loads.size();
+  spec.loads = binned(spec.loads);
+  return fmt::format("{}: {} samples of a wheel became {} loads; not read: {}", file.string(), samples,
+                     spec.loads.size(), fmt::join(table.ignored, ", "));
 }
 
 void check_loads(const CaseSpec& spec, CaseSource& source) {

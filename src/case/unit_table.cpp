@@ -158,7 +158,7 @@ class TableReader {
     try {
       return parse_quantity(text, column.option->dimension);
     } catch (const UnitError&) {
-      if (!column.option->derivation.takes_mass) throw;
+      if (column.option->dimension != dimension::kForce) throw;
     }
     return form_.gravity * parse_quantity(text, dimension::kMass);
   }
@@ -168,7 +168,7 @@ class TableReader {
     std::size_t longest = 0;
     std::vector<std::string> known;
     for (const UnitTableForm::Column& c : form_.columns) {
-      known.emplace_back(c.key);
+      if (std::find(known.begin(), known.end(), c.option->key) == known.end()) known.emplace_back(c.key);
       for (const std::string_view key : {c.option->key, c.key})
         if (const auto unit = form_.as_written && name != key ? std::nullopt : unit_after(name, key);
             unit && key.size() > longest) {

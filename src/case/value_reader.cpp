@@ -301,7 +301,9 @@ bool read_number(CaseSource& source, const WrittenValue& w, double& out) {
     try {
       value = parse_quantity(text, w.option.dimension);
     } catch (const UnitError& e) {
-      source.complain(w.key, fmt::format("{} = \"{}\": {}", w.key, text, e.what()), e.remedy);
+      source.complain(w.key, fmt::format("{} = \"{}\": {}", w.key, text, e.what()),
+                      w.option.dimension == dimension::kSlope && !w.option.beyond.empty() ? std::string(w.option.beyond)
+                                                                                          : e.remedy);
       return false;
     }
   } else if (w.node.is_number()) {

@@ -17,6 +17,7 @@
 #include "geometry/exchange_profiles.hpp"
 #include "geometry/number_table.hpp"
 #include "geometry/point_defects.hpp"
+#include "geometry/smoothing_spline.hpp"
 
 namespace railstrata {
 namespace {
@@ -28,6 +29,7 @@ constexpr double kSmallestFlange = 0.009;                  // m: lower than any 
 constexpr double kCrestNear = -0.035, kCrestFar = -0.075;  // m, y of the flange's crest (nominal -0.054 to -0.056)
 constexpr double kAxisTolerance = 0.015;                   // m, of the middle of a rail head
 constexpr double kSameHeight = 1e-7;                       // m
+constexpr double kHole = 2e-3;                             // m, between neighbours that stand closer elsewhere
 constexpr double kSymmetry = 0.02e-3;                      // m
 
 struct Extent {
@@ -70,8 +72,13 @@ NumberTable table_of(ProfileKind kind, std::string_view text, const std::filesys
 
 class Reading {
  public:
-  Reading(ProfileKind kind, std::string_view text, const std::filesystem::path& file)
-      : kind_(kind), file_(file), table_(table_of(kind, text, file)), points_(table_.rows), notes_(table_.notes) {}
+  Reading(ProfileKind kind, std::string_view text, const std::filesystem::path& file, const ProfileFrame& frame)
+      : kind_(kind),
+        file_(file),
+        frame_(frame),
+        table_(table_of(kind, text, file)),
+        points_(table_.rows),
+        notes_(table_.notes) {}
 
   Profile profile(std::vector<std::string>* notes) {
     if (points_.size() < 5)
@@ -84,6 +91,7 @@ class Reading {
     if (table_.columns > 2) note(fmt::format("Only the first two of {} columns were used.", table_.columns));
     drop_repeated_points();
     to_metres();
+    to_frame();
     if (const auto defect = find_defect(points_)) fail(defect->message, defect->remedy, table_.lines[defect->index]);
     kind_ == ProfileKind::wheel ? orient_wheel() : orient_rail();
     if (points_.front().y > points_.back().y) {
@@ -112,7 +120,22 @@ class Reading {
     if (points_.size() < before) note(fmt::format("{} repeated points were dropped.", before - points_.size()));
   }
 
+  void to_frame() {
+    if (frame_.mirror) note("y was turned round, as the case asks.");
+    if (frame_.offset != 0) note(fmt::format("{:.3f} mm were added to y, as the case asks.", 1e3 * frame_.offset));
+    for (Vec2& p : points_) p.y = (frame_.mirror ? -p.y : p.y) + frame_.offset;
+  }
+
+  /// "y [in]", "inch", "inches".
+  void from_inches() {
+    static const std::regex says_inch(R"([\[\(]in[\]\)]|\binch(es)?\b)", std::regex::icase);
+    if (!std::regex_search(table_.heading, says_inch)) return;
+    for (Vec2& p : points_) p = 25.4 * p;
+    note("The heading gives inches; the numbers were taken as such.");
+  }
+
   void to_metres() {
+    from_inches();
     const double y = extent_y(points_).size(), z = extent_z(points_).size();
     if ((z > 0 && z < 5e-4 * y) || y < 2e-2 * z)
       fail(fmt::format("y spans {:.4g} and z spans {:.4g}: the columns seem to be in different units", y, z),
@@ -157,7 +180,8 @@ class Reading {
     if (crest_y > kCrestNear || crest_y < kCrestFar)
       fail(fmt::format("the flange's crest stands at y = {:.2f} mm; from the tape circle it should be about 55 mm away",
                        1e3 * crest.y),
-           "put y = 0 at the tape circle, 70 mm from the flange back");
+           "put y = 0 at the tape circle, 70 mm from the flange back, or give geometry.wheel_offset, which is added to "
+           "y");
     if (crest.y > 0) {
       for (Vec2& p : points_) p.y = -p.y;
       note("The flange was on the side of positive y; the profile was mirrored.");
@@ -169,7 +193,10 @@ class Reading {
     const double middle = 0.5 * (y.lo + y.hi);
     if (std::abs(middle) > kAxisTolerance)
       fail(fmt::format("the middle of the rail head stands at y = {:.2f} mm", 1e3 * middle),
-           "put y = 0 on the rail's axis");
+           fmt::format(
+               "y = 0 is the rail's axis: if it is the gauge face here, give geometry.rail_offset = \"{:.2f} mm\", "
+               "which is added to y",
+               -1e3 * middle));
     const auto centre = std::min_element(points_.begin(), points_.end(), [&](Vec2 a, Vec2 b) {
       return std::abs(a.y - middle) < std::abs(b.y - middle);
     });
@@ -198,8 +225,36 @@ class Reading {
     if (std::abs(height) > 1e-6)
       note(fmt::format("z was shifted by {:.3f} mm so that it is zero at y = 0.", -1e3 * height));
     if (kind_ == ProfileKind::rail && asymmetric(out))
-      note("The head is not symmetric; its gauge side was taken at y < 0.");
+      note("The head is not symmetric; its gauge side was taken at y < 0 (geometry.rail_mirror turns it round).");
+    tell_smoothing();
     return out;
+  }
+
+  /// What the fit did to the points.
+  void tell_smoothing() {
+    constexpr double kToldMovement = 1e-6;  // m, of a measured profile; the digits of a listed one move less
+    const SmoothingSpline fit = fit_smoothing_spline(points_);
+    double squares = 0, largest = 0, hole = 0, steps = 0;
+    std::vector<double> apart;
+    for (const double m : fit.miss) {
+      squares += m * m;
+      largest = std::max(largest, m);
+    }
+    for (std::size_t i = 1; i < points_.size(); ++i) apart.push_back(norm(points_[i] - points_[i - 1]));
+    const auto widest = std::max_element(apart.begin(), apart.end());
+    hole = *widest;
+    const Vec2 at = points_[static_cast<std::size_t>(widest - apart.begin())];
+    std::nth_element(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2), apart.end());
+    steps = apart[apart.size() / 2];
+    if (largest > kToldMovement)
+      note(
+          fmt::format("The points were smoothed: a spline of {} knots over {:.0f} mm passes them by {:.1f} um rms, "
+                      "{:.1f} um at most.",
+                      fit.s.size(), 1e3 * (fit.s.back() - fit.s.front()),
+                      1e6 * std::sqrt(squares / static_cast<double>(fit.miss.size())), 1e6 * largest));
+    if (hole > kHole && hole > 4 * steps)
+      note(fmt::format("No points lie between y = {:.1f} mm and the next, {:.1f} mm away: the spline bridges the hole.",
+                       1e3 * at.y, 1e3 * hole));
   }
 
   static bool asymmetric(const Profile& rail) {
@@ -211,6 +266,7 @@ class Reading {
 
   ProfileKind kind_;
   std::filesystem::path file_;
+  ProfileFrame frame_;
   NumberTable table_;
   std::vector<Vec2> points_;
   std::vector<std::string> notes_;
@@ -233,12 +289,13 @@ std::string text_of(const std::filesystem::path& file) {
 }  // namespace
 
 Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file,
-                      std::vector<std::string>* notes) {
-  return Reading(kind, text, file).profile(notes);
+                      std::vector<std::string>* notes, const ProfileFrame& frame) {
+  return Reading(kind, text, file, frame).profile(notes);
 }
 
-Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes) {
-  return parse_profile(kind, text_of(file), file, notes);
+Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes,
+                     const ProfileFrame& frame) {
+  return parse_profile(kind, text_of(file), file, notes, frame);
 }
 
 }  // namespace railstrata

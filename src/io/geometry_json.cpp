@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "case/track_facts.hpp"
 #include "geometry/turned_wheel.hpp"
 #include "record/output_file.hpp"
 
@@ -54,6 +55,13 @@ HertzContact hertz_under(CaseSpec spec, const LoadedContact& patch) {
 
 }  // namespace
 
+Json track_json(const GeometrySpec& geometry) {
+  Json out = Json::array();
+  for (const TrackFact& f : track_facts(geometry))
+    out.push_back({{"name", f.label}, {"value", f.value}, {"from", f.from}});
+  return out;
+}
+
 Json geometry_json(const CaseSpec& spec, const Placement& placement, const std::vector<LoadedContact>& patches) {
   const RigidContact& c = placement.contact;
   const HertzContact hertz = hertz_estimate(spec, c);
@@ -66,6 +74,7 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement, const std::
   Json out;
   out["rail_profile"] = placement.rail.name();
   out["wheel_profile"] = placement.wheel.name();
+  out["track"] = track_json(spec.geometry);
   out["load_N"] = hertz.load;
   out["contact"] = contact_json(c, placement);
   out["hertz"] = hertz_json(hertz);

@@ -16,6 +16,9 @@ struct LoadedContact {
   double load = 0;
 };
 
+/// Numbers of wheelset and track with where each comes from, to be shown.
+nlohmann::ordered_json track_json(const GeometrySpec& geometry);
+
 /// SI units, model frame. Profiles and the lower borders of the layers are lists of points [y, z] half a millimetre
 /// apart, at most 80 mm to either side of the contact. "hertz" holds the ellipse of the curvatures at the rigid contact
 /// point under the whole load, without layers. Of several `patches`, "patches" lists each with its own ellipse.

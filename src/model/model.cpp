@@ -18,12 +18,12 @@ namespace railstrata {
 namespace {
 
 Profile find_profile(ProfileKind kind, const std::string& name, const std::filesystem::path& folder,
-                     std::vector<std::string>& notes) {
+                     const ProfileFrame& frame, std::vector<std::string>& notes) {
   std::filesystem::path file = name;
   if (file.is_relative()) file = folder / file;
   if (file.has_extension() && (file.extension() == ".csv" || file.extension() == ".txt" || file.extension() == ".dat" ||
                                std::filesystem::exists(file)))
-    return read_profile(kind, file, &notes);
+    return read_profile(kind, file, &notes, frame);
   return builtin_profile(kind, name);
 }
 
@@ -129,8 +129,8 @@ StripMiddle strip_middle(const Placement& p, double closeness) {
 Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
   const GeometrySpec& g = spec.geometry;
   std::vector<std::string> notes;
-  Profile wheel = find_profile(ProfileKind::wheel, g.wheel_profile, folder, notes);
-  Profile rail = find_profile(ProfileKind::rail, g.rail_profile, folder, notes);
+  Profile wheel = find_profile(ProfileKind::wheel, g.wheel_profile, folder, {g.wheel_mirror, g.wheel_offset}, notes);
+  Profile rail = find_profile(ProfileKind::rail, g.rail_profile, folder, {g.rail_mirror, g.rail_offset}, notes);
   TrackGeometry track{g.gauge,        g.gauge_depth,
                       g.back_to_back, g.flange_back_to_tape,
                       g.cant,         g.lateral_shift,

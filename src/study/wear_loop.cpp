@@ -125,6 +125,8 @@ std::vector<double> smoothed_wear(const RailDamage& damage, WearLaw law) {
 CaseSpec on_worn_rail(const CaseSpec& spec, const Placement& original, const WornRail& rail) {
   CaseSpec out = spec;
   if (rail.file.empty()) return out;
+  out.geometry.rail_mirror = false;  // of the file before
+  out.geometry.rail_offset = 0;
   out.geometry.rail_profile = std::filesystem::absolute(rail.file).string();
   if (!has_gauge(original)) return out;
   std::vector<Vec2> points = rail.points;

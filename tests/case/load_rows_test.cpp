@@ -148,4 +148,34 @@ TEST(LoadRows, AFaultOfATableIsToldWithItsLine) {
   }
 }
 
+TEST(LoadRows, TonnesBecomePassagesOfAxles) {
+  CaseSpec spec;
+  read_load_table("Radlast [t]; Mio. t; Querverschiebung [mm]\n11; 22; 2\n", "loads.csv", spec);
+  ASSERT_EQ(spec.loads.size(), 1u);
+  EXPECT_DOUBLE_EQ(*spec.loads[0].wheel_load, 11e3 * spec.vehicle.gravity);
+  EXPECT_DOUBLE_EQ(spec.loads[0].passages, 1e6);
+  EXPECT_DOUBLE_EQ(*spec.loads[0].lateral_shift, 2e-3);
+}
+
+TEST(LoadRows, TonnesCountOverTheLoadWhereverItStands) {
+  CaseSpec spec;
+  read_load_table("mgt,axle_load [t]\n22,22\n", "loads.csv", spec);
+  EXPECT_DOUBLE_EQ(spec.loads.at(0).passages, 1e6);
+  expect_says(refusal("[[load]]\npassages = 3\nmgt = 1\n"), "passages and mgt");
+}
+
+TEST(LoadRows, ASeriesOfAVehicleCodeIsBinned) {
+  CaseSpec spec;
+  const std::string note = read_load_table(
+      "time [s],y [mm],psi [mrad],Q [kN],Y [kN],T-gamma [N]\n0,2.2,1.1,82,5,80\n0.1,1.8,0.9,78,6,70\n0.2,-3,0,80,1,0\n",
+      "wheel.csv", spec);
+  ASSERT_EQ(spec.loads.size(), 2u) << note;
+  EXPECT_DOUBLE_EQ(spec.loads[0].passages, 2);
+  EXPECT_NEAR(*spec.loads[0].lateral_shift, 2e-3, 1e-15);
+  EXPECT_NEAR(*spec.loads[0].wheel_load, 80e3, 1e-9);
+  EXPECT_NEAR(*spec.loads[0].yaw, 1e-3, 1e-8);
+  EXPECT_DOUBLE_EQ(spec.loads[1].passages, 1);
+  expect_says(note, "3 samples of a wheel became 2 loads; not read: time [s], Y [kN], T-gamma [N]");
+}
+
 }  // namespace railstrata

@@ -81,6 +81,7 @@ export interface LoadedContact {
 export interface Geometry extends LoadedContact {
   rail_profile: string;
   wheel_profile: string;
+  track?: {name: string, value: string, from: string}[];  // not in results of older versions
   patches?: LoadedContact[];
   rail_m: [number, number][];
   wheel_m: [number, number][];

@@ -192,7 +192,8 @@ export function geometryTable(run: Run): HTMLElement|null {
   const rows: string[][] = [
     ["wheel on rail", `${g.wheel_profile} on ${g.rail_profile}`],
     ["lateral shift of the wheel", option(run, "geometry", "lateral_shift") ?? "–"],
-    ["cant of the rail", option(run, "geometry", "cant") ?? "–"],
+    ...(g.track?.map((t) => [t.name, `${t.value} (${t.from})`]) ??
+        [["cant of the rail", option(run, "geometry", "cant") ?? "–"]]),
     ...(roll && Number(roll) !== 0 ? [["roll of the wheelset, field side up", roll]] : []),
     [loadWords(run), `${numberText(1e-3 * g.load_N, 5)} kN`],
     ...(contacts.length > 1 ? [["", ...places]] : []),

@@ -1,0 +1,93 @@
+#include "case/load_series.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "core/text.hpp"
+
+namespace railstrata {
+namespace {
+
+struct Axis {
+  std::optional<double> LoadSpec::*member;
+  double width;
+  bool inverse = false;  ///< bins of 1/value
+};
+const std::array kAxes{Axis{&LoadSpec::wheel_load, 10e3},
+                       Axis{&LoadSpec::lateral_shift, 1e-3},
+                       Axis{&LoadSpec::yaw, 1e-3},
+                       Axis{&LoadSpec::curve_radius, 1e-3, true},
+                       Axis{&LoadSpec::speed, 5},
+                       Axis{&LoadSpec::friction_coefficient, 0.02},
+                       Axis{&LoadSpec::traction_coefficient, 0.02},
+                       Axis{&LoadSpec::lateral_traction_coefficient, 0.02},
+                       Axis{&LoadSpec::creepage, 5e-4},
+                       Axis{&LoadSpec::lateral_creepage, 5e-4}};
+using Bin = std::array<std::optional<long>, kAxes.size()>;
+
+double on_axis(const Axis& axis, double value) { return axis.inverse ? 1 / value : value; }
+
+Bin bin_of(const LoadSpec& load) {
+  Bin out;
+  for (std::size_t k = 0; k < kAxes.size(); ++k)
+    if (const auto& value = load.*kAxes[k].member) out[k] = std::lround(on_axis(kAxes[k], *value) / kAxes[k].width);
+  return out;
+}
+
+/// Adds a sample to the sums of its bin.
+void add(const LoadSpec& sample, LoadSpec& sums) {
+  sums.passages += sample.passages;
+  for (const Axis& axis : kAxes)
+    if (const auto& value = sample.*axis.member)
+      sums.*axis.member = (sums.*axis.member).value_or(0) + sample.passages * on_axis(axis, *value);
+}
+
+/// A curvature of zero is straight track: no radius.
+LoadSpec mean_of(LoadSpec sums) {
+  for (const Axis& axis : kAxes)
+    if (auto& value = sums.*axis.member) {
+      *value /= sums.passages;
+      if (axis.inverse && !(std::abs(*value) > 1e-6)) value.reset();
+      if (value && axis.inverse) *value = 1 / *value;
+    }
+  return sums;
+}
+
+}  // namespace
+
+bool names_series(std::string_view text) {
+  std::istringstream lines{std::string(text)};
+  std::string line;
+  while (std::getline(lines, line) && trimmed(line.substr(0, line.find('#')), " \t\r").empty()) {
+  }
+  std::istringstream cells(line);
+  for (std::string cell; std::getline(cells, cell, line.find(';') == std::string::npos ? ',' : ';');) {
+    const std::string_view name = trimmed(cell, " \t\r\"");
+    for (const std::string_view word : {"time", "distance", "Zeit", "Weg"})
+      if (name.starts_with(word)) return true;
+  }
+  return false;
+}
+
+std::vector<LoadSpec> binned(const std::vector<LoadSpec>& samples) {
+  std::map<Bin, LoadSpec> bins;
+  for (const LoadSpec& sample : samples) {
+    LoadSpec empty;
+    empty.passages = 0;
+    add(sample, bins.try_emplace(bin_of(sample), empty).first->second);
+  }
+  std::vector<LoadSpec> out;
+  for (const auto& [bin, sums] : bins) out.push_back(mean_of(sums));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const LoadSpec& a, const LoadSpec& b) { return a.passages > b.passages; });
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].name = fmt::format("bin {}", i + 1);
+  return out;
+}
+
+}  // namespace railstrata
