@@ -21,7 +21,7 @@ struct GeometrySpec {
   RailShape rail_shape = RailShape::rail;
   WheelShape wheel_shape = WheelShape::wheel;
   ContactShape contact = ContactShape::point;
-  std::optional<double> line_length;  ///< m, of a line contact: what bears the load
+  std::optional<double> line_length;        ///< m, of a line contact: what bears the load
   TrackKind track = TrackKind::by_profile;  ///< whose numbers the next line and cant, wheel_radius have if not given
   double gauge = 1.435, gauge_depth = 0.016, back_to_back = 1.353, flange_back_to_tape = 0.070;
   double cant = 0.025;  ///< tangent (1:40)

@@ -16,7 +16,7 @@ struct TrackFact {
 /// Of a pair with an arc or a plane inclination and radius alone: it stands over the rail's axis.
 std::vector<TrackFact> track_facts(const GeometrySpec& geometry);
 
-/// What is unusual of wheel, rail and track together: told, not refused.
+/// What is unusual of wheel, rail and track together: reported, not refused.
 std::vector<std::string> track_notes(const CaseSpec& spec, const CaseSource& source);
 
 }  // namespace railstrata
