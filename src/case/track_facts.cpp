@@ -12,6 +12,7 @@ namespace railstrata {
 namespace {
 
 constexpr double kCrest = 0.055;           // m, of a flange's crest from the tape circle
+constexpr double kFlank = 0.034;           // m, depth at which the flanks of CN60's head end (geometry/rail_outline)
 constexpr double kLargestWheel = 0.65;     // m, radius
 constexpr double kOfTheSameKind = 3.5e-3;  // m, tolerance of a distance between the backs [EN15313]
 constexpr double kSameDepth = 1e-3;        // m
@@ -83,6 +84,22 @@ std::vector<std::string> track_notes(const CaseSpec& spec, const CaseSource& sou
   if (g.wheel_radius > kLargestWheel)
     notes.push_back(fmt::format("geometry.wheel_radius = {}: wheels above {} are rare, is this the diameter?",
                                 millimetres(g.wheel_radius), millimetres(kLargestWheel)));
+  double layers = 0;
+  for (const LayerSpec& l : spec.layers)
+    if (l.on == BodyId::rail) layers += l.thickness;
+  if (g.rail_shape == RailShape::rail && layers > kFlank)
+    notes.push_back(fmt::format(
+        "the layers of the rail are {} thick, the flanks of a head end about {} below its top: half-spaces go on for "
+        "ever and do not notice",
+        millimetres(layers), millimetres(kFlank)));
+  const auto of_no_file = [&](const char* key, bool set, const std::string& profile) {
+    if (set && !profile.empty() && (names_primitive(profile) || has_track(profile)))
+      notes.push_back(fmt::format("geometry.{} has no effect: {} is built in, not a file", key, profile));
+  };
+  of_no_file("rail_mirror", g.rail_mirror, g.rail_profile);
+  of_no_file("rail_offset", g.rail_offset != 0, g.rail_profile);
+  of_no_file("wheel_mirror", g.wheel_mirror, g.wheel_profile);
+  of_no_file("wheel_offset", g.wheel_offset != 0, g.wheel_profile);
   if (on_no_track(g)) return notes;
   compare(g, notes);
   if (g.track == TrackKind::by_profile && !has_track(g.wheel_profile) && !has_track(g.rail_profile) &&

@@ -22,6 +22,8 @@ rail_profile = "UIC60"
 wheel_profile = "S1002"
 cant = 0.05
 gauge_depth = "14 mm"
+back_to_back = "1353 mm"
+wheel_radius = "430 mm"
 lateral_shift = "9.7 mm"
 [drive]
 traction_coefficient = 0.02
@@ -180,7 +182,7 @@ class HalfSpaceCommands(FromOutside):
 
     def test_check_of_a_contact_that_cannot_be_meshed_names_the_engine_that_takes_it(self):
         flange = ["--set", "geometry.wheel_profile=S1002", "--set", "geometry.rail_profile=UIC60", "--set",
-                  "geometry.lateral_shift=11 mm"]
+                  "geometry.track=CN", "--set", "geometry.lateral_shift=11 mm"]
         self.refused(2, ["check", BASE, *flange], "`railstrata bem` makes no mesh and takes the case",
                      "too close to the end of the rail's running surface")
         self.done("bem", BASE, "--threads", "1", "--cell", "0.1 mm", *flange, "--out", self.folder / "flange")

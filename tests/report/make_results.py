@@ -63,6 +63,8 @@ rail_profile = "UIC60"
 wheel_profile = "S1002"
 cant = 0.05
 gauge_depth = "14 mm"
+back_to_back = "1353 mm"
+wheel_radius = "430 mm"
 lateral_shift = "9.7 mm"
 [drive]
 traction_coefficient = 0.02

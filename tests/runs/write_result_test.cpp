@@ -145,7 +145,8 @@ TEST_F(WriteResult, AHalfSpaceSolutionHasTheFilesOfAPosition) {
 TEST_F(WriteResult, SeveralPatchesAreWrittenAndReadOneAfterTheOther) {
   const LoadedCase loaded = parse_case(
       "[geometry]\nrail_profile = \"UIC60\"\nwheel_profile = \"S1002\"\ncant = 0.05\ngauge_depth = \"14 mm\"\n"
-      "lateral_shift = \"9.6 mm\"\n[drive]\ntraction_coefficient = 0.02\n",
+      "back_to_back = \"1353 mm\"\nwheel_radius = \"430 mm\"\nlateral_shift = \"9.6 "
+      "mm\"\n[drive]\ntraction_coefficient = 0.02\n",
       "two.toml");
   const HalfSpaceSolution solution = written(loaded, 1e-3, folder);
   EXPECT_EQ(names_in(folder), kPosition);
