@@ -17,7 +17,7 @@ AxleWheel wheel_of(const RigidContact& contact, double mean_radius, double half_
           wheel_spin(contact) + std::cos(contact.angle) * curvature};
 }
 
-std::optional<Axle> axle_if_any(const CaseSpec& spec, const Placement& placement) {
+std::optional<AxleOnTrack> axle_if_any(const CaseSpec& spec, const Placement& placement) {
   if (placement.wheel.primitive() || placement.rail.primitive() || std::isfinite(placement.track.rail_radius))
     return std::nullopt;
   try {
@@ -43,7 +43,7 @@ nlohmann::ordered_json json_of(const AxleWheel& w) {
 
 }  // namespace
 
-Axle axle_of(const CaseSpec& spec, const Placement& placement) {
+AxleOnTrack axle_of(const CaseSpec& spec, const Placement& placement) {
   TrackGeometry beside = placement.track;
   for (double TrackGeometry::*odd : {&TrackGeometry::lateral_shift, &TrackGeometry::yaw, &TrackGeometry::roll})
     beside.*odd = -(beside.*odd);
@@ -56,7 +56,7 @@ Axle axle_of(const CaseSpec& spec, const Placement& placement) {
 }
 
 std::string axle_text(const CaseSpec& spec, const Placement& placement) {
-  const std::optional<Axle> axle = axle_if_any(spec, placement);
+  const std::optional<AxleOnTrack> axle = axle_if_any(spec, placement);
   if (!axle) return {};
   return line_of("axle", "this wheel", axle->here) + line_of("", "the other ", axle->other) +
          fmt::format("{:<14} rolling radius of the other less this one {:.3f} mm; the curve asks for {:.3f} mm\n", "",
@@ -64,7 +64,7 @@ std::string axle_text(const CaseSpec& spec, const Placement& placement) {
 }
 
 nlohmann::ordered_json axle_json(const CaseSpec& spec, const Placement& placement) {
-  const std::optional<Axle> axle = axle_if_any(spec, placement);
+  const std::optional<AxleOnTrack> axle = axle_if_any(spec, placement);
   if (!axle) return nullptr;
   return {{"this_wheel", json_of(axle->here)},
           {"other_wheel", json_of(axle->other)},

@@ -15,12 +15,12 @@ struct AxleWheel {
   RigidContact contact;
   double creepage_x = 0, creepage_y = 0, spin = 0;  ///< spin in 1/m
 };
-struct Axle {
+struct AxleOnTrack {
   AxleWheel here, other;
   double radius_difference = 0,
          wanted_difference = 0;  ///< m, r of the other less here; what rolls the curve, 2 e r_m/R
 };
-Axle axle_of(const CaseSpec& spec, const Placement& placement);
+AxleOnTrack axle_of(const CaseSpec& spec, const Placement& placement);
 
 /// Empty where the wheels stand on no track (an arc, a plane, a roller) or the other wheel misses its rail.
 std::string axle_text(const CaseSpec& spec, const Placement& placement);
