@@ -66,8 +66,7 @@ std::vector<Option> track_options() {
           option("cant", at<&C::geometry, &G::cant>, "Inclination of the rail towards the track centre (a tangent)",
                  kSlope, {-0.2, 0.2})
               .with_remedy(kInclination),
-          option("inclination", at<&C::geometry, &G::cant>, "The same as cant: the rail's, 1:20 or 1:40", kSlope,
-                 {-0.2, 0.2})
+          option("inclination", at<&C::geometry, &G::cant>, "The same as cant: the rail's, 1:20 or 1:40", kSlope)
               .with_remedy(kInclination)
               .derived({as_written}),
           option("lateral_shift", at<&C::geometry, &G::lateral_shift>, "Of the wheel, positive to the field side",

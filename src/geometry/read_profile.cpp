@@ -225,7 +225,7 @@ class Reading {
     if (std::abs(height) > 1e-6)
       note(fmt::format("z was shifted by {:.3f} mm so that it is zero at y = 0.", -1e3 * height));
     if (kind_ == ProfileKind::rail && asymmetric(out))
-      note("The head is not symmetric; its gauge side was taken at y < 0 (geometry.rail_mirror turns it round).");
+      note("The head is not symmetric; its gauge side was taken at y < 0.");
     tell_smoothing();
     return out;
   }

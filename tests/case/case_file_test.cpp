@@ -202,8 +202,10 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
   const Bad all[] = {
       {"[geometry]\nguage = \"1.435 m\"\n",
        "a.toml:2:1: unknown key geometry.guage\n    2 | guage = \"1.435 m\"\n      | ^\n    remedy: did you mean "
-       "gauge? keys of [geometry]: rail_profile, wheel_profile, rail_shape, "
-       "wheel_shape, contact, line_length, gauge, gauge_depth, back_to_back, flange_back_to_tape, cant, lateral_shift, "
+       "gauge? keys of [geometry]: rail_profile, wheel_profile, rail_mirror, rail_offset, wheel_mirror, wheel_offset, "
+       "rail_shape, "
+       "wheel_shape, contact, line_length, track, gauge, gauge_depth, back_to_back, flange_back_to_tape, cant, "
+       "inclination, lateral_shift, "
        "yaw, roll, curve_radius, "
        "wheel_radius, rail_radius, "
        "block_width, block_height, rim_thickness, web_thickness, web_offset, "

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <random>
 
 #include "core/faults.hpp"
 #include "geometry/placement.hpp"
@@ -418,10 +419,10 @@ TEST_F(ReadProfile, MiniProf_files_new_and_old_lose_their_switched_off_points) {
 }  // namespace
 TEST_F(ReadProfile, ARailFromItsGaugeFaceIsMovedAndTurnedRoundWhenAsked) {
   const fs::path straight =
-      written(relisted("CN60.csv", [](double y, double z) { return formatted("%.6f,%.6f", y, z); }));
+      written(relisted("cn60_head.csv", [](double y, double z) { return formatted("%.6f,%.6f", y, z); }));
   const Profile original = read_profile(ProfileKind::rail, straight);
   const fs::path moved = written(
-      relisted("CN60.csv", [](double y, double z) { return formatted("%.6f,%.6f", 36.5 - y, z); }), "moved.csv");
+      relisted("cn60_head.csv", [](double y, double z) { return formatted("%.6f,%.6f", 36.5 - y, z); }), "moved.csv");
   EXPECT_THROW(read_profile(ProfileKind::rail, moved), CaseError);
   const Profile back = read_profile(ProfileKind::rail, moved, nullptr, {true, 36.5 * mm});
   for (const double y : {-20 * mm, 5 * mm, 25 * mm}) EXPECT_NEAR(back.height(y), original.height(y), 1e-8);
@@ -430,21 +431,21 @@ TEST_F(ReadProfile, ARailFromItsGaugeFaceIsMovedAndTurnedRoundWhenAsked) {
 TEST_F(ReadProfile, InchesAreTakenWhereTheHeadingHasThem) {
   const auto listed = [](double y, double z) { return formatted("%.8f,%.8f", y / 25.4, z / 25.4); };
   std::vector<std::string> notes;
-  const Profile inches =
-      read_profile(ProfileKind::rail, written("y [in],z [in]\n" + relisted("CN60.csv", listed), "inch.csv"), &notes);
-  const Profile original = read_profile(ProfileKind::rail, shipped("CN60.csv"));
+  const Profile inches = read_profile(
+      ProfileKind::rail, written("y [in],z [in]\n" + relisted("cn60_head.csv", listed), "inch.csv"), &notes);
+  const Profile original = read_profile(ProfileKind::rail, shipped("cn60_head.csv"));
   EXPECT_NEAR(inches.height(20 * mm), original.height(20 * mm), 1e-8);
   EXPECT_NE(notes.front().find("inches"), std::string::npos);
 }
 
 TEST_F(ReadProfile, SmoothingAndHolesAreTold) {
-  int k = 0;
+  std::mt19937 random;
   const auto rough = [&](double y, double z) {
     const bool gap = y > 2 && y < 9;
-    return gap ? std::string("#") : formatted("%.6f,%.6f", y, z + 0.02 * ((++k * 7919) % 11 - 5) / 5.0);
+    return gap ? std::string("#") : formatted("%.6f,%.6f", y, z + 1e-11 * static_cast<double>(random()));
   };
   std::vector<std::string> notes;
-  read_profile(ProfileKind::rail, written(relisted("CN60.csv", rough), "rough.csv"), &notes);
+  read_profile(ProfileKind::rail, written(relisted("cn60_head.csv", rough), "rough.csv"), &notes);
   const auto told = [&](const char* words) {
     return std::any_of(notes.begin(), notes.end(),
                        [&](const std::string& n) { return n.find(words) != std::string::npos; });
