@@ -17,6 +17,24 @@ const std::vector<ListedNumber>& listed_numbers() {
   return numbers;
 }
 
+std::vector<ListedNumber> telling_numbers(const std::vector<CaseRow>& rows) {
+  std::vector<ListedNumber> out{{"shakedown", "shakedown_wandering", 1, 3}};
+  out.insert(out.end(), listed_numbers().begin(), listed_numbers().end());
+  std::erase_if(out, [&](const ListedNumber& n) {
+    const auto shown = [&](const CaseRow& row) {
+      const double v = n.factor * row.number(n.column);
+      return std::isfinite(v) ? fixed(v, n.digits) : std::string();
+    };
+    std::vector<std::string> done;
+    for (const CaseRow& row : rows)
+      if (row.done()) done.push_back(shown(row));
+    const bool same =
+        std::all_of(done.begin(), done.end(), [&](const std::string& text) { return text == done.front(); });
+    return same && !done.empty() && (done.size() > 1 || done.front().empty());
+  });
+  return out;
+}
+
 void print_rows(const std::vector<CaseColumn>& head, const std::vector<ListedNumber>& numbers,
                 const std::vector<CaseRow>& rows) {
   const auto text = [](const CaseColumn& c, const CaseRow& row) { return c.cell(row).get<std::string>(); };

@@ -18,6 +18,9 @@ struct ListedNumber {
 /// Largest pressure and traction, area, slip, longitudinal creepage.
 const std::vector<ListedNumber>& listed_numbers();
 
+/// Those of listed_numbers() and the load factor to shakedown that differ between the cases; of one case all.
+std::vector<ListedNumber> telling_numbers(const std::vector<CaseRow>& rows);
+
 /// A line a row: the cells of `head`, the numbers, the fault; "-" where there is none.
 void print_rows(const std::vector<CaseColumn>& head, const std::vector<ListedNumber>& numbers,
                 const std::vector<CaseRow>& rows);

@@ -12,6 +12,7 @@
 #include "app/control.hpp"
 #include "app/option_values.hpp"
 #include "bem/bem_options.hpp"
+#include "core/printable.hpp"
 #include "io/output_folder.hpp"
 #include "judge/row_strength.hpp"
 #include "many/collective.hpp"
@@ -70,6 +71,14 @@ const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_
                                         {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
                                         {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};
 
+void print_collective(const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+  const CaseTable table = collective_table(rows);
+  print_rows(joined(std::vector<CaseColumn>{{"load", [](const CaseRow& row) { return row.name; }}},
+                    answer_columns(table.rows)),
+             kListed, table.rows);
+  for (const ReportAnswer& a : collective_answers(rows, damage)) fmt::print("{}: {}\n", a.title, printable(a.text));
+}
+
 /// Returns whether the page's verdict holds, true without a page.
 bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& out,
                          const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage) {
@@ -107,7 +116,7 @@ ExitCode command_collective(const CommandOptions& options) {
   if (options.json)
     fmt::print("{}\n", json_text(json, 2));
   else
-    print_rows({{"load", [](const CaseRow& row) { return row.name; }}}, kListed, collective_table(rows).rows);
+    print_collective(rows, damage.rail);
   const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());

@@ -64,10 +64,11 @@ void print_list(const std::vector<CaseRow>& rows, bool json) {
     fmt::print("{}\n", json_text(all, 2));
     return;
   }
-  print_rows({{"case", [](const CaseRow& row) { return row.group + "/" + row.name; }},
-              {"engine", [](const CaseRow& row) { return std::string(engine_word(row.engine)); }},
-              {"state", [](const CaseRow& row) { return row.state; }}},
-             listed_numbers(), rows);
+  const std::vector<CaseColumn> head{
+      {"case", [](const CaseRow& row) { return row.group + "/" + row.name; }},
+      {"engine", [](const CaseRow& row) { return std::string(engine_word(row.engine)); }},
+      {"state", [](const CaseRow& row) { return row.state; }}};
+  print_rows(joined(head, answer_columns(rows)), telling_numbers(rows), rows);
 }
 
 ExitCode list_cases(const CommandOptions& options, const fs::path& out, std::vector<StudyCase>& cases,

@@ -10,6 +10,7 @@
 #include "app/option_values.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
+#include "judge/rail_damage.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 double depth_option(const std::string& text) {
   const double depth = length_of("--max-wear", text);
-  if (depth > 0 && depth <= 1e-3) return depth;
+  if (depth > 0 && depth <= kMostWearOfOneProfile) return depth;
   throw CaseError(fmt::format("--max-wear {}: must be above 0 and at most 1 mm", text), "take e.g. \"0.05 mm\"");
 }
 

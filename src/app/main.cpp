@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 
 #include "app/program.hpp"
@@ -20,5 +21,6 @@ void wait_briefly(char** argv) {
 
 int main(int argc, char** argv) {
   wait_briefly(argv);
+  std::setvbuf(stdout, nullptr, _IOLBF, 1 << 16);  // whole lines, between those of stderr where one file takes both
   return railstrata::run_program(argc, argv);
 }

@@ -49,7 +49,7 @@ Json body_json(const BodyShakedown& b) {
 
 Json answer_json(const Answer& a) {
   const LastsRow& row = lasts_row(a.lasts);
-  return {{"lasts", row.word},    {"title", row.title}, {"tone", row.tone},
+  return {{"lasts", row.word},    {"title", row.title}, {"tone", row.tone},  {"zone", a.zone},
           {"decides", a.decides}, {"reason", a.reason}, {"doubts", a.doubts}};
 }
 

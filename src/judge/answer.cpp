@@ -28,8 +28,12 @@ const BodyShakedown* deciding_body(const ShakedownSummary& s) {
   return at == s.bodies.end() ? nullptr : &*at;
 }
 
+std::string zone_of(const std::string& body, const std::string& zone) {
+  return zone == body ? body : fmt::format("{}: {}", body, zone);
+}
+
 std::string place(const std::string& body, const std::string& zone, double depth) {
-  return fmt::format("{}, {}", zone_in_words(body, zone), depth_in_words(depth));
+  return fmt::format("{}, {}", zone == body ? body : fmt::format("{} of the {}", zone, body), depth_in_words(depth));
 }
 
 std::string by_factors(const BodyShakedown& b) {
@@ -49,20 +53,20 @@ std::string by_factors(const BodyShakedown& b) {
 
 /// What a layer fails by beside its load factors: where, and the words.
 struct LayerFailure {
-  std::string where, words;
+  std::string zone, where, words;
 };
 std::vector<LayerFailure> layer_failures(const Summary& s) {
   std::vector<LayerFailure> out;
   for (const BodyFatigue& b : s.fatigue) {
     for (const BrittleSummary& z : b.brittle)
       if (z.share_of_tensile >= 1 && std::isfinite(z.thickness))
-        out.push_back(
-            {place(b.body, z.zone, z.depth), fmt::format("{} (σ₁ is {:.2f} of its tensile strength)",
-                                                         verdict_text(Verdict::layer_cracks), z.share_of_tensile)});
+        out.push_back({zone_of(b.body, z.zone), place(b.body, z.zone, z.depth),
+                       fmt::format("{} (σ₁ is {:.2f} of its tensile strength)", verdict_text(Verdict::layer_cracks),
+                                   z.share_of_tensile)});
     for (const InterfaceSummary& i : b.interfaces)
       if (i.delamination >= 1)
         out.push_back(
-            {fmt::format("{} on {}, {}", i.above, i.below, depth_in_words(i.depth)),
+            {zone_of(b.body, i.above), fmt::format("{} on {}, {}", i.above, i.below, depth_in_words(i.depth)),
              fmt::format("{} (delamination index {:.2f})", verdict_text(Verdict::interface_shears), i.delamination)});
   }
   return out;
@@ -98,16 +102,6 @@ std::string depth_in_words(double depth) {
   return depth == 0 ? "at the surface" : fmt::format("{:.2f} mm deep", 1e3 * depth);
 }
 
-std::string zone_in_words(const std::string& body, const std::string& zone) {
-  return zone == body ? body : fmt::format("{} of the {}", zone, body);
-}
-
-std::string deciding_zone(const ShakedownSummary& shakedown) {
-  const BodyShakedown* b = deciding_body(shakedown);
-  if (!b) return {};
-  return b->zone == b->body ? b->zone : b->body + ": " + b->zone;
-}
-
 std::optional<Answer> answer_of(const Summary& summary) {
   const BodyShakedown* body = deciding_body(summary.shakedown);
   if (!body) return {};
@@ -118,9 +112,11 @@ std::optional<Answer> answer_of(const Summary& summary) {
   out.doubts = doubts_of(summary);
   std::vector<std::string> reasons;
   if (layers.empty() || !verdict_row(verdict).lasts) {
+    out.zone = zone_of(body->body, body->zone);
     out.decides = place(body->body, body->zone, body->depth);
     reasons.push_back(by_factors(*body));
   } else {
+    out.zone = layers.front().zone;
     out.decides = layers.front().where;
   }
   for (const LayerFailure& f : layers) reasons.push_back(fmt::format("{}: {}", f.where, f.words));

@@ -22,6 +22,7 @@ const LastsRow& lasts_row(Lasts lasts);
 
 struct Answer {
   Lasts lasts = Lasts::yes;
+  std::string zone;                 ///< "rail: layer"; "wheel" where no layer decides; as tables name it
   std::string decides;              ///< "layer of the rail, at the surface"
   std::string reason;               ///< all of it in words, `decides` first
   std::vector<std::string> doubts;  ///< keys of failed checks and of warnings beside which no "yes" can stand
@@ -29,10 +30,6 @@ struct Answer {
 /// Of a "yes" beside a doubt nothing is left: withheld. A "no" stays. None without a strength.
 std::optional<Answer> answer_of(const Summary& summary);
 
-/// "rail: layer"; "wheel" where no layer decides; empty without bodies. As tables name it.
-std::string deciding_zone(const ShakedownSummary& shakedown);
-/// "layer of the rail", "wheel".
-std::string zone_in_words(const std::string& body, const std::string& zone);
 /// "at the surface", "2.31 mm deep".
 std::string depth_in_words(double depth);
 

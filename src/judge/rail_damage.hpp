@@ -14,6 +14,9 @@
 
 namespace railstrata {
 
+/// m, beyond which the wear of one profile says nothing of the rail's: the contact has long moved.
+inline constexpr double kMostWearOfOneProfile = 1e-3;
+
 struct RailDamage {
   double cell = 0;                         ///< m, length of a cell along the profile
   std::vector<double> s, y, z;             ///< m, middles of the cells; y, z in the rail's own frame

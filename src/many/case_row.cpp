@@ -53,6 +53,12 @@ std::vector<CaseColumn> number_columns(const std::vector<CaseRow>& rows) {
   return out;
 }
 
+std::vector<CaseColumn> answer_columns(const std::vector<CaseRow>& rows) {
+  if (std::all_of(rows.begin(), rows.end(), [](const CaseRow& row) { return row.remarks.lasts.empty(); })) return {};
+  return {{"lasts", [](const CaseRow& row) { return row.remarks.lasts; }},
+          {"decided_by", [](const CaseRow& row) { return row.remarks.decided_by; }}};
+}
+
 std::vector<CaseColumn> remark_columns() {
   return {{"fault", [](const CaseRow& row) { return row.fault.empty() ? Json(nullptr) : Json(row.fault); }},
           {"patches", [](const CaseRow& row) { return row.remarks.patches; }},

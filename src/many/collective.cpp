@@ -130,10 +130,4 @@ long faults(const std::vector<CollectiveRow>& rows) {
   return std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return !r.fault.empty(); });
 }
 
-std::string warnings_text(const CollectiveRow& row) {
-  std::string out;
-  for (const Warning& w : row.summary.warnings) out += (out.empty() ? "" : "; ") + w.name;
-  return out;
-}
-
 }  // namespace railstrata

@@ -63,7 +63,4 @@ const CollectiveRow* worst_row(const std::vector<CollectiveRow>& rows);
 /// Rows that were not solved, or whose checks failed.
 long faults(const std::vector<CollectiveRow>& rows);
 
-/// Names of the warnings, for a table.
-std::string warnings_text(const CollectiveRow& row);
-
 }  // namespace railstrata

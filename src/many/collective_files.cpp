@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "judge/answer.hpp"
 #include "many/result_columns.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
@@ -73,12 +75,6 @@ std::vector<ResultColumn> columns_for(const std::vector<CollectiveRow>& rows) {
 /// Lateral position of the contact of a solved row, from the rail's axis, m.
 double contact_y(const CollectiveRow& row) { return model_to_rail(row.track, row.patches.front().contact.point).y; }
 
-std::string deciding_zone(const CollectiveRow& row) {
-  const BodyShakedown* body = row.summary.shakedown.governing();
-  if (!body) return {};
-  return body->zone == body->body ? body->zone : body->body + ": " + body->zone;
-}
-
 Json row_json(const CollectiveRow& row) {
   const double factor = row.summary.shakedown.least(&ShakedownFactors::wandering);
   Json warnings = Json::array();
@@ -99,6 +95,30 @@ ReportCheck unsolved_check(const std::vector<CollectiveRow>& rows) {
       out.note += (out.note.empty() ? "" : "; ") + row.name + ": " + row.fault;
     }
   out.ok = out.value == 0;
+  return out;
+}
+
+/// The depth of a thousand passages, and how far the sum over all of them can be trusted.
+ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const RailDamage& d) {
+  const WearLaw wanted = rows.front().spec.collective.wear_law;
+  const std::vector<KnownWear> known = known_wear(d);
+  const auto asked = std::find_if(known.begin(), known.end(), [&](const KnownWear& w) { return w.law == wanted; });
+  if (asked == known.end()) return {};
+  const std::vector<double>& depth = d.depth(wanted);
+  const auto deepest = std::max_element(depth.begin(), depth.end());
+  double passages = 0;
+  for (const CollectiveRow& row : rows) passages += row.sound() ? row.passages : 0;
+  const double micro = as_shown(unit::kMicrometres, *deepest),
+               y = d.y[static_cast<std::size_t>(deepest - depth.begin())];
+  ReportAnswer out{"plain", "Wear",
+                   fmt::format("{:.3g} µm per 1000 passages at y = {:.1f} mm of the rail ({})", 1000 / passages * micro,
+                               as_shown(unit::kMillimetres, y), asked->words)};
+  if (*deepest <= kMostWearOfOneProfile) return out;
+  out.tone = "open";
+  out.text += fmt::format(
+      "; the {:.0f} µm of all {:.0f} passages are no forecast, for the profile stays unworn: `railstrata wear-loop` "
+      "takes wear off step by step",
+      micro, passages);
   return out;
 }
 
@@ -130,7 +150,8 @@ ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
             number("USFD wear", wear, [](const C& row) { return row.summary.damage.usfd_depth; }),
             number("shakedown", unit::kNone,
                    [](const C& row) { return row.summary.shakedown.least(&ShakedownFactors::wandering); }),
-            {"where", [](const C& row) { return deciding_zone(row); }},
+            {"lasts", [](const C& row) { return remarks_of(row.summary_json).lasts; }},
+            {"decided by", [](const C& row) { return remarks_of(row.summary_json).decided_by; }},
             {"fault", [](const C& row) { return row.fault.empty() ? Json(nullptr) : Json(row.fault); }}});
   return t;
 }
@@ -155,9 +176,17 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
   add("passages; over one place", "", passages, damage.passages, plain);
   add("friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
       damage.friction_energy, [](double v) { return unit::kSurfaceEnergy.factor * v; });
+  for (const KnownWear& wear : known_wear(damage)) {
+    std::vector<double> of_thousand = damage.depth(wear.law);
+    for (double& depth : of_thousand) depth *= 1000 / passages;
+    add("wear of 1000 passages, " + wear.words, "mm²; µm",
+        as_shown(unit::kSquareMillimetres, worn_area(damage, of_thousand)), of_thousand,
+        [](double v) { return as_shown(unit::kMicrometres, v); });
+  }
   for (const KnownWear& wear : known_wear(damage))
-    add("wear, " + wear.words, "mm²; µm", as_shown(unit::kSquareMillimetres, worn_area(damage, damage.depth(wear.law))),
-        damage.depth(wear.law), [](double v) { return as_shown(unit::kMicrometres, v); });
+    add("wear of all, " + wear.words, "mm²; µm",
+        as_shown(unit::kSquareMillimetres, worn_area(damage, damage.depth(wear.law))), damage.depth(wear.law),
+        [](double v) { return as_shown(unit::kMicrometres, v); });
   add("RCF damage", "", nullptr, damage.rcf_damage, plain);
   return t;
 }
@@ -198,6 +227,52 @@ ReportChart wheel_chart(const WheelDamage& d) {
   return out;
 }
 
+/// Round factor by which the largest value is drawn some 5 mm long.
+double magnification(const std::vector<double>& values) {
+  constexpr double kDrawn = 5e-3;
+  const double most = *std::max_element(values.begin(), values.end());
+  return most > 0 ? std::pow(10, std::floor(std::log10(kDrawn / most))) : 0;
+}
+
+/// Points of the profile moved along its normal, outwards positive.
+ReportSeries beside_profile(const std::string& name, const RailDamage& d, const std::vector<double>& outwards) {
+  ReportSeries out{.name = name, .x = {}, .y = {}, .markers = false};
+  for (std::size_t i = 0; i < d.y.size(); ++i) {
+    const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, d.y.size() - 1);
+    const double dy = d.y[after] - d.y[before], dz = d.z[after] - d.z[before], length = std::hypot(dy, dz);
+    const double up = dy > 0 ? 1 : -1;
+    out.x.push_back(as_shown(unit::kMillimetres, d.y[i] - up * outwards[i] * dz / length));
+    out.y.push_back(as_shown(unit::kMillimetres, d.z[i] + up * outwards[i] * dy / length));
+  }
+  return out;
+}
+
+/// Wear and fatigue on the rail's head.
+ReportChart head_chart(const RailDamage& d) {
+  ReportChart out{"profile",
+                  "Wear and rolling contact fatigue on the rail's head",
+                  "",
+                  kAcross,
+                  titled("z", unit::kMillimetres.shown),
+                  {}};
+  const std::vector<double> nothing(d.y.size(), 0);
+  out.series.push_back(beside_profile("rail", d, nothing));
+  const std::vector<KnownWear> known = known_wear(d);
+  if (!known.empty()) {
+    std::vector<double> depth = d.depth(known.front().law);
+    const double factor = magnification(depth);
+    for (double& v : depth) v *= -factor;
+    out.series.push_back(
+        beside_profile(fmt::format("wear, {}, drawn {:.6g} times", known.front().words, factor), d, depth));
+    out.note = "Inwards from the rail: wear of all passages. ";
+  }
+  std::vector<double> rcf;
+  for (const double v : d.rcf_damage) rcf.push_back(1e-3 * std::max(v, 0.0));
+  out.series.push_back(beside_profile("RCF damage, 1 mm for 1", d, rcf));
+  out.note += "Outwards: RCF damage; 1 is a visible crack.";
+  return out;
+}
+
 std::vector<ReportChart> charts_of(const RailDamage& d) {
   using Lines = std::vector<std::pair<std::string, std::vector<double>>>;
   const auto chart = [&](const char* id, const char* title, const char* note, const char* label, const Unit& unit,
@@ -208,13 +283,13 @@ std::vector<ReportChart> charts_of(const RailDamage& d) {
   };
   Lines wear;
   for (const KnownWear& known : known_wear(d)) wear.emplace_back(known.words, d.depth(known.law));
-  return {chart("wear", "Wear depth over the rail", "All passages together.", "wear depth", unit::kMicrometres, wear),
+  return {head_chart(d),
+          chart("wear", "Wear depth over the rail", "All passages together.", "wear depth", unit::kMicrometres, wear),
           chart("rcf", "RCF damage over the rail", "Below zero wear removes cracks.", "RCF damage", unit::kNone,
                 {{"Burstow, R260", d.rcf_damage}}),
           chart("energy", "Friction energy over the rail", "", "friction energy", unit::kSurfaceEnergy,
                 {{"friction energy", d.friction_energy}}),
-          chart("passages", "Passages over the rail", "", "passages", unit::kNone, {{"passages", d.passages}}),
-          chart("profile", "The rail where wheels roll", "", "z", unit::kMillimetres, {{"profile", d.z}})};
+          chart("passages", "Passages over the rail", "", "passages", unit::kNone, {{"passages", d.passages}})};
 }
 
 }  // namespace
@@ -250,9 +325,10 @@ CaseTable collective_table(const std::vector<CollectiveRow>& rows) {
     for (const Column<CollectiveRow>& c : own) row.numbers.emplace_back(c.column_name(), in_column(c.unit, c.value(r)));
     for (const ResultColumn& c : columns) row.numbers.emplace_back(c.name, column_value(c, r.summary_json));
     row.numbers.emplace_back("rcf_damage", r.summary.damage.rcf_damage);
-    row.values = {{"shakedown_zone", deciding_zone(r)}, {"warnings", warnings_text(r)}};
+    row.remarks = remarks_of(r.summary_json);
+    row.values = {{"warnings", row.remarks.warnings}};
   }
-  out.columns = joined(out.columns, number_columns(out.rows), value_columns(out.rows));
+  out.columns = joined(out.columns, number_columns(out.rows), answer_columns(out.rows), value_columns(out.rows));
   out.columns.push_back(remark_columns().front());
   return out;
 }
@@ -296,9 +372,27 @@ Json collective_json(const std::string& title, const std::vector<CollectiveRow>&
           {"totals", totals},
           {"worst_shakedown", worst ? Json{{"load", worst->name},
                                            {"wandering", worst->summary.shakedown.least(&ShakedownFactors::wandering)},
-                                           {"where", deciding_zone(*worst)}}
+                                           {"where", remarks_of(worst->summary_json).decided_by}}
                                     : Json(nullptr)},
           {"loads", all}};
+}
+
+std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+  std::vector<ReportAnswer> out;
+  if (const CollectiveRow* worst = worst_row(rows))
+    if (const std::optional<Answer> answer = answer_of(worst->summary)) {
+      const LastsRow& words = lasts_row(answer->lasts);
+      out.push_back({std::string(words.tone), std::string(words.title),
+                     fmt::format("load \"{}\", {}", worst->name, answer->reason)});
+    }
+  const auto most = std::max_element(damage.rcf_damage.begin(), damage.rcf_damage.end());
+  if (most != damage.rcf_damage.end() && *most >= 1)
+    out.push_back({"bad", "Rolling contact fatigue",
+                   fmt::format("damage {:.3g} at y = {:.1f} mm of the rail, where 1 is a visible crack", *most,
+                               as_shown(unit::kMillimetres,
+                                        damage.y[static_cast<std::size_t>(most - damage.rcf_damage.begin())]))});
+  if (ReportAnswer wear = wear_answer(rows, damage); !wear.text.empty()) out.push_back(std::move(wear));
+  return out;
 }
 
 ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
@@ -310,6 +404,7 @@ ReportVerdict write_collective_page(const std::filesystem::path& page, const std
   report.runs.back().name = shown;
   report.checks = report_checks(report.runs);
   report.checks.insert(report.checks.begin(), unsolved_check(rows));
+  report.answers = collective_answers(rows, damage.rail);
   report.tables = {totals_table(rows, damage.rail), rows_table(rows)};
   report.charts = charts_of(damage.rail);
   report.charts.push_back(wheel_chart(damage.wheel));

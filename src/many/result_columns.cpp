@@ -103,6 +103,10 @@ ResultRemarks remarks_of(const nlohmann::ordered_json& summary) {
   out.checks = names("checks", [](const auto& check) { return !check.value("ok", false); });
   if (out.checks.empty()) out.checks = "ok";
   out.warnings = names("warnings", [](const auto&) { return true; });
+  if (const nlohmann::ordered_json::json_pointer answer("/shakedown/answer"); summary.contains(answer)) {
+    out.lasts = summary[answer].value("lasts", "");
+    out.decided_by = summary[answer].value("zone", "");
+  }
   return out;
 }
 

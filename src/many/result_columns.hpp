@@ -35,10 +35,11 @@ std::string csv_cell(const std::string& text);
 std::string csv_cell(double value);
 
 /// Columns beside the numbers of a result in a table: its patches (0: no result), "ok" or the checks that fail, the
-/// warnings; names separated by "; ".
+/// warnings; names separated by "; "; whether it lasts and the zone that decides, both empty without a strength.
 struct ResultRemarks {
   int patches = 0;
   std::string checks, warnings;
+  std::string lasts, decided_by;
 };
 ResultRemarks remarks_of(const nlohmann::ordered_json& summary);
 

@@ -87,7 +87,8 @@ CaseTable sweep_table(const std::vector<SweepCase>& cases, const std::vector<Axi
     for (std::size_t k = 0; k < axes.size(); ++k) row.values.emplace_back(axes[k].key, c.values[k]);
     for (const ResultColumn& column : columns) row.numbers.emplace_back(column.name, column_value(column, summary));
   }
-  CaseTable out{joined(value_columns(rows), number_columns(rows), remark_columns()), std::move(rows)};
+  CaseTable out{joined(value_columns(rows), number_columns(rows), answer_columns(rows), remark_columns()),
+                std::move(rows)};
   std::erase_if(out.rows, [](const CaseRow& row) { return row.state == "to do"; });
   return out;
 }

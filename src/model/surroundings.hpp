@@ -24,7 +24,7 @@ struct PatchEdges {
   double half_width_over_radius = 0;
   double edge_share = 0;  ///< half-width, of the distance from the patch's middle to the nearest edge of a body or
                           ///< layer; 1: the patch reaches it, or beyond
-  std::string edge;  ///< what edge that is and at which y of its body
+  std::string edge;       ///< what edge that is and at which y of its body
 };
 
 /// The flange of a wheel that stands on a rail with a gauge face.

@@ -189,6 +189,22 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
   return out;
 }
 
+std::vector<ReportAnswer> run_answers(const std::vector<ReportRun>& runs) {
+  const nlohmann::json::json_pointer at("/shakedown/answer");
+  std::vector<ReportAnswer> out;
+  for (const ReportRun& run : runs) {
+    if (!run.result.summary.contains(at) || !run.result.summary[at].is_object()) continue;
+    const nlohmann::json& answer = run.result.summary[at];
+    const std::string whose =
+        runs.size() > 1
+            ? fmt::format("{} ({}), ", run.name,
+                          engine_title(is_engine(run.result.engine, Engine::fem) ? Engine::fem : Engine::bem))
+            : "";
+    out.push_back({answer.value("tone", ""), answer.value("title", ""), whose + answer.value("reason", "")});
+  }
+  return out;
+}
+
 ReportVerdict verdict_of(const Report& report) {
   int judged = 0, failed = 0;
   std::string names;

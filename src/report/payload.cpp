@@ -412,12 +412,15 @@ Json report_payload(const Report& report) {
   out["title"] = report.title;
   out["program"] = version_text();
   out["words"] = results_reference_json();
+  out["answers"] = Json::array();
   out["checks"] = Json::array();
   out["runs"] = Json::array();
   out["tables"] = Json::array();
   out["charts"] = Json::array();
   out["maps"] = Json::array();
   out["grids"] = Json::array();
+  for (const ReportAnswer& a : report.answers)
+    out["answers"].push_back({{"tone", a.tone}, {"title", a.title}, {"text", a.text}});
   for (const ReportCheck& c : report.checks)
     out["checks"].push_back({{"name", c.name},
                              {"runs", c.runs},

@@ -52,6 +52,12 @@ struct ReportCheck {
   std::string note{};
 };
 
+/// An answer of the page, in its banner.
+struct ReportAnswer {
+  std::string tone;         ///< "good", "open", "bad": green, amber, red; "plain": a number beside them
+  std::string title, text;  ///< "Does not last", "wheel, at the surface: …"
+};
+
 /// For a study. Cells hold text, numbers or null.
 struct ReportTable {
   std::string id, title, note;
@@ -118,6 +124,7 @@ struct ReportGrids {
 struct Report {
   std::string title;
   std::vector<ReportRun> runs;
+  std::vector<ReportAnswer> answers;
   std::vector<ReportCheck> checks;
   std::vector<ReportTable> tables;
   std::vector<ReportChart> charts;

@@ -252,7 +252,8 @@ std::vector<ResultNumber> shakedown_numbers() {
           "What the elastic stress may be multiplied by until the first point yields, residual stress of the process "
           "included",
           kMain),
-      row("wandering", kNone, shakedown_number<&F::wandering>, "wandering", "Load factor to shakedown, any traffic",
+      row("wandering", kNone, shakedown_number<&F::wandering>, "wandering",
+          "Load factor to shakedown, wandering traffic",
           "Elastic shakedown with residual stresses of depth alone: safe for every traffic, the limit itself where "
           "wheels wander sideways over more than the patch",
           kMain),

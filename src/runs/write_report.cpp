@@ -123,7 +123,7 @@ bool write_page_or_warn(const fs::path& page, const Control& control, const std:
 
 void report_page(const WrittenPage& page, const Control& control) {
   for (const std::string& note : page.notes) control.warn("{}", note);
-  const std::string verdict = fmt::format("verdict of the page: {}", page.verdict.text);
+  const std::string verdict = fmt::format("checks of the page: {}", page.verdict.text);
   page.verdict.ok ? control.info("{}", verdict) : control.warn("{}", verdict);
 }
 
@@ -148,6 +148,7 @@ WrittenPage write_framed_report(const fs::path& page, const std::vector<fs::path
     }
   add_shear_on_elements(folders, report.runs);
   report.title = title_of(report.runs);
+  report.answers = run_answers(report.runs);
   report.checks = report_checks(report.runs);
   write_whole_file(page, report_page(report, what_if));
   for (const ReportRun& run : report.runs)

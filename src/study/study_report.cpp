@@ -309,6 +309,30 @@ void add_verdict(const std::vector<CaseRow>& entries, Report& report, ReportTabl
   }
 }
 
+/// Over all cases with a strength: how many last.
+std::vector<ReportAnswer> study_answers(const std::vector<CaseRow>& rows) {
+  std::map<std::string, int> lasts, decides;
+  int answered = 0;
+  for (const CaseRow& row : rows) {
+    if (row.remarks.lasts.empty()) continue;
+    ++answered;
+    ++lasts[row.remarks.lasts];
+    if (row.remarks.lasts == "no") ++decides[row.remarks.decided_by];
+  }
+  if (answered == 0) return {};
+  const int yes = lasts["yes"], no = lasts["no"];
+  std::vector<std::string> by, others;
+  for (const auto& [zone, count] : decides) by.push_back(fmt::format("{} in {}", zone, count));
+  for (const auto& [word, count] : lasts)
+    if (word != "yes" && word != "no") others.push_back(fmt::format("{} {}", count, word));
+  return {{yes == answered              ? "good"
+           : yes == 0 && no == answered ? "bad"
+                                        : "open",
+           fmt::format("{} of {} cases last", yes, answered),
+           fmt::format("{} do not{}{}{}", no, by.empty() ? "" : fmt::format(" (decided by {})", fmt::join(by, ", ")),
+                       others.empty() ? "" : "; ", fmt::join(others, ", "))}};
+}
+
 ReportTable engines_table() {
   ReportTable t{.id = "engines",
                 .title = "Finite elements against half-spaces",
@@ -332,6 +356,7 @@ ReportTable engines_table() {
 Report study_report(const StudySpec& study, const Published& published, const std::vector<CaseRow>& entries) {
   Report report;
   report.title = study.title;
+  report.answers = study_answers(entries);
   for (const StudyFigure& f : study.figures) {
     if (f.kind == "centre_line")
       add_centre_lines(f, entries, report);

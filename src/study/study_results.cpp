@@ -347,7 +347,9 @@ void write_study_table(const fs::path& file, std::vector<std::string> origin, co
       {"engine", [](const CaseRow& row) { return std::string(engine_word(row.engine)); }}};
   const std::vector<CaseColumn> state{{"folder", [](const CaseRow& row) { return row.folder.generic_string(); }},
                                       {"state", [](const CaseRow& row) { return row.state; }}};
-  write_cases(file, origin, {joined(head, value_columns(rows), number_columns(rows), state, remark_columns()), rows});
+  write_cases(
+      file, origin,
+      {joined(head, value_columns(rows), number_columns(rows), answer_columns(rows), state, remark_columns()), rows});
 }
 
 }  // namespace railstrata

@@ -28,8 +28,8 @@ TEST(Answer, NamesTheBodyAndTheZoneThatDecide) {
   const Answer yes = *answer_of(clad_rail_and_wheel(1.2));
   EXPECT_EQ(yes.lasts, Lasts::yes);
   EXPECT_EQ(yes.decides, "layer of the rail, 2.50 mm deep");
-  EXPECT_EQ(deciding_zone(clad_rail_and_wheel(1.2).shakedown), "rail: layer");
-  EXPECT_EQ(deciding_zone(clad_rail_and_wheel(0.93).shakedown), "wheel");
+  EXPECT_EQ(yes.zone, "rail: layer");
+  EXPECT_EQ(no.zone, "wheel");
 }
 
 TEST(Answer, OneTrackIsNeitherYesNorNo) {

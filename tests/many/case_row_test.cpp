@@ -17,7 +17,7 @@ std::vector<CaseRow> rows() {
   one.state = "done";
   one.values = {{"geometry.yaw", "1 mrad"}};
   one.numbers = {{"p_max_MPa", 900.5}, {"creepage_x", NAN}};
-  one.remarks = {2, "ok", "edge; film"};
+  one.remarks = {2, "ok", "edge; film", "", ""};
   other.state = "failed";
   other.fault = "said \"no\"";
   other.values = {{"drive.speed", "10 m/s, 20 m/s"}};
@@ -39,6 +39,18 @@ TEST(CaseTable, HasTheKeysAndNumbersOfAllRowsAndIsEmptyWhereARowHasNone) {
   EXPECT_EQ(json[0]["p_max_MPa"], 900.5);
   EXPECT_TRUE(json[0]["creepage_x"].is_null() && json[0]["fault"].is_null());
   EXPECT_EQ(json[1]["fault"], "said \"no\"");
+}
+
+TEST(CaseTable, SaysWhetherItLastsAndWhatDecidesWhereAnyRowHasAnAnswer) {
+  EXPECT_TRUE(answer_columns(rows()).empty());
+  std::vector<CaseRow> two = rows();
+  two[1].remarks =
+      remarks_of(nlohmann::ordered_json::parse(R"({"shakedown": {"answer": {"lasts": "no", "zone": "rail: layer"}}})"));
+  const std::vector<CaseColumn> columns = answer_columns(two);
+  ASSERT_EQ(columns.size(), 2u);
+  EXPECT_EQ(columns[0].cell(two[0]), "");
+  EXPECT_EQ(columns[0].cell(two[1]), "no");
+  EXPECT_EQ(columns[1].cell(two[1]), "rail: layer");
 }
 
 TEST(CaseTable, ATrendHasALineForEachNameInTheOrderOfItsValuesAndALevelForWhatLacksTheKey) {

@@ -52,6 +52,26 @@ TEST(Collective, ARowThatCannotBeSolvedIsToldAndTheOthersGoOn) {
   EXPECT_EQ(json["loads"][1]["name"], "beside the rail");
 }
 
+TEST(Collective, NamesTheLoadThatDecidesAndDoubtsTheWearOfOneProfile) {
+  const auto answers = [](const char* passages) {
+    std::string text = kArcs;
+    text +=
+        "[material.rail]\nhardness = \"280 HV\"\nyield_strength = \"400 MPa\"\n"
+        "[[load]]\nname = \"light\"\nwheel_load = \"20 kN\"\npassages = 1\n"
+        "[[load]]\nname = \"heavy\"\nwheel_load = \"90 kN\"\npassages = ";
+    text += passages;
+    const CaseSpec spec = parse_case(text, "a.toml").spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    return collective_answers(rows, rail_damage(rows, place(spec, {}), 0.5e-3));
+  };
+  const std::vector<ReportAnswer> few = answers("1000");
+  ASSERT_EQ(few.size(), 2u);
+  EXPECT_EQ(few[0].title, "Does not last");
+  EXPECT_TRUE(few[0].text.starts_with("load \"heavy\", rail, ")) << few[0].text;
+  EXPECT_EQ(few[1].tone, "plain") << few[1].text;
+  EXPECT_EQ(answers("1e8").back().tone, "open") << "millimetres";
+}
+
 TEST(Collective, SumsTheRowsTimesTheirPassages) {
   const CaseSpec spec = parse_case(std::string(kArcs) +
                                        "[material.rail]\nhardness = \"280 HV\"\n"

@@ -131,14 +131,14 @@ class Edited(FromOutside):
     def test_as_it_is_written_nothing_is_said(self):
         err = self.messages_of("report", self.out)
         self.assertNotIn("warning", err)
-        self.assertRegex(err, r"info: verdict of the page: all \d+ checks hold\n")
+        self.assertRegex(err, r"info: checks of the page: all \d+ checks hold\n")
         self.assertNotIn("case_edited", self.checks())
 
     def test_a_case_changed_after_the_run_fails_on_page_and_terminal(self):
         self.edit("case.toml", 'speed = "', 'speed = "1')
         err = self.messages_of("report", self.out, code=1)
         self.assertIn(f"warning: {self.out}: case.toml was changed after the run", err)
-        self.assertRegex(err, r"warning: verdict of the page: 1 of \d+ checks fails: Case unchanged since the run\n")
+        self.assertRegex(err, r"warning: checks of the page: 1 of \d+ checks fails: Case unchanged since the run\n")
         self.assertFalse(self.checks()["case_edited"]["ok"])
         self.assertIn("case.toml was changed after the run",
                       self.messages_of("compare", self.out, self.out, "--out", self.folder / "c"))
@@ -146,7 +146,7 @@ class Edited(FromOutside):
     def doubted(self, text):
         err = self.messages_of("report", self.out, code=1)
         self.assertIn(f"warning: {self.out}: {text}", err)
-        self.assertRegex(err, r"warning: verdict of the page: \d of \d+ checks fails?: ")
+        self.assertRegex(err, r"warning: checks of the page: \d of \d+ checks fails?: ")
         self.assertFalse(self.checks()["summary_contradicted"]["ok"])
         self.assertIn(f"warning: {self.out}: {text}",
                       self.messages_of("compare", self.out, self.out, "--force", "--out", self.folder / "c"))

@@ -1114,7 +1114,7 @@ class Command(unittest.TestCase):
             done = subprocess.run([BINARY, "report", FEM, "--out", f"{place}/page.html"], capture_output=True,
                                   text=True, timeout=60)
             self.assertEqual(done.returncode, 1, "as on the page: " + done.stderr)
-            told = re.search(r"warning: verdict of the page: (\d+) of (\d+) checks fails?: ", done.stderr)
+            told = re.search(r"warning: checks of the page: (\d+) of (\d+) checks fails?: ", done.stderr)
             checks = json.loads(re.search(r'id="data">(.*?)</script>', pathlib.Path(place, "page.html").read_text(),
                                           re.S)[1])["checks"]
             judged = [c for c in checks if c["judged"]]

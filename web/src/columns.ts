@@ -75,7 +75,7 @@ export const kColumns: Column[] = [
       ["K", "K", 1.0], 4),
   column("damage/austenitisation", "Share of austenitisation", "austenitisation", ["", "", 1.0], 4),
   column("shakedown/factors/first_yield", "Load factor to first yield", "first_yield", ["", "", 1.0], 4),
-  column("shakedown/factors/wandering", "Load factor to shakedown, any traffic", "wandering", ["", "", 1.0], 4),
+  column("shakedown/factors/wandering", "Load factor to shakedown, wandering traffic", "wandering", ["", "", 1.0], 4),
   column("shakedown/factors/single_track", "Load factor to shakedown, one track", "single_track", ["", "", 1.0], 4),
   column("shakedown/factors/upper", "Upper bound of shakedown", "upper", ["", "", 1.0], 4),
   column("shakedown/factors/kinematic", "Load factor to ratchetting with hardening", "kinematic", ["", "", 1.0], 4),

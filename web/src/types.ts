@@ -88,7 +88,13 @@ export interface Summary {
   patches?: Record<string, number|null>[];  // where the wheel touches at several places
   stress: Record<BodyName, Zones>;
   damage?: Record<string, number|null>;
-  shakedown?: {factors: Factors; verdict?: string; fails_by?: string[]; bodies: BodyShakedown[]};
+  shakedown?: {
+    factors: Factors;
+    verdict?: string;
+    fails_by?: string[];
+    answer?: {lasts: string; title: string; tone: string; zone: string; decides: string; reason: string};
+    bodies: BodyShakedown[];
+  };
   fatigue?: BodyFatigue[];
   plastic?: PlasticNumbers;
   residual?: ResidualNumbers;

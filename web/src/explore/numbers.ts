@@ -138,7 +138,7 @@ export function lasting(a: Answer): HTMLElement|null {
   const titles = ["", "factor", "reserve", "verdict"].map((t) => element("th", {scope: "col"}, t));
   const notes = found.bodies.flatMap((b) => b.notes).map((n) => element("p", {class: "note"}, n));
   return element(
-      "div", {}, element("p", {class: "answer"}, `Under any traffic: ${found.verdict ?? "–"}`),
+      "div", {}, element("p", {class: "answer"}, `Under wandering traffic: ${found.verdict ?? "–"}`),
       element(
           "div", {class: "scroll"},
           element(

@@ -167,7 +167,7 @@ export interface Maps {
 /// Which layer lasts: a row of grids of verdicts over two keys, a grid for each value of a third.
 export interface GridCell {
   verdict: string;
-  factor: number|null;  // to shakedown under any traffic; of a grid of values the value
+  factor: number|null;  // to shakedown under wandering traffic; of a grid of values the value
   fails_by: string[];   // all that ends it
 }
 export interface VerdictGrid {
@@ -265,7 +265,15 @@ export interface Words {
   verdicts: VerdictWords[];
 }
 
+/// An answer of the page's banner; tone "plain": a number beside them.
+export interface Answer {
+  tone: "good"|"open"|"bad"|"plain";
+  title: string;
+  text: string;
+}
+
 export interface Report {
+  answers?: Answer[];
   title: string;
   program: string;
   words: Words;

@@ -12,7 +12,7 @@ import {runLabel, verdictWords} from "./words";
 
 const kFactors: [key: keyof Factors, name: string][] = [
   ["first_yield", "first yield"],
-  ["wandering", "shakedown, any traffic"],
+  ["wandering", "shakedown, wandering traffic"],
   ["single_track", "shakedown, one track"],
   ["upper", "upper bound"],
   ["kinematic", "with hardening"],
@@ -34,8 +34,8 @@ function factorsTable(runs: Run[]): HTMLElement {
   const rows = runs.flatMap(
       (run) => (run.summary.shakedown?.bodies ??
                 []).flatMap((b) => (b.zones ?? []).map((z) => zoneRow(run, runs, b.body, z))));
-  const head = ["zone", "so it", ...kFactors.map(([, name]) => name), "decided at depth [mm]", "which means"];
-  return table("By what the elastic stress of this case may be multiplied", head, rows, {
+  const head = ["zone", "verdict", ...kFactors.map(([, name]) => name), "decided at depth [mm]", "which means"];
+  return table("Load factors", head, rows, {
     class: "numbers",
     id: "shakedown",
   });
@@ -57,10 +57,10 @@ function byDepth(profile: Columns, column: string): {x: Values; y: Values} {
 }
 
 const kLines: [column: string, name: string, dash: Dash][] = [
-  ["yield_strength_MPa", "there is", "solid"],
-  ["required_first_yield_MPa", "asked for to stay elastic", "dot"],
-  ["required_wandering_MPa", "asked for to shake down, any traffic", "dash"],
-  ["required_upper_MPa", "asked for to shake down at best", "dashdot"],
+  ["yield_strength_MPa", "available", "solid"],
+  ["required_first_yield_MPa", "required to stay elastic", "dot"],
+  ["required_wandering_MPa", "required to shake down, wandering traffic", "dash"],
+  ["required_upper_MPa", "required (upper bound)", "dashdot"],
 ];
 
 /// Where two zones of a table by depth meet [mm].
@@ -98,7 +98,7 @@ function strengthFigure(runs: Run[], body: BodyName): Figure|null {
     words: [
       "Uniaxial yield strength. Where the solid line lies right of a broken one there is enough." +
           (levels.length ? " Lines across: where two materials meet." : "") +
-          " Below the frame less is asked for; the table goes on.",
+          " Below the frame less is required; the table goes on.",
     ],
     labels: ["yield strength [MPa]", "depth [mm]"],
     names: ["yield_strength_MPa", "depth_mm"],
@@ -145,11 +145,11 @@ function layersTable(runs: Run[]): HTMLElement|null {
   if (!rows.length) return null;
   const head = [
     "layer",
-    "so it",
+    "verdict",
     "largest σ₁ [MPa]",
     "at depth [mm]",
     "σ₁ over tensile strength",
-    "flaws run that are deeper than [mm]",
+    "critical flaw depth [mm]",
   ];
   return table("Does a brittle layer crack?", head, rows, {class: "numbers", id: "brittle"});
 }
@@ -171,7 +171,7 @@ function interfacesTable(runs: Run[]): HTMLElement|null {
   if (!rows.length) return null;
   const head = [
     "interface",
-    "so it",
+    "verdict",
     "at depth [mm]",
     "tension [MPa]",
     "shear [MPa]",
@@ -181,17 +181,13 @@ function interfacesTable(runs: Run[]): HTMLElement|null {
   return table("Does a layer come off?", head, rows, {class: "numbers", id: "interfaces"});
 }
 
-/// The answer of each run in a line.
+/// The answer of each run in a line; of a folder written before there were answers: none.
 function answers(runs: Run[]): HTMLElement[] {
-  return runs.map((run) => {
-    const s = run.summary.shakedown!;
-    const why = s.fails_by ?? [];
-    const oneTrack = why.length === 1 && why[0] === "shakes down in one track";
-    const words = oneTrack ? "In one track only: wheels that wander sideways make it yield again and again."
-        : why.length       ? `No: ${why.join("; ")}.`
-                           : `Yes: ${s.verdict ?? "no limit is reached"      }.`;
-    const text = runs.length > 1 ? `${runLabel(run)}: ${words}` : words;
-    return element("p", {class: `answer ${why.length ? "failed" : "ok"}`}, text);
+  return runs.flatMap((run) => {
+    const answer = run.summary.shakedown!.answer;
+    if (!answer) return [];
+    const words = `${answer.title}: ${answer.reason}.`;
+    return [element("p", {class: `answer ${answer.tone}`}, runs.length > 1 ? `${runLabel(run)}: ${words}` : words)];
   });
 }
 
@@ -252,7 +248,7 @@ function usedFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
 
 const kLimits: [column: string, name: string, dash: Dash][] = [
   ["p_max_first_yield_MPa", "first yield", "dot"],
-  ["p_max_wandering_MPa", "shakedown, any traffic", "solid"],
+  ["p_max_wandering_MPa", "shakedown, wandering traffic", "solid"],
   ["p_max_upper_MPa", "upper bound", "dashdot"],
 ];
 
@@ -283,7 +279,7 @@ function slidingFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
     title: ["Limit pressure against traction", body, ...(runs.length > 1 ? [runLabel(run)] : [])].join(", "),
     words: [
       "Largest pressure at each limit for the shape of this patch, these layers and these strengths, if it slid " +
-          "everywhere with q = traction times p. Above the solid line it does not shake down under any traffic. This " +
+          "everywhere with q = traction times p. Above the solid line it does not shake down under wandering traffic. This " +
           "case sticks in part of its patch: its own factors are in the table.",
     ],
     labels: ["traction coefficient q/p", "p_max [MPa]"],
@@ -318,7 +314,7 @@ export function lastsPart(runs: Run[]): HTMLElement|null {
   return part(
       "lasts",
       "Does it last?",
-      ...(given.some((run) => run.summary.shakedown!.fails_by) ? answers(given) : []),
+      ...answers(given),
       factorsTable(given),
       words,
       ...layers,

@@ -85,13 +85,13 @@ function chartFigure(c: ChartData): Figure {
   });
 }
 
-/// Over all cases; of a page without runs the figures first.
+/// Over all cases, the figures first.
 function studyParts(): HTMLElement[] {
   const lasts = report.grids.length ? [part("grids", "What lasts", ...report.grids.flatMap(gridsRow))] : [];
   const answers = report.tables.length ? [part("tables", "Answers", ...report.tables.flatMap(studyTable))] : [];
   const charts = report.charts.length ? [part("charts", "Figures", grid(report.charts.map(chartFigure)))] : [];
   const maps = report.maps.length ? [part("maps", "Maps", ...report.maps.flatMap(mapsRow))] : [];
-  return [...lasts, ...(report.runs.length ? [...answers, ...charts] : [...charts, ...answers]), ...maps];
+  return [...lasts, ...charts, ...maps, ...answers];
 }
 
 /// Of a line through the patch only where it touches, with a little room; everything of a trend.
@@ -211,8 +211,9 @@ function contents(): [id: string, name: string][] {
   const all: Entry[] = [
     ["verdict", "verdict", judged()],
     ["grids", "what lasts", report.grids.length > 0],
-    ...(runs ? [answers, figures] : [figures, answers]),
+    figures,
     ["maps", "maps", report.maps.length > 0],
+    answers,
     ["numbers", "numbers", runs],
     ["geometry", "geometry", runs],
     ["patch", "patch", runs],

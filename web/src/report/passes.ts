@@ -36,7 +36,7 @@ function shakedownWords(s: PassesSummary): string|null {
   const f = s.shakedown?.factors;
   if (!f) return null;
   const limits: [key: string, name: string][] = [
-    ["first_yield", "first yield"], ["wandering", "any traffic"], ["single_track", "one track"],
+    ["first_yield", "first yield"], ["wandering", "wandering traffic"], ["single_track", "one track"],
     ["kinematic", "with kinematic hardening"]
   ];
   const said =
@@ -93,7 +93,7 @@ function factsTable(all: PassesStory[]): HTMLElement {
     ["where, depth [mm]", (s) => numberText(s.last_pass.net_depth_mm, 3)],
     ["most compressive σ_x [MPa]", (s) => numberText(s.last_pass.sigma_x_min_MPa, 3)],
     ["most compressive σ_y [MPa]", (s) => numberText(s.last_pass.sigma_y_min_MPa, 3)],
-    ["shakedown factor, any traffic", (s) => numberText(s.shakedown?.factors.wandering, 3)],
+    ["shakedown factor, wandering traffic", (s) => numberText(s.shakedown?.factors.wandering, 3)],
     ["shakedown factor, one track", (s) => numberText(s.shakedown?.factors.single_track, 3)],
     ["by these factors it", (s) => s.shakedown?.verdict ?? "–"],
   ];
@@ -181,7 +181,7 @@ const kMaps: Quantity[] = [
     bar: "MPa",
     hover: "σ_x %{z:.0f} MPa",
     unit: "sigma_xx_MPa",
-    words: ["Blue presses, red pulls. What the passes have left when no wheel is near."],
+    words: ["Blue: compression, red: tension. What the passes have left when no wheel is near."],
     signed: true,
   },
   {
@@ -199,11 +199,11 @@ const kMaps: Quantity[] = [
     bar: "p",
     hover: "p %{z:.3g}",
     unit: "plastic_strain_accumulated",
-    words: ["Every flow counts, to and fro: p grows in closed cycles too."],
+    words: ["p adds up every plastic strain increment, so it grows in closed cycles too."],
   },
   {
     column: "class",
-    title: "What becomes of each point",
+    title: "Class of each point",
     bar: "",
     hover: "%{text}",
     unit: "class",
@@ -287,7 +287,7 @@ function sectionMaps(all: SectionHistory[], quantities: Quantity[]): Figure[] {
 /// Residual stress of single runs, which have made one pass.
 export function residualMaps(all: SectionHistory[]): Figure[] {
   const [along, across] = kMaps;
-  const words = ["Blue presses, red pulls. What the wheel leaves behind."];
+  const words = ["Blue: compression, red: tension. What the wheel leaves behind."];
   return sectionMaps(all, [{...along, id: "residual", words}, {...across, id: "residual"}]);
 }
 
@@ -412,7 +412,7 @@ function alongMaps(s: PassesStory, all: PassesStory[]): Figure[] {
   const windowX: Span = [Math.min(...x), Math.max(...x)];
   const kinds: [column: string, title: string][] = [
     ["von_mises_elastic_MPa", "Von Mises stress under the wheel, elastic"],
-    ["von_mises_MPa", "The same as the rail yields, last pass"],
+    ["von_mises_MPa", "With the rail yielding, last pass"],
   ];
   return kinds.map(
       ([column, title]) => mapFigure({

@@ -2,7 +2,7 @@
 import {details, element, note, table, tableHead, type Cell} from "../dom";
 import {barText, countText, numberText, percentText} from "../text";
 import type {BodyName, Values} from "../types";
-import {numberAt, option, type Check, type CheckWords, type Quantity, type Report, type Run} from "./data";
+import {numberAt, option, type Answer, type Check, type CheckWords, type Quantity, type Report, type Run} from "./data";
 import {
   checkWords,
   engineName,
@@ -63,6 +63,22 @@ function checksTable(report: Report, checks: Check[]): HTMLElement {
   return element("div", {class: "scroll"}, element("table", {class: "checks"}, head, body));
 }
 
+const kToneMarks: Record<string, string> = {good: "✓ ", open: "! ", bad: "✗ "};
+
+/// Answers, the worst first: their tone is the banner's.
+function answerLines(answers: Answer[]): HTMLElement[] {
+  return answers.map((a) => {
+    const tag = a.tone === "plain" ? "p" : "h2";
+    return element(tag, {class: a.tone, "data-tone": a.tone}, `${kToneMarks[a.tone] ?? ""}${a.title}: ${a.text}.`);
+  });
+}
+
+function toneOf(answers: Answer[], ok: boolean): string {
+  const tones = answers.map((a) => a.tone);
+  if (!tones.some((t) => t !== "plain")) return ok ? "good" : "bad";
+  return (["bad", "open"] as const).find((t) => tones.includes(t)) ?? "good";
+}
+
 function verdictLine(judged: Check[], failed: Check[]): string {
   if (!judged.length) return "Nothing was checked.";
   if (!failed.length) return `All ${judged.length} checks hold.`;
@@ -76,7 +92,7 @@ function warning(failed: Check[]): HTMLElement|null {
   return element("p", {class: "failed"}, `Read the results with care: ${[...names].join(", ")}.`);
 }
 
-/// What is to be minded beside the verdict, each once with its largest value.
+/// Notes beside the verdict, each once with its largest value.
 function mind(notes: Check[]): HTMLElement|null {
   if (!notes.length) return null;
   const worst = new Map<string, Check>();
@@ -86,18 +102,24 @@ function mind(notes: Check[]): HTMLElement|null {
     const {name, unit} = checkWords(c.name);
     return c.value === null ? name : `${name} (${unitText(c.value, unit, 3)})`;
   };
-  return element("p", {class: "minded"}, `To be minded: ${[...worst.values()].map(text).join("; ")}.`);
+  return element("p", {class: "minded"}, `Notes: ${[...worst.values()].map(text).join("; ")}.`);
 }
 
-/// Green or red, in words. What failed stands open, the checks that hold and the notes on demand.
+/// The answers in green, amber or red, the checks below them in a line; without an answer the checks alone. What failed
+/// stands open, the checks that hold and the notes on demand.
 export function verdict(report: Report): HTMLElement {
   const judged = report.checks.filter((c) => c.judged);
   const failed = judged.filter((c) => !c.ok);
   const holds = judged.filter((c) => c.ok);
   const notes = report.checks.filter((c) => !c.judged);
   const ok = judged.length > 0 && failed.length === 0;
-  const heading = element("h2", {}, ok ? "✓ " : "✗ ", verdictLine(judged, failed));
-  const attributes = {id: "verdict", class: ok ? "good" : "bad", "data-ok": String(ok)};
+  const answers = answerLines(report.answers ?? []);
+  const banner = (report.answers ?? []).some((a) => a.tone !== "plain");
+  const line = verdictLine(judged, failed);
+  const heading = banner ? element("p", {class: failed.length ? "failed" : "held"}, `Numerical checks: ${line}`)
+                         : element("h2", {}, ok ? "✓ " : "✗ ", line);
+  const tone = toneOf(report.answers ?? [], ok);
+  const attributes = {id: "verdict", class: tone, "data-ok": String(ok), "data-tone": tone};
   const count = (n: number, one: string, more: string) => (n ? [`${n} ${n === 1 ? one : more}`] : []);
   const folded = [
     ...count(holds.length, "check that holds", "checks that hold"),
@@ -105,7 +127,7 @@ export function verdict(report: Report): HTMLElement {
   ];
   const rest = folded.length ? details(folded.join(", "), checksTable(report, [...holds, ...notes])) : null;
   const open = failed.length ? checksTable(report, failed) : null;
-  return element("section", attributes, heading, warning(failed), open, mind(notes), rest);
+  return element("section", attributes, ...(banner ? [...answers, heading] : [heading, ...answers]), warning(failed), open, mind(notes), rest);
 }
 
 interface Inside {
@@ -213,7 +235,7 @@ function insideTile(runs: Run[]): HTMLElement {
 
 /// The numbers of the first run large, those of a second below them; `named`: with whose they are.
 export function tiles(runs: Run[], named: boolean): HTMLElement {
-  const beside = runs.length > 1 ? `, in small letters of ${besideName(runs[1], runs)}` : "";
+  const beside = runs.length > 1 ? `, small: ${besideName(runs[1], runs)}` : "";
   const name = `Numbers of ${runLabel(runs[0])}${beside}.`;
   const cards = element(
       "div",
