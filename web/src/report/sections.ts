@@ -63,7 +63,11 @@ function checksTable(report: Report, checks: Check[]): HTMLElement {
   return element("div", {class: "scroll"}, element("table", {class: "checks"}, head, body));
 }
 
-const kToneMarks: Record<string, string> = {good: "✓ ", open: "! ", bad: "✗ "};
+const kToneMarks: Record<string, string> = {
+  good: "✓ ",
+  open: "! ",
+  bad: "✗ "
+};
 
 /// Answers, the worst first: their tone is the banner's.
 function answerLines(answers: Answer[]): HTMLElement[] {
@@ -127,7 +131,9 @@ export function verdict(report: Report): HTMLElement {
   ];
   const rest = folded.length ? details(folded.join(", "), checksTable(report, [...holds, ...notes])) : null;
   const open = failed.length ? checksTable(report, failed) : null;
-  return element("section", attributes, ...(banner ? [...answers, heading] : [heading, ...answers]), warning(failed), open, mind(notes), rest);
+  return element(
+      "section", attributes, ...(banner ? [...answers, heading] : [heading, ...answers]), warning(failed), open,
+      mind(notes), rest);
 }
 
 interface Inside {
