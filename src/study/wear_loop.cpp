@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/faults.hpp"
 #include "jobs/state_table.hpp"
 #include "many/collective_files.hpp"
+#include "model/zone.hpp"
 
 namespace railstrata {
 namespace {
@@ -96,7 +98,83 @@ void wear_off(const Profile& profile, const std::vector<double>& depth, double s
   step.rail.area = before.area + area_between(old, step.rail.points);
 }
 
+/// Place of the rail's uppermost layer among the layers; none without one.
+std::optional<std::size_t> top_layer(const CaseSpec& spec) {
+  const std::vector<std::size_t> layers = layers_on(spec, BodyId::rail);
+  if (layers.empty()) return {};
+  return layers.front();
+}
+
+/// On the worn rail at y, between its points.
+Vec2 worn_point(const std::vector<Vec2>& points, double y) {
+  std::size_t i = 1;
+  while (i + 1 < points.size() && (points[i].y - y) * (points[i - 1].y - y) > 0) ++i;
+  const double share = std::clamp((y - points[i - 1].y) / (points[i].y - points[i - 1].y), 0.0, 1.0);
+  return points[i - 1] + share * (points[i] - points[i - 1]);
+}
+
+/// Every load meets the layer as thick as it is where it touches.
+void thin_layers(std::vector<CollectiveRow>& rows, const std::filesystem::path& folder, const std::vector<Vec2>& unworn,
+                 const std::vector<Vec2>& worn) {
+  for (CollectiveRow& row : rows) {
+    const Placement placement = place(row.spec, folder);
+    const double y = model_to_rail(placement.track, placement.contact.point).y;
+    row.spec.layers[*top_layer(row.spec)].thickness -= depth_below(unworn, worn_point(worn, y));
+  }
+}
+
+/// What is left of the layer in the cells that wear, m; where the passages of one collective first wear it through.
+struct LayerLeft {
+  std::vector<double> left;
+  double collectives = HUGE_VAL;
+  std::size_t first = 0;
+};
+LayerLeft layer_left(double thickness, const std::vector<Vec2>& unworn, const std::vector<Vec2>& worn,
+                     const RailDamage& damage, const std::vector<double>& depth) {
+  LayerLeft out;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double worn_by = depth[i] > 0 ? depth_below(unworn, worn_point(worn, damage.y[i])) : 0;
+    out.left.push_back(std::max(thickness - worn_by, 0.0));
+    if (!(depth[i] > 0) || out.left[i] / depth[i] >= out.collectives) continue;
+    out.collectives = out.left[i] / depth[i];
+    out.first = i;
+  }
+  return out;
+}
+
+/// After a share of a collective.
+void note_layer(const LayerLeft& layer, const std::vector<double>& depth, double share, WearStep& step) {
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double left = layer.left[i] - share * depth[i];
+    if (step.layer_left <= left) continue;
+    step.layer_left = left;
+    step.layer_y = step.damage.y[i];
+  }
+  if (share >= layer.collectives * (1 - 1e-12)) {
+    step.layer_left = 0;
+    step.layer_y = step.damage.y[layer.first];
+  }
+}
+
+double tonnes_of(const std::vector<CollectiveRow>& rows) {
+  constexpr double kGravity = 9.80665, kTonne = 1e3;
+  double out = 0;
+  for (const CollectiveRow& row : rows) out += row.passages * row.summary.contact.F_z / kGravity / kTonne;
+  return out;
+}
+
 }  // namespace
+
+double depth_below(const std::vector<Vec2>& unworn, Vec2 point) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 1; i < unworn.size(); ++i) {
+    const Vec2 along = unworn[i] - unworn[i - 1], to = point - unworn[i - 1];
+    const double share = std::clamp(dot(to, along) / dot(along, along), 0.0, 1.0);
+    const Vec2 away = to - share * along;
+    least = std::min(least, dot(away, away));
+  }
+  return std::sqrt(least);
+}
 
 WornRail unworn(const Placement& placement, double cell) {
   WornRail out;
@@ -144,6 +222,9 @@ WearStep wear_step(const CaseSpec& spec, const std::filesystem::path& folder, co
   const CaseSpec worn = on_worn_rail(spec, original, rail);
   step.gauge = worn.geometry.gauge;
   step.rows = plan_collective(worn);
+  const std::optional<std::size_t> top = top_layer(spec);
+  const std::vector<Vec2> first = unworn(original, options.collective.bem.cell).points;
+  if (top && !rail.file.empty()) thin_layers(step.rows, folder, first, rail.points);
   solve_collective(step.rows, folder, options.collective);
   step.stopped = std::any_of(step.rows.begin(), step.rows.end(), [](const CollectiveRow& r) { return !r.done; });
   if (step.stopped) return step;
@@ -154,7 +235,12 @@ WearStep wear_step(const CaseSpec& spec, const std::filesystem::path& folder, co
   const double deepest = *std::max_element(depth.begin(), depth.end()), collective = all_passages(step.rows);
   step.passages = collective * options.max_wear / deepest;
   if (options.passages_left > 0) step.passages = std::min(step.passages, options.passages_left);
+  LayerLeft layer;
+  if (top) layer = layer_left(spec.layers[*top].thickness, first, rail.points, step.damage, depth);
+  step.passages = std::min(step.passages, collective * layer.collectives);
   const double share = step.passages / collective;
+  if (top) note_layer(layer, depth, share, step);
+  step.tonnes = share * tonnes_of(step.rows);
   step.deepest = share * deepest;
   step.wanted_area = share * streamline_area(step.rows, spec.collective.wear_law);
   step.rail.step = rail.step + 1;

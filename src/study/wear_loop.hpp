@@ -4,7 +4,9 @@
 // A step takes as many passages as wear the deepest place by a chosen depth. The wear of a cell is moved inwards along
 // the profile's normal. Before that neighbouring cells that wheels have rolled over exchange a quarter of their
 // difference, again and again until a peak of one cell has a standard deviation of four cells: the area stays, and
-// where nothing rolled nothing wears. The rail stays in its place in the track: what wears off its gauge face widens
+// where nothing rolled nothing wears. The uppermost layer of the rail thins: every load is solved with the thickness
+// that is left where it touches, and a step takes no more than what is left where the layer wears through first. The
+// rail stays in its place in the track: what wears off its gauge face widens
 // the gauge.
 #include <filesystem>
 #include <string>
@@ -25,6 +27,9 @@ struct WornRail {
 
 WornRail unworn(const Placement& placement, double cell);
 
+/// m, how far a point of the worn rail lies below the unworn one, in its frame.
+double depth_below(const std::vector<Vec2>& unworn, Vec2 point);
+
 /// The wear depth of every cell [m], smoothed as above.
 std::vector<double> smoothed_wear(const RailDamage& damage, WearLaw law);
 
@@ -39,14 +44,18 @@ struct WearStepOptions {
 
 /// Result of a step.
 struct WearStep {
-  std::vector<CollectiveRow> rows;  ///< on the rail as it was before the step
-  RailDamage damage;                ///< of one collective
-  double passages = 0;              ///< of this step
-  double deepest = 0;               ///< m
-  double wanted_area = 0;           ///< m², of the streamlines
-  double gauge = 0;                 ///< m, of the track on the rail as it was
-  WornRail rail;                    ///< afterwards; its area is that between the profiles, its file empty
-  bool stopped = false;             ///< on request: nothing of this is complete
+  std::vector<CollectiveRow> rows;     ///< on the rail as it was before the step
+  RailDamage damage;                   ///< of one collective
+  double passages = 0;                 ///< of this step
+  double deepest = 0;                  ///< m
+  double wanted_area = 0;              ///< m², of the streamlines
+  double gauge = 0;                    ///< m, of the track on the rail as it was
+  WornRail rail;                       ///< afterwards; its area is that between the profiles, its file empty
+  double layer_left = kNotApplicable;  ///< m, of the rail's uppermost layer where least is left after the step; 0: worn
+                                       ///< through; NaN without a layer
+  double layer_y = kNotApplicable;     ///< m, of that place in the rail's frame
+  double tonnes = 0;                   ///< of the loads of this step's wheels
+  bool stopped = false;                ///< on request: nothing of this is complete
 };
 
 /// Throws CaseError where a load cannot be solved or fails a check, where nothing wears, and where the wear law lacks

@@ -25,6 +25,9 @@ struct WearLoopRow {
   double gauge = 0;               ///< on the rail before the step; so the following
   double pressure = 0;            ///< largest of all loads
   double t_gamma = 0;             ///< likewise
+  double layer_left = 0;          ///< least of the rail's uppermost layer after the step; NaN without one
+  double layer_y = 0;             ///< there, from the rail's axis
+  double tonnes = 0;              ///< on this rail with this step
   double first_y = 0;             ///< where the first load touches, from the rail's axis
 };
 using R = WearLoopRow;
@@ -42,9 +45,12 @@ const StateColumns<R> kColumns{{"step", &R::step},
                                {"gauge", &R::gauge, unit::kMillimetres},
                                {"p_max", &R::pressure, unit::kMPa},
                                {"t_gamma_max", &R::t_gamma, unit::kNewtons},
+                               {"layer_left", &R::layer_left, unit::kMicrometres},
+                               {"layer_left_y", &R::layer_y, unit::kMillimetres},
+                               {"tonnes", &R::tonnes},
                                {"rail_y_first", &R::first_y, unit::kMillimetres}};
 
-WearLoopRow row_of(const WearStep& step, double area_before) {
+WearLoopRow row_of(const WearStep& step, double area_before, double tonnes_before) {
   double pressure = 0, t_gamma = 0;
   for (const CollectiveRow& row : step.rows) {
     pressure = std::max(pressure, row.summary.contact.patch.p_max);
@@ -59,6 +65,9 @@ WearLoopRow row_of(const WearStep& step, double area_before) {
                              .gauge = step.gauge,
                              .pressure = pressure,
                              .t_gamma = t_gamma,
+                             .layer_left = step.layer_left,
+                             .layer_y = step.layer_y,
+                             .tonnes = tonnes_before + step.tonnes,
                              .first_y = model_to_rail(first.track, first.patches.front().contact.point).y});
 }
 
@@ -116,8 +125,10 @@ class WearLoopJob : public CaseJob {
     std::erase_if(loads_, [&](const WearLoad& load) { return load.step > last.step; });  // a kill came before their row
   }
 
+  bool worn_through() const { return !rows_.empty() && rows_.back().layer_left <= 0; }
+
   bool finished() const override {
-    return (wanted_.steps > 0 && rail_.step >= wanted_.steps) ||
+    return worn_through() || (wanted_.steps > 0 && rail_.step >= wanted_.steps) ||
            (wanted_.passages > 0 && rail_.passages >= wanted_.passages * (1 - 1e-12));
   }
 
@@ -141,7 +152,7 @@ class WearLoopJob : public CaseJob {
     write_rail_damage(in / "rail_damage.csv", origin(), step.damage);
     for (const WearLoad& load : wear_loads(step, rail_.passages)) loads_.push_back(load);
     write_rows(folder() / kWearLoads, origin(), wear_load_columns(), loads_);
-    rows_.push_back(row_of(step, rail_.area));
+    rows_.push_back(row_of(step, rail_.area, rows_.empty() ? 0 : rows_.back().tonnes));
     write_rows(folder() / kWearTable, origin(), kColumns, rows_);
     warn_of_jump();
     const WearLoopRow& row = rows_.back();
@@ -165,6 +176,11 @@ class WearLoopJob : public CaseJob {
   }
 
   void finish() override {
+    if (worn_through())
+      control_.warn(
+          "the rail's uppermost layer is worn through at y = {:.1f} mm after {:.6g} passages, {:.4g} tonnes on this "
+          "rail; the loop ends here",
+          rows_.back().layer_y, rail_.passages, rows_.back().tonnes);
     control_.info("{:.6g} passages in {} steps, {:.4g} mm² worn off; the worn rail: {}", rail_.passages, rail_.step,
                   unit::kSquareMillimetres.factor * rail_.area, rail_.file.string());
   }

@@ -71,6 +71,29 @@ constexpr double kPassages = 2e5;
 
 }  // namespace
 
+TEST(WearLoop, TheLayerThinsWhereItWearsAndTheStepEndsWhereItIsThrough) {
+  const CaseSpec spec = arcs(
+      "[material.rail]\nhardness = \"280 HV\"\n[[layer]]\nthickness = \"0.05 mm\"\nyoung_ratio = 1.5\n"
+      "hardness = \"280 HV\"\n[[load]]\npassages = 1000\n");
+  const Placement original = place(spec, {});
+  const TemporaryFolder folder;
+  WornRail rail = unworn(original, kCell);
+  const WearStep first = wear_step(spec, {}, original, rail, coarse(0.02e-3));
+  EXPECT_NEAR(first.deepest, 0.02e-3, 1e-12);
+  EXPECT_NEAR(first.layer_left, 0.03e-3, 1e-9);
+  EXPECT_EQ(first.rows[0].spec.layers[0].thickness, 0.05e-3) << "a new rail";
+  EXPECT_NEAR(first.tonnes, first.passages * first.rows[0].summary.contact.F_z / 9806.65, 1e-9 * first.tonnes);
+  rail = first.rail;
+  rail.file = folder.path() / "worn.csv";
+  write_worn_profile(rail.file, {}, rail.points);
+  const WearStep last = wear_step(spec, {}, original, rail, coarse(0.5e-3));
+  EXPECT_NEAR(last.rows[0].spec.layers[0].thickness, 0.03e-3, 1e-6) << "the wheel touches where most is worn off";
+  EXPECT_EQ(last.layer_left, 0) << "through";
+  EXPECT_NEAR(last.deepest, 0.03e-3, 1e-6) << "no further, though half a millimetre was allowed";
+  EXPECT_NEAR(depth_below(unworn(original, kCell).points, last.rail.points[last.rail.points.size() / 2]), 0.05e-3,
+              1e-6);
+}
+
 TEST(WearLoop, TheAreaOffTheProfileIsThatOfTheStreamlines) {
   const CaseSpec spec = arcs("[[load]]\npassages = 3\nlateral_shift = \"2 mm\"\n[[load]]\nwheel_load = \"60 kN\"\n");
   const Worn result = worn(spec, kPassages, 2);
