@@ -61,7 +61,8 @@ void add_trend(ReportChart& chart, const std::string& key, const std::string& co
 }
 
 std::string axis_title(const std::string& name, const std::vector<std::string>& values) {
-  return titled(name, values.empty() ? "" : axis_value(values.front()).second);
+  const auto first = axis_value(values.empty() ? "" : values.front());
+  return titled(name, std::isfinite(first.first) ? first.second : "");  // "R260" is no unit
 }
 
 ReportTable cases_table(const std::string& note, const std::vector<CaseColumn>& head,

@@ -66,7 +66,9 @@ std::vector<PassStrain> remembered_passes(const CsvTable& state, std::size_t row
 }
 
 PassProgress progress_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last) {
-  PassProgress out{verdict, last};
+  PassProgress out;
+  out.verdict = verdict;
+  out.last = last;
   for (std::size_t n = 0; n < strains.size(); ++n) {
     out.ever_yielded = out.ever_yielded || strains[n].accumulated > 0;
     if (strains[n].accumulated >= kNoFlow) out.first_quiet = static_cast<int>(n) + 2;

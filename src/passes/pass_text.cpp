@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "damage/low_cycle.hpp"
 #include "material/strain_claim.hpp"
 
 namespace railstrata {
@@ -17,10 +18,23 @@ std::string strain_text(double v) {
   return text;
 }
 
-constexpr double kConstant = 0.05;  // of a trend
+/// ", falling as the pass to the power of -0.34"
+std::string trend_text(const PassVerdict& v) {
+  return v.trend > kConstantTrend ? fmt::format(", falling as the pass to the power of -{:.2f}", v.trend) : "";
+}
 
-/// " as the pass to the power of -0.34"
-std::string trend_text(const PassVerdict& v) { return fmt::format(" as the pass to the power of -{:.2f}", v.trend); }
+/// "32000": two digits, nobody knows more of so many passes.
+std::string roughly(double passes) {
+  const double unit = passes >= 10 ? std::pow(10, std::floor(std::log10(passes)) - 1) : 1;
+  return fmt::format("{:.0f}", unit * std::round(passes / unit));
+}
+
+std::string life_text(const PassProgress& s) {
+  if (!s.ductility) return "passes.ductility would give its life by Coffin and Manson";
+  const LowCycleLife life = low_cycle_life(s.last.largest.accumulated, *s.ductility);
+  return fmt::format("{} to {} passes until a crack by Coffin and Manson, ε_f = passes.ductility = {}",
+                     roughly(life.fewest), roughly(life.most), *s.ductility);
+}
 
 std::string class_sentence(const PassProgress& s) {
   const std::string where = fmt::format("{:.1f} mm depth", 1e3 * s.last.net_depth);
@@ -29,20 +43,18 @@ std::string class_sentence(const PassProgress& s) {
       if (!s.ever_yielded) return "Stays elastic: no point has yielded.";
       return fmt::format("Shakes down: from pass {} on nothing flows.", s.first_quiet);
     case PassClass::plastic_shakedown:
-      return fmt::format("Closed cycles (plastic shakedown): {} plastic strain in every pass, none of it stays.",
-                         strain_text(s.last.largest.accumulated));
-    case PassClass::ratchetting:
       return fmt::format(
-          "Ratchets: {} net strain per pass at {}, {}.", strain_text(s.verdict.rate), where,
-          s.verdict.trend > kConstant
-              ? fmt::format("within 2 % the same from pass to pass, but falling{}", trend_text(s.verdict))
-              : "the same from pass to pass");
+          "Closed cycles (plastic shakedown): {} plastic strain in every pass, {} of it stays: low-cycle fatigue, {}.",
+          strain_text(s.last.largest.accumulated), strain_text(s.verdict.rate), life_text(s));
+    case PassClass::ratchetting:
+      return fmt::format("Ratchets: {} net strain per pass at {}, the same from pass to pass.",
+                         strain_text(s.verdict.rate), where);
     case PassClass::transient:
       break;
   }
-  return fmt::format("No claim yet: {} net strain in pass {} at {}{}; more passes will show.",
-                     strain_text(s.verdict.rate), s.last.pass, where,
-                     s.verdict.trend > kConstant ? ", falling" + trend_text(s.verdict) : "");
+  return fmt::format("{}: {} net strain in pass {} at {}{}; more passes will show.",
+                     s.verdict.trend > kConstantTrend ? "Still settling" : "No claim yet", strain_text(s.verdict.rate),
+                     s.last.pass, where, trend_text(s.verdict));
 }
 
 }  // namespace

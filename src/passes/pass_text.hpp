@@ -1,5 +1,6 @@
 #pragma once
 // The verdict of a series of passes as a sentence, and the statement of the law behind it.
+#include <optional>
 #include <string>
 
 #include "material/plastic.hpp"
@@ -12,7 +13,8 @@ struct PassProgress {
   PassVerdict verdict;
   PassRow last;
   bool ever_yielded = false;
-  int first_quiet = 0;  ///< the pass from which on nothing flowed
+  int first_quiet = 0;                ///< the pass from which on nothing flowed
+  std::optional<double> ductility{};  ///< passes.ductility of the case, equivalent strain
 };
 
 /// One sentence: "Ratchets: 3.1e-04 net strain per pass at 2.1 mm depth, the same from pass to pass."; a second one

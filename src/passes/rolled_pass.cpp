@@ -1,5 +1,7 @@
 #include "passes/rolled_pass.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -128,6 +130,14 @@ double largest_plastic_norm(const std::vector<PassPoint>& points) {
   for (const PassPoint& p : points)
     out = std::max(out, std::sqrt(double_contraction(p.plastic.data(), p.plastic.data())));
   return out;
+}
+
+std::string unevenness_text(double uneven) {
+  if (uneven <= kLargestUnevenness) return {};
+  return fmt::format(
+      "plastic strain differs by {:.2g} of itself along the steady stations: a smaller mesh.element_size, with five "
+      "elements and more over the patch, or a longer way to them",
+      uneven);
 }
 
 double unevenness(const PlasticSection& before, const PlasticSection& first, const PlasticSection& second) {

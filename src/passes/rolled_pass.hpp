@@ -2,6 +2,7 @@
 // Result of a pass by the finite elements: plastic strain of the section and residual stress, point by point and as a
 // row of a table. A point is a quadrilateral of the elements that may yield, with the means over its Gauss points.
 #include <array>
+#include <string>
 #include <vector>
 
 #include "body/plastic_section.hpp"
@@ -34,6 +35,8 @@ RolledPass rolled_pass(const RollingSystem& system, const Model& base, const Pla
 
 /// Limit of RolledPass::uneven up to which the stations count as steady.
 inline constexpr double kLargestUnevenness = 0.1;
+/// What is wrong beyond it, and what to do; empty below.
+std::string unevenness_text(double uneven);
 /// RolledPass::uneven, from the sections of both halves, all of the same quadrilaterals.
 double unevenness(const PlasticSection& before, const PlasticSection& first, const PlasticSection& second);
 

@@ -173,7 +173,11 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   out["last_pass"] = last_pass_json(series.table);
   out["points"] = points_json(series.points, verdict.kind);
   out["engine"] = "fem";
-  out["verdict"] = describe(progress_of(verdict, series.strains, pass.row));
+  PassProgress progress = progress_of(verdict, series.strains, pass.row);
+  progress.ductility = spec.passes.ductility;
+  const std::string doubt = unevenness_text(pass.uneven);
+  out["verdict"] = describe(progress) + (doubt.empty() ? "" : fmt::format(" Not to be relied on: {}.", doubt));
+  out["doubts"] = doubt.empty() ? nlohmann::ordered_json::array() : nlohmann::ordered_json::array({doubt});
   if (spec.passes.ductility)
     out["ductility"] = ductility_json(*spec.passes.ductility, largest_plastic_norm(pass.points), series.strains, 1);
   out["zones"] = zones_json(spec, zones_of(spec));

@@ -197,7 +197,9 @@ class SteadyPasses : public PassJob {
   void write_results() {
     const PassWay way = pass_way(rail_, body_, strain_, *last_, series_.state);
     const std::size_t governing = way.points.front().point / static_cast<std::size_t>(rail_.grid.ny);
-    answer_.verdict = verdict_ = describe(progress_of(verdict_of(series_), series_.strains, last_row_));
+    PassProgress progress = progress_of(verdict_of(series_), series_.strains, last_row_);
+    progress.ductility = loaded_.spec.passes.ductility;
+    answer_.verdict = verdict_ = describe(progress);
     answer_.law = describe_law(rail_.rows[governing].law);
     answer_.ductility = loaded_.spec.passes.ductility;
     write_residual(folder(), origin(), rail_, series_, *last_);

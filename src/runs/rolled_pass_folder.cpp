@@ -96,9 +96,8 @@ class RolledPassJob : public PassJob {
   void keep(const RolledPasses::Pass& pass) {
     const PassRow& row = pass.row;
     report(row, fmt::format("uneven by {:.2g}", pass.uneven));
-    if (pass.uneven > kLargestUnevenness)
-      control_.warn("pass {}: plastic strain differs by {:.2g} of itself along the steady stations", row.pass,
-                    pass.uneven);
+    if (const std::string doubt = unevenness_text(pass.uneven); !doubt.empty())
+      control_.warn("pass {}: {}", row.pass, doubt);
     write_csv(folder() / kPassTable, origin(), series_.table.columns);  // before the state, which cuts it
     write_rolled_result(folder(), origin(), loaded_.spec, passes_.roll(), series_, pass, pass.loops);
     write_rolled_state(folder() / kPassState, origin(), series_);

@@ -50,7 +50,8 @@ PassVerdict classify(const std::vector<PassStrain>& passes) {
     verdict.kind = PassClass::elastic_shakedown;
   } else if (last.net < kClosed * last.accumulated && steady(passes, &PassStrain::accumulated)) {
     verdict.kind = PassClass::plastic_shakedown;
-  } else if (last.net >= kClosed * last.accumulated && steady(passes, &PassStrain::net)) {
+  } else if (last.net >= kClosed * last.accumulated && steady(passes, &PassStrain::net) &&
+             verdict.trend <= kConstantTrend) {
     verdict.kind = PassClass::ratchetting;
   }
   return verdict;

@@ -4,11 +4,12 @@
 //
 //   elastic shakedown   Δp < 1e-6: nothing flows any more
 //   plastic shakedown   Δp the same from pass to pass, net < 1 % of it: closed cycles, no growth
-//   ratchetting         net the same from pass to pass and at least 1 % of Δp: growth at a constant rate
+//   ratchetting         net the same from pass to pass and at least 1 % of Δp: growth at a constant rate; a trend
+//                       that falls faster than n^-0.05 is none
 //   transient           neither yet: no claim
 //
 // "The same" is within 2 % over the last three steps from pass to pass; a claim takes at least four passes, elastic
-// shakedown one. A rate that falls slowly meets 2 % too in the end: look at the trend.
+// shakedown one. A rate that falls as any power of the pass meets 2 % too in the end, so the trend is asked as well.
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace railstrata {
 
 /// Plastic strain of a pass that counts as none.
 inline constexpr double kNoFlow = 1e-6;
+
+/// The trend (PassVerdict) up to which a rate counts as constant.
+inline constexpr double kConstantTrend = 0.05;
 
 enum class PassClass : int { elastic_shakedown, plastic_shakedown, ratchetting, transient };
 

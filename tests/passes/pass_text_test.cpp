@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "damage/low_cycle.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -19,22 +21,29 @@ PassProgress standing(PassClass kind) {
 }
 
 TEST(PassText, EachClassIsOneSentenceWithItsNumberAndPlace) {
-  PassProgress constant = standing(PassClass::ratchetting);
-  EXPECT_EQ(
-      describe(constant),
-      "Ratchets: 3.1e-4 net strain per pass at 2.1 mm depth, within 2 % the same from pass to pass, but falling as "
-      "the pass to the power of -0.50.");
-  constant.verdict.trend = 0.01;
-  EXPECT_EQ(describe(constant), "Ratchets: 3.1e-4 net strain per pass at 2.1 mm depth, the same from pass to pass.");
+  EXPECT_EQ(describe(standing(PassClass::ratchetting)),
+            "Ratchets: 3.1e-4 net strain per pass at 2.1 mm depth, the same from pass to pass.");
   EXPECT_EQ(describe(standing(PassClass::elastic_shakedown)), "Shakes down: from pass 5 on nothing flows.");
   EXPECT_EQ(describe(standing(PassClass::plastic_shakedown)),
-            "Closed cycles (plastic shakedown): 2.8e-3 plastic strain in every pass, none of it stays.");
+            "Closed cycles (plastic shakedown): 2.8e-3 plastic strain in every pass, 3.1e-4 of it stays: low-cycle "
+            "fatigue, passes.ductility would give its life by Coffin and Manson.");
   EXPECT_EQ(describe(standing(PassClass::transient)),
-            "No claim yet: 3.1e-4 net strain in pass 12 at 2.1 mm depth, falling as the pass to the power of -0.50; "
+            "Still settling: 3.1e-4 net strain in pass 12 at 2.1 mm depth, falling as the pass to the power of -0.50; "
             "more passes will show.");
+  PassProgress scattered = standing(PassClass::transient);
+  scattered.verdict.trend = 0.01;
+  EXPECT_EQ(describe(scattered), "No claim yet: 3.1e-4 net strain in pass 12 at 2.1 mm depth; more passes will show.");
   PassProgress strong = standing(PassClass::elastic_shakedown);
   strong.ever_yielded = false;
   EXPECT_EQ(describe(strong), "Stays elastic: no point has yielded.");
+}
+
+TEST(PassText, ClosedCyclesHaveALifeByCoffinAndManson) {
+  PassProgress s = standing(PassClass::plastic_shakedown);
+  s.last.largest.accumulated = 4e-3;
+  s.ductility = 0.1;  // (2 N) = 100^2 and 100^(1/0.7)
+  EXPECT_NE(describe(s).find("360 to 5000 passes until a crack"), std::string::npos) << describe(s);
+  EXPECT_EQ(low_cycle_life(0.5, 0.1).most, 0) << "the first reversal is too much";
 }
 
 TEST(PassText, LargeStrainFollowsTheClass) {

@@ -52,6 +52,15 @@ TEST(PassClass, NoClaimWhileItStillChangesOrAfterFewPasses) {
   EXPECT_EQ(class_text(PassClass::transient), "transient: no claim yet");
 }
 
+TEST(PassClass, ARateThatFallsIsNoRatchettingThoughItsStepsAreSmall) {
+  const auto falling = [](double power) {
+    return classify(passes(
+        60, [](double) { return 3e-3; }, [=](double n) { return 1e-3 * std::pow(n, -power); }));
+  };
+  EXPECT_EQ(falling(0.63).kind, PassClass::transient) << "0.6 of a percent from pass to pass";
+  EXPECT_EQ(falling(0.03).kind, PassClass::ratchetting);
+}
+
 TEST(PassClass, TheDuctilityIsUsedUpAtTheRateOfTheRatchetting) {
   const auto all = passes(
       8, [](double) { return 3e-3; }, [](double) { return 2e-4; });

@@ -224,6 +224,7 @@ export interface PassesSummary {
   passes: number;
   verdict?: string;
   law?: string;
+  doubts?: string[];
   class: string;
   points?: Record<string, number>;  // of each class, in their order
   passes_per_cycle?: number;

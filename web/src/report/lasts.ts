@@ -279,7 +279,7 @@ function slidingFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
     title: ["Limit pressure against traction", body, ...(runs.length > 1 ? [runLabel(run)] : [])].join(", "),
     words: [
       "Largest pressure at each limit for the shape of this patch, these layers and these strengths, if it slid " +
-          "everywhere with q = traction times p. Above the solid line it does not shake down under wandering traffic. This " +
+          "everywhere with q = traction times p. Above the solid line wandering traffic does not shake down. This " +
           "case sticks in part of its patch: its own factors are in the table.",
     ],
     labels: ["traction coefficient q/p", "p_max [MPa]"],

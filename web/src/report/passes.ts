@@ -39,10 +39,12 @@ function shakedownWords(s: PassesSummary): string|null {
     ["first_yield", "first yield"], ["wandering", "wandering traffic"], ["single_track", "one track"],
     ["kinematic", "with kinematic hardening"]
   ];
+  const flows = s.last_pass.accumulated_strain !== 0 && s.shakedown!.verdict === "stays elastic";
+  const why = flows ? " The law of hardening begins to flow below that yield strength, so here it yields." : "";
   const said =
       limits.filter(([key]) => typeof f[key] === "number").map(([key, name]) => `${name} ${numberText(f[key]!, 3)}`);
   return `Shakedown factors of the elastic stress with the yield strength of the case: ${said.join(", ")}; so by ` +
-      `theory it ${s.shakedown!.verdict}.`;
+      `theory it ${s.shakedown!.verdict}.${why}`;
 }
 
 /// Two digits: nobody knows more of so many passes.
@@ -63,8 +65,9 @@ function ductilityWords(s: PassesSummary): string|null {
 
 function verdictCard(s: PassesStory, all: PassesStory[]): HTMLElement {
   const {summary} = s;
-  const bad = summary.class === "ratchetting";
-  const open = summary.class.startsWith("transient");
+  const bad = summary.class === "ratchetting" && !(summary.doubts ?? []).length;
+  const doubted = (summary.doubts ?? []).length > 0;
+  const open = doubted || summary.class.startsWith("transient") || summary.class === "plastic shakedown";
   const words = [
     `After ${countText(summary.passes)} ${summary.passes === 1 ? "pass" : "passes"}. Class: ${summary.class}.`,
     summary.law ? `What the law allows in the long run – ${summary.law}.` : null,
@@ -88,7 +91,7 @@ function factsTable(all: PassesStory[]): HTMLElement {
   const rows: [string, (s: PassesSummary) => string][] = [
     ["class", (s) => s.class],
     ["passes", (s) => countText(s.passes)],
-    ["net strain per pass", (s) => strain(s.net_strain_per_pass)],
+    ["net strain per pass, mean of a round of wheels", (s) => strain(s.net_strain_per_pass)],
     ["accumulated in the last pass", (s) => strain(s.last_pass.accumulated_strain)],
     ["where, depth [mm]", (s) => numberText(s.last_pass.net_depth_mm, 3)],
     ["most compressive σ_x [MPa]", (s) => numberText(s.last_pass.sigma_x_min_MPa, 3)],
@@ -321,7 +324,8 @@ function profileFigure(
 const positive = (values: Values) => values.map((v) => (v !== null && v > 0 ? v : null));
 
 function strainFigure(all: PassesStory[]): Figure {
-  const lines: [column: string, name: string][] = [["accumulated_strain", "accumulated, Δp"], ["net_strain", "net"]];
+  const lines: [column: string, name: string][] =
+      [["accumulated_strain", "accumulated, Δp"], ["net_strain", "net, of the pass alone"]];
   const series =
       all.flatMap((s, n) => lines.map(([column, name], k): Series => ({
                                         x: s.passes.pass,
@@ -470,8 +474,8 @@ export function passesParts(all: PassesStory[]): HTMLElement[] {
   ];
   return [
     ...all.map((s) => verdictCard(s, all)),
-    part("numbers", "Numbers", factsTable(all), ...assumptions(all)),
     part("section", "The section after the last pass", axes, ...(maps.length ? [grid(maps)] : []), grid(profiles)),
+    part("numbers", "Numbers", factsTable(all), ...assumptions(all)),
     part("history", "Pass after pass", grid(history)),
     ...(loops.length ? [part("loops", "Loops of the last pass", grid(loops))] : []),
     ...(along.length ? [part("along", "Elastic and yielding", grid(along))] : []),
@@ -483,8 +487,8 @@ export function passesContents(all: PassesStory[]): [id: string, name: string][]
   const there = (has: boolean, id: string, name: string): [string, string][] => (has ? [[id, name]] : []);
   return [
     ["verdict-of-passes", "verdict"],
-    ["numbers", "numbers"],
     ["section", "section"],
+    ["numbers", "numbers"],
     ["history", "pass after pass"],
     ...there(all.some((s) => s.loops !== null && (s.summary.loops ?? []).length > 0), "loops", "loops"),
     ...there(all.some((s) => s.along !== null), "along", "elastic and yielding"),

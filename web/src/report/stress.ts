@@ -6,7 +6,7 @@ import type {Figure} from "../figures";
 import {magnitudeScale, signedScale} from "../scale";
 import {barText, fixedText, numberText, percentText, powerText} from "../text";
 import type {BodyName, Span, StressMaximum, Values} from "../types";
-import {rowsOf, unpack, type Columns, type Run, type Section, type StressQuantity} from "./data";
+import {numberAt, rowsOf, unpack, type Columns, type Run, type Section, type StressQuantity} from "./data";
 import {linesFigure, type Series} from "./lines";
 import {commonWindow, mapFigure, type Line, type MapSpec} from "./maps";
 import {contactY} from "./patch";
@@ -322,12 +322,16 @@ export function maximaTable(runs: Run[], body: BodyName): HTMLElement {
   const columns = runs.flatMap((run) => [stressOf(run), "at x, y, depth [mm]"]);
   const head = ["zone", "stress", ...columns, ...(pair ? ["difference"] : [])];
   const rows: (string|Cell)[][] = [];
+  // the layers' σ₁ stands once, with surface and residual stress, under "Does it last?" where that part is there
+  const elsewhere = runs.every((run) => typeof numberAt(run, "layers/sigma_1_Pa") === "number");
   for (const zone of zones())
     for (const measure of measures()) {
+      if (elsewhere && zone.key === "layer" && measure.key === "sigma1_max") continue;
       const found = runs.map((run) => run.summary.stress[body]?.[zone.key]?.[measure.key]);
       if (!found.some(Boolean)) continue;
       const difference = pair ? [differenceText(found[0], found[1])] : [];
       rows.push([zone.name, measure.name, ...found.flatMap(maximumCells), ...difference]);
     }
-  return table(`Largest stresses in the ${body}`, head, rows, {class: "numbers", id: `maxima-${body}`});
+  return table(
+      `Largest stresses of the contact alone in the ${body}`, head, rows, {class: "numbers", id: `maxima-${body}`});
 }
