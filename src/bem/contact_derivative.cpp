@@ -58,11 +58,6 @@ CasePatch ContactDerivatives::beside(const PlacedCase& there, double normal) con
   return out;
 }
 
-RollingDerivative ContactDerivatives::of_patch(const RollingContact& more, const RollingContact& less,
-                                               double step) const {
-  return rolling_derivative(*patch_.influence, patch_.grid, patch_.contact, solved_.solution, more, less, step);
-}
-
 /// Lateral friction by the normal force, N/N.
 double ContactDerivatives::by_weight() {
   constexpr double kShare = 1e-6;
@@ -71,17 +66,18 @@ double ContactDerivatives::by_weight() {
     RollingContact more = patch_.contact, less = patch_.contact;
     more.target.load = normal + step;
     less.target.load = normal - step;
-    by_load_ = of_patch(more, less, step);
+    by_load_ = rolling_->by(more, less, step);
   }
   return by_load_->tangential.force_y;
 }
 
 ContactDerivative ContactDerivatives::by(const PlacedCase& more, const PlacedCase& less, double step) {
   const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
+  if (!rolling_) rolling_.emplace(*patch_.influence, patch_.grid, patch_.contact, solved_.solution);
   const double normal = solved_.solution.normal.load, lateral = solved_.solution.tangential.force_y,
                angle = placement_.contact.angle, cosine = std::cos(angle), sine = std::sin(angle);
   const CasePatch up = beside(more, normal), down = beside(less, normal);
-  RollingDerivative d = of_patch(up.contact, down.contact, step);
+  RollingDerivative d = rolling_->by(up.contact, down.contact, step);
   ContactDerivative out;
   out.angle = slope(more.placement.contact.angle, less.placement.contact.angle);
   if (!spec_.vehicle.approach) {

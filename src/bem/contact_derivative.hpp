@@ -38,7 +38,6 @@ class ContactDerivatives {
 
  private:
   CasePatch beside(const PlacedCase& there, double normal) const;
-  RollingDerivative of_patch(const RollingContact& more, const RollingContact& less, double step) const;
   double by_weight();
 
   const CaseSpec& spec_;
@@ -46,6 +45,7 @@ class ContactDerivatives {
   const BemOptions& options_;
   const BemNeighbour& solved_;
   CasePatch patch_;
+  std::optional<RollingDerivatives> rolling_;
   std::optional<RollingDerivative> by_load_;  // normal force
 };
 

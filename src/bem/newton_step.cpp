@@ -99,16 +99,19 @@ void NewtonStep::prepare_steer() {
   });
 }
 
-const Plane& NewtonStep::derivative(const Plane& change) {
-  constexpr double kAccuracy = 1e-7;
+void NewtonStep::linearise() {
   prepare_slip_cells();
   prepare_steer();
   prepare_border();
+}
+
+const Plane& NewtonStep::derivative(const Plane& change) {
+  constexpr double kAccuracy = 1e-6;
   right_side_ = change;
   s_.for_both([&](std::size_t i) { project(i, right_side_[i], right_side_[s_.n + i]); });
   for (std::size_t c = 2 * s_.n; c < right_side_.size(); ++c) right_side_[c] *= force_row_;
-  gmres([&](const Plane& in, Plane& out) { product(in, out); },
-        [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, kAccuracy, 120, space_);
+  searched_.solve([&](const Plane& in, Plane& out) { product(in, out); },
+                  [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, kAccuracy);
   return step_;
 }
 
@@ -131,9 +134,15 @@ void NewtonStep::product(const Plane& in, Plane& out) {
   for (std::size_t c = 0; c < m; ++c) out[2 * s_.n + c] = force_row_ * force[directions_[c]];
 }
 
+/// In steady rolling without VaryingBound: slipping cells whose diagonal is small beside L's are taken as sticking,
+/// with the share that the diagonal leaves.
+bool NewtonStep::nearly_sticks(std::size_t i) const {
+  return s_.set[i] == kStick || (s_.set[i] == kSlip && s_.L.steady() && !s_.varying && diagonal_[i] < s_.L.self());
+}
+
 /// Approximate inverse of the first block: u from the slip it makes (steady: summed up from the leading edge), then
-/// the traction on the periodic grid that makes u. Slipping cells take their diagonal alone: that sum runs over
-/// sticking cells only. Returns the sums of the result.
+/// the traction on the periodic grid that makes u. Other slipping cells than nearly_sticks take their diagonal alone:
+/// that sum runs over those only. Returns the sums of the result.
 NewtonStep::Components NewtonStep::precondition_block(const double* in, double* out) {
   if (s_.L.steady())
     integrate_from_leading_edge(in);
@@ -146,6 +155,13 @@ NewtonStep::Components NewtonStep::precondition_block(const double* in, double* 
   s_.L.traction_of(integral_, out);
   return s_.for_both_summed(out, [&](std::size_t i) {
     if (s_.set[i] == kStick) return;
+    if (nearly_sticks(i)) {
+      project(i, out[i], out[s_.n + i]);
+      const double share = s_.L.self() / (s_.L.self() + diagonal_[i]);
+      out[i] *= share;
+      out[s_.n + i] *= share;
+      return;
+    }
     const double scale = s_.set[i] == kSlip ? 1 / (s_.L.self() + diagonal_[i]) : 0.0;
     out[i] = scale * in[i];
     out[s_.n + i] = scale * in[s_.n + i];
@@ -158,7 +174,7 @@ NewtonStep::Components NewtonStep::precondition_block(const double* in, double* 
   });
 }
 
-/// u(x) from u(x) - u(x + dx) = dx r along each run of sticking cells, zero ahead of it and elsewhere.
+/// u(x) from u(x) - u(x + dx) = dx r along each run of nearly sticking cells, zero ahead of it and elsewhere.
 void NewtonStep::integrate_from_leading_edge(const double* r) {
   constexpr int strip = 32;  // columns
   const auto first_step = [&](std::size_t k) {
@@ -168,8 +184,7 @@ void NewtonStep::integrate_from_leading_edge(const double* r) {
     for (int i = s_.grid.nx - 1; i >= 0; --i)
       for (int j = s * strip; j < std::min(s_.grid.ny, (s + 1) * strip); ++j) {
         const std::size_t k = s_.grid.index(i, j);
-        const bool sticks = s_.set[k] == kStick,
-                   continues = sticks && i + 1 < s_.grid.nx && s_.set[k + s_.ahead] == kStick;
+        const bool sticks = nearly_sticks(k), continues = sticks && i + 1 < s_.grid.nx && nearly_sticks(k + s_.ahead);
         for (std::size_t c : {k, s_.n + k})
           integral_[c] = !sticks ? 0.0 : continues ? s_.grid.dx * r[c] + integral_[c + s_.ahead] : first_step(k) * r[c];
       }

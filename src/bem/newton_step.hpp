@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bem/gmres.hpp"
+#include "bem/recycled_krylov.hpp"
 #include "bem/tangential_state.hpp"
 
 namespace railstrata {
@@ -31,9 +31,10 @@ class NewtonStep {
   /// the linear system; close: a slip that may be left in every cell, 0: `accuracy` alone ends it. Cells that leave
   /// the circle are kLoosened.
   void take(double accuracy, double close = 0);
+  /// Linearises for derivative(): sets as they stand, slipping cells turn on their circle. Without VaryingBound.
+  void linearise();
   /// Change of the tractions, then of the given forces' creepages, that takes back a change of the slip (two planes)
-  /// and of the given forces (missing_force), sets as they stand; slipping cells turn on their circle. Without
-  /// VaryingBound.
+  /// and of the given forces (missing_force). Each call is cheaper than those before.
   const Plane& derivative(const Plane& change);
 
  private:
@@ -44,6 +45,7 @@ class NewtonStep {
   double next_carried(std::size_t i) const;
   void prepare_slip_cells();
   void prepare_steer();
+  bool nearly_sticks(std::size_t i) const;
   void project(std::size_t i, double& x, double& y) const;
   void solve(double accuracy, double close);
   void product(const Plane& in, Plane& out);
@@ -62,6 +64,7 @@ class NewtonStep {
   std::vector<Plane> border_;
   double border_force_[2][2] = {{1, 0}, {0, 1}};
   GmresSpace space_;
+  RecycledKrylov searched_;  // of derivative()
 };
 
 }  // namespace railstrata

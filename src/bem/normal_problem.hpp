@@ -10,6 +10,7 @@
 #include "bem/influence_operator.hpp"
 #include "bem/patch_grid.hpp"
 #include "bem/plane_algebra.hpp"
+#include "bem/recycled_krylov.hpp"
 
 namespace railstrata {
 
@@ -42,9 +43,23 @@ struct NormalSolution {
 NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap,
                             NormalTarget target, const NormalOptions& options = {}, const Plane& start = {});
 
-/// Change of a solution with the gap and the target, cells in contact as they are: pressure and approach per unit of an
-/// input of which gap [m] and target change by `gap` and `target`; `gap` of the result is that of the empty cells.
-NormalSolution normal_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
-                                 const NormalSolution& solution, const Plane& gap, NormalTarget target);
+/// Changes of a solution with the gap and the target, cells in contact as they are; each is cheaper than those before.
+class NormalDerivatives {
+ public:
+  /// influence and grid are kept by reference.
+  NormalDerivatives(const InfluenceOperator& influence, const PatchGrid& grid, const NormalSolution& solution);
+  /// Pressure and approach per unit of an input of which gap [m] and target change by `gap` and `target`; `gap` of the
+  /// result is that of the empty cells.
+  NormalSolution by(const Plane& gap, NormalTarget target);
+
+ private:
+  Plane pressure_for(const Plane& displacement);
+
+  const InfluenceOperator& influence_;
+  const PatchGrid& grid_;
+  Mask active_;
+  RecycledKrylov searched_;
+  Plane by_approach_;  // pressure, Pa/m
+};
 
 }  // namespace railstrata

@@ -261,41 +261,48 @@ RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGri
   return s;
 }
 
-RollingDerivative rolling_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
-                                     const RollingContact& contact, const RollingSolution& s,
-                                     const RollingContact& more, const RollingContact& less, double step) {
-  constexpr double kSettled = 1e-7;  // change of the pressure's derivative between two rounds
+RollingDerivatives::RollingDerivatives(const InfluenceOperator& influence, const PatchGrid& grid,
+                                       const RollingContact& contact, const RollingSolution& solution)
+    : influence_(influence),
+      grid_(grid),
+      contact_(contact),
+      solution_(solution),
+      normal_(influence, grid, solution.normal),
+      tangential_(influence, grid, tangential_part(influence, grid, contact, solution.normal), solution.tangential) {}
+
+TangentialProblem RollingDerivatives::beside(const RollingContact& there, const NormalSolution& change,
+                                             double by) const {
+  NormalSolution normal = solution_.normal;
+  for (std::size_t i = 0; i < grid_.size(); ++i) {
+    const double moved = by * change.pressure[i];  // a cell about to leave stays, with the same difference
+    if (normal.pressure[i] > 0) normal.pressure[i] = std::max(normal.pressure[i], 2 * std::abs(moved)) + moved;
+    normal.gap[i] += by * change.gap[i];
+  }
+  return tangential_part(influence_, grid_, there, normal);
+}
+
+RollingDerivative RollingDerivatives::by(const RollingContact& more, const RollingContact& less, double step) {
+  constexpr double kSettled = 1e-6;  // change of the pressure's derivative between two rounds
   constexpr int kMostRounds = 40;
   const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
-  Plane gap_alone(grid.size());
+  Plane gap_alone(grid_.size());
   for (std::size_t i = 0; i < gap_alone.size(); ++i) gap_alone[i] = slope(more.gap[i], less.gap[i]);
   NormalTarget target;
-  if (contact.target.load) target.load = slope(*more.target.load, *less.target.load);
-  if (contact.target.approach) target.approach = slope(*more.target.approach, *less.target.approach);
-  const TangentialProblem here = tangential_part(influence, grid, contact, s.normal);
-  const auto beside = [&](const RollingContact& there, const NormalSolution& change, double by) {
-    NormalSolution normal = s.normal;
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-      const double moved = by * change.pressure[i];  // a cell about to leave stays, with the same difference
-      if (normal.pressure[i] > 0) normal.pressure[i] = std::max(normal.pressure[i], 2 * std::abs(moved)) + moved;
-      normal.gap[i] += by * change.gap[i];
-    }
-    return tangential_part(influence, grid, there, normal);
-  };
+  if (contact_.target.load) target.load = slope(*more.target.load, *less.target.load);
+  if (contact_.target.approach) target.approach = slope(*more.target.approach, *less.target.approach);
   RollingDerivative d;
   for (int round = 0; round < kMostRounds; ++round) {
     Plane gap = gap_alone;
     if (round > 0) {
-      Plane by_traction(grid.size());
-      influence.normal_from_traction(d.tangential.q_x.data(), d.tangential.q_y.data(), by_traction.data());
+      Plane by_traction(grid_.size());
+      influence_.normal_from_traction(d.tangential.q_x.data(), d.tangential.q_y.data(), by_traction.data());
       add_scaled(gap, 1, by_traction);
     }
-    NormalSolution next = normal_derivative(influence, grid, s.normal, gap, target);
+    NormalSolution next = normal_.by(gap, target);
     const bool settled = round > 0 && difference(next.pressure, d.normal.pressure) <= kSettled;
     d.normal = std::move(next);
-    d.tangential = tangential_derivative(influence, grid, here, s.tangential, beside(more, d.normal, step),
-                                         beside(less, d.normal, -step), step);
-    if (!influence.couples() || settled) return d;
+    d.tangential = tangential_.by(beside(more, d.normal, step), beside(less, d.normal, -step), step);
+    if (!influence_.couples() || settled) return d;
   }
   throw NumericalError("the derivatives of normal and tangential contact did not settle against each other");
 }

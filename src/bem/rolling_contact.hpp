@@ -54,10 +54,25 @@ struct RollingDerivative {
   NormalSolution normal;  ///< pressure, approach and load
   TangentialDerivative tangential;
 };
-/// more, less: the problem with the input larger and smaller by `step`, so small that tractions hardly change.
-RollingDerivative rolling_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
-                                     const RollingContact& contact, const RollingSolution& solution,
-                                     const RollingContact& more, const RollingContact& less, double step);
+/// The linear equations of one solution; each derivative is cheaper than those before.
+class RollingDerivatives {
+ public:
+  /// All are kept by reference.
+  RollingDerivatives(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
+                     const RollingSolution& solution);
+  /// more, less: the problem with the input larger and smaller by `step`, so small that tractions hardly change.
+  RollingDerivative by(const RollingContact& more, const RollingContact& less, double step);
+
+ private:
+  TangentialProblem beside(const RollingContact& there, const NormalSolution& change, double by) const;
+
+  const InfluenceOperator& influence_;
+  const PatchGrid& grid_;
+  const RollingContact& contact_;
+  const RollingSolution& solution_;
+  NormalDerivatives normal_;
+  TangentialDerivatives tangential_;
+};
 
 /// Makes `contact` the transient step in which the wheel rolls on by one cell (dx) from the state `before`. Gap and
 /// load may change from step to step too.

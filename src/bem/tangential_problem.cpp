@@ -305,14 +305,52 @@ void take_over(const TangentialSolution& s, TangentialState& state) {
   state.update_slip();
 }
 
-TangentialDerivative derivative_on(const InfluenceOperator& influence, const PatchGrid& grid,
-                                   const TangentialProblem& problem, const TangentialSolution& s,
-                                   const TangentialProblem& more, const TangentialProblem& less, double step) {
-  TangentialState here(influence, grid, problem), up(influence, grid, more), down(influence, grid, less);
-  for (TangentialState* state : {&here, &up, &down}) take_over(s, *state);
+}  // namespace
+
+/// On the part of the grid that bears tractions.
+struct TangentialDerivatives::Linear {
+  Linear(const InfluenceOperator& whole, const PatchGrid& cells, const TangentialProblem& asked,
+         const TangentialSolution& solved)
+      : part(tight_part_with(cells, asked.traction_bound)),
+        own(part ? whole.part(part->nx, part->ny) : nullptr),
+        influence(part ? *own : whole),
+        grid(part ? part->grid() : cells),
+        problem(on_part(asked)),
+        solution(on_part(solved)),
+        here(influence, grid, problem),
+        newton(here) {
+    take_over(solution, here);
+    newton.linearise();
+  }
+  template <class Whole>
+  Whole on_part(const Whole& whole) const {
+    return part ? taken(*part, whole) : whole;
+  }
+
+  std::optional<PatchPart> part;
+  std::shared_ptr<const InfluenceOperator> own;
+  const InfluenceOperator& influence;
+  PatchGrid grid;
+  TangentialProblem problem;
+  TangentialSolution solution;
+  TangentialState here;
+  NewtonStep newton;
+};
+
+TangentialDerivatives::TangentialDerivatives(const InfluenceOperator& influence, const PatchGrid& grid,
+                                             const TangentialProblem& problem, const TangentialSolution& solution)
+    : linear_(std::make_unique<Linear>(influence, grid, problem, solution)) {}
+
+TangentialDerivatives::~TangentialDerivatives() = default;
+
+TangentialDerivative TangentialDerivatives::by(const TangentialProblem& more_whole, const TangentialProblem& less_whole,
+                                               double step) {
+  auto& [part, own, influence, grid, problem, s, here, newton] = *linear_;
+  const TangentialProblem more = linear_->on_part(more_whole), less = linear_->on_part(less_whole);
+  TangentialState up(influence, grid, more), down(influence, grid, less);
+  for (TangentialState* state : {&up, &down}) take_over(s, *state);
   const std::size_t n = here.n;
   const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
-  NewtonStep newton(here);
   Plane change(2 * n + newton.directions().size());
   for (std::size_t i = 0; i < n; ++i) {
     change[i] = slope(up.slip[i], down.slip[i]);
@@ -335,18 +373,7 @@ TangentialDerivative derivative_on(const InfluenceOperator& influence, const Pat
   for (std::size_t c = 0; c < newton.directions().size(); ++c)
     (newton.directions()[c] ? d.creepage_y : d.creepage_x) =
         newton.directions()[c] ? here.slip_y(turned[2 * n + c]) : turned[2 * n + c];
-  return d;
-}
-
-}  // namespace
-
-TangentialDerivative tangential_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
-                                           const TangentialProblem& problem, const TangentialSolution& solution,
-                                           const TangentialProblem& more, const TangentialProblem& less, double step) {
-  const std::optional<PatchPart> part = tight_part_with(grid, problem.traction_bound);
-  if (!part) return derivative_on(influence, grid, problem, solution, more, less, step);
-  TangentialDerivative d = derivative_on(*influence.part(part->nx, part->ny), part->grid(), taken(*part, problem),
-                                         taken(*part, solution), taken(*part, more), taken(*part, less), step);
+  if (!part) return d;
   d.q_x = part->put(d.q_x);
   d.q_y = part->put(d.q_y);
   return d;

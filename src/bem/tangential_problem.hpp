@@ -22,6 +22,7 @@
 // (varying_bound.hpp). Solved by an active-set Newton method: unknown are both components in stick and the direction in
 // slip; each linear system by GMRES with FFT products. L has a positive semi-definite symmetric part, and slip along
 // the traction adds a positive diagonal, so every linear system is solvable.
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -115,10 +116,20 @@ struct TangentialDerivative {
   double creepage_x = 0, creepage_y = 0;  ///< of given forces
   double force_x = 0, force_y = 0, moment = 0;
 };
-/// more, less: the problem with the input larger and smaller by `step`.
-TangentialDerivative tangential_derivative(const InfluenceOperator& influence, const PatchGrid& grid,
-                                           const TangentialProblem& problem, const TangentialSolution& solution,
-                                           const TangentialProblem& more, const TangentialProblem& less, double step);
+/// The linear equations of one solution; each derivative is cheaper than those before.
+class TangentialDerivatives {
+ public:
+  /// influence is kept by reference.
+  TangentialDerivatives(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem,
+                        const TangentialSolution& solution);
+  ~TangentialDerivatives();
+  /// more, less: the problem with the input larger and smaller by `step`.
+  TangentialDerivative by(const TangentialProblem& more, const TangentialProblem& less, double step);
+
+ private:
+  struct Linear;
+  std::unique_ptr<Linear> linear_;
+};
 
 /// Values of cells after the wheel has rolled on by one cell; new ones are zero.
 Plane rolled_on(const PatchGrid& grid, const Plane& values);
