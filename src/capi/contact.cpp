@@ -10,6 +10,7 @@
 #include "capi/contact.hpp"
 #include "capi/guarded.hpp"
 #include "capi/state_of_case.hpp"
+#include "geometry/read_profile.hpp"
 #include "io/provenance.hpp"
 #include "judge/bem_summary.hpp"
 #include "runs/solve_half_space.hpp"
@@ -18,15 +19,12 @@
 using namespace railstrata;
 
 namespace railstrata::capi {
-namespace {
 
 int cells_with_pressure(const ContactField& field) {
   int count = 0;
   for (const double p : field.p) count += p > 0;
   return count;
 }
-
-}  // namespace
 
 rs_forces forces_of(const BemResult& result, const Summary& summary) {
   const ContactSummary& c = summary.contact;
@@ -200,10 +198,29 @@ std::vector<Vec3> points_of(const double* xyz, std::size_t n) {
   return out;
 }
 
-void stress(const rs_contact* contact, int body, const double* xyz, std::size_t n, double* out) {
-  patch_of(contact, 0);
+void require_body(int body) {
   if (body != RS_RAIL && body != RS_WHEEL)
     throw CaseError(fmt::format("there is no body {}", body), "give RS_RAIL or RS_WHEEL");
+}
+
+void set_profile(rs_contact& contact, int body, const double* yz, std::size_t n) {
+  require_body(body);
+  if (!yz) throw CaseError("yz is NULL", "give 2 n numbers: y and z of the points in m");
+  const bool wheel = body == RS_WHEEL;
+  std::string rows;
+  for (std::size_t k = 0; k < n; ++k) rows += fmt::format("{} {}\n", yz[2 * k], yz[2 * k + 1]);
+  Placement placement = contact.placement;
+  (wheel ? placement.wheel : placement.rail) =
+      parse_profile(wheel ? ProfileKind::wheel : ProfileKind::rail, rows, wheel ? "wheel" : "rail", &placement.notes);
+  placement.contact = place_wheel(placement.wheel, placement.rail, placement.track);
+  contact.placement = std::move(placement);
+  contact.last.reset();
+  contact.state.reset();
+}
+
+void stress(const rs_contact* contact, int body, const double* xyz, std::size_t n, double* out) {
+  patch_of(contact, 0);
+  require_body(body);
   if (n > 0 && (!xyz || !out)) throw CaseError("xyz or out is missing", "give arrays of 3 n and 6 n numbers");
   const BemResult& result = *contact->last;
   const Subsurface inside = body == RS_RAIL ? rail_interior(result) : wheel_interior(result);
@@ -275,6 +292,13 @@ int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_e
     require(contact);
     if (!forces) throw CaseError("forces is NULL", "give an rs_forces with its size set");
     solve(*contact, state, *forces);
+  });
+}
+
+int rs_set_profile(rs_contact* contact, int body, const double* yz, size_t n, rs_error* error) {
+  return capi::guarded(error, [&] {
+    require(contact);
+    set_profile(*contact, body, yz, n);
   });
 }
 

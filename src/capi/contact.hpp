@@ -27,6 +27,8 @@ namespace railstrata::capi {
 /// The placement of the case's profiles where a state has moved the wheel.
 Placement placed(const rs_contact& contact, const CaseSpec& spec);
 
+int cells_with_pressure(const ContactField& field);
+
 /// The numbers of a result.
 rs_forces forces_of(const BemResult& result, const Summary& summary);
 

@@ -168,12 +168,44 @@ RS_API int rs_points(const rs_contact* contact, int patch, int* nx, int* ny, rs_
 /* Copies a field of the last solution to out[0 .. n-1], n = nx ny. SI. */
 RS_API int rs_field(const rs_contact* contact, int patch, int field, double* out, size_t n, rs_error* error);
 
+/* One of the patches that share the load, 0 (the largest pressure) to rs_forces.patches - 1. Model axes: x along rolling
+ * from the middle of the wheel's tape circle, y to the field side, z up, from the origin of the rail's profile. */
+typedef struct rs_patch {
+  size_t size;                        /* sizeof(rs_patch), to be set by the caller */
+  double force[3];                    /* N, on the wheel */
+  double moment[3];                   /* N m, of its tractions on the wheel, sum of (r - about) x dF */
+  double normal_force, lateral_force; /* N, along the contact normal and across it, on the wheel */
+  double spin_moment;                 /* N m, on the wheel about the contact normal through `point` */
+  double approach;                    /* m, along the normal */
+  double point[3];                    /* m, where the rigid bodies touch */
+  double on_wheel[2], on_rail[2];     /* m, y and z of it in the profiles' own axes, y to the field side */
+  double contact_angle;               /* rad, of the common tangent to y */
+  double rolling_radius;              /* m */
+  double p_max;                       /* Pa */
+  double patch_area;                  /* m2 */
+  double dissipation;                 /* W */
+  int cells;                          /* with pressure */
+  int reserved;
+} rs_patch;
+
+/* A patch of the last solution. about: the point [m, model axes] that moments are about; NULL: the origin. Forces of all
+ * patches add up to those of rs_forces. Errors: RS_CASE without a solution, of a lifted wheel (it has no patch), for a
+ * patch that is not there. */
+RS_API int rs_patch_forces(const rs_contact* contact, int patch, const double* about, rs_patch* out, rs_error* error);
+
 /* Stresses [Pa] at n points below (rail) or above (wheel) the patch of the largest pressure. xyz: n times x, y from the
  * rigid contact point along the rolling direction and the common tangent, and the depth into the body [m]. out: n times
  * xx, yy, zz, xy, yz, xz in these axes. */
 #define RS_RAIL 0
 #define RS_WHEEL 1
 RS_API int rs_stress(const rs_contact* contact, int body, const double* xyz, size_t n, double* out, rs_error* error);
+
+/* Takes a profile from an array in place of the case's: worn, or another one each step. body: RS_RAIL or RS_WHEEL; yz:
+ * n points y, z [m] in the order along the curve, as a file of two columns has them (docs/conventions.md: smoothed and
+ * turned alike). The last solution is gone, the next one starts from it. Of both sides of a wheelset by
+ * rs_wheelset_contact; of its right wheel too y is to the field side. Errors: RS_CASE, and the old profile stays: no
+ * profile of this kind, or the case's place has no contact with it. */
+RS_API int rs_set_profile(rs_contact* contact, int body, const double* yz, size_t n, rs_error* error);
 
 /* A creep-force table of `railstrata creep-table` (creep_table.h5): numbers over axes, some ten microseconds and less
  * an answer. Several threads may ask one table at a time. */

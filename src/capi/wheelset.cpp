@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capi/guarded.hpp"
+#include "capi/patch_forces.hpp"
 #include "halfspace/hertz.hpp"
 
 using namespace railstrata;
@@ -86,13 +87,8 @@ void add_up(Wheel& w) {
   w.moment = {};
   if (!w.contact->last) return;
   const auto add = [&](const BemPatch& patch) {
-    const ContactField& f = patch.field;
-    const double c = std::cos(patch.contact.angle), s = std::sin(patch.contact.angle);
-    for (std::size_t k = 0; k < f.p.size(); ++k) {
-      if (!(f.p[k] > 0)) continue;
-      const Vec3 arm = arm_of(w.track(), w.touching(), w.motion, patch.contact.x + f.x[k], {f.y[k], f.z[k]});
-      w.moment += cross(arm, f.area[k] * Vec3{-f.q_x[k], -f.p[k] * s - f.q_y[k] * c, f.p[k] * c - f.q_y[k] * s});
-    }
+    const auto arm = [&](double x, Vec2 point) { return arm_of(w.track(), w.touching(), w.motion, x, point); };
+    w.moment += wrench_of(patch, arm).moment;
   };
   add(*w.contact->last);
   for (const BemPatch& patch : w.contact->last->further) add(patch);

@@ -213,6 +213,7 @@ class CConsumer(Consumer):
         self.source = self.folder / "source"
         self.links = ["-L", libraries()[0].parent, "-lrailstrata", f"-Wl,-rpath,{libraries()[0].parent}"]
         self.case = PREFIX / "share/railstrata/cases/quick/case.toml"
+        self.fortran = ["gfortran", "-std=f2008", "-Wall", "-Werror", PREFIX / "include/railstrata/railstrata.f90"]
 
     def test_c89_fortran_and_cpp_find_the_same_forces(self):
         include = ["-I", PREFIX / "include"]
@@ -220,8 +221,7 @@ class CConsumer(Consumer):
              "-o", self.folder / "mine_c", *self.links, "-lm")
         done(CXX, "-std=c++11", "-Wall", "-Werror", *include, "-x", "c++", self.source / "mine.c",
              "-o", self.folder / "mine_cpp", *self.links)
-        done("gfortran", "-std=f2008", "-Wall", "-Werror", self.source / "mine.f90", "-o", self.folder / "mine_f",
-             *self.links, cwd=self.folder)
+        done(*self.fortran, self.source / "mine.f90", "-o", self.folder / "mine_f", *self.links, cwd=self.folder)
         in_c, in_cpp, in_fortran = (done(self.folder / name, self.case) for name in ("mine_c", "mine_cpp", "mine_f"))
         self.assertEqual(in_c, in_cpp)
         numbers_of = [[float(word) for word in out.split()] for out in (in_c, in_fortran)]
@@ -234,8 +234,7 @@ class CConsumer(Consumer):
         include = ["-I", PREFIX / "include"]
         for name in ("hunting", "wheelset_pipe"):
             done(*c, *include, examples / f"{name}.c", "-o", self.folder / name, *self.links, "-lm")
-        done("gfortran", "-std=f2008", "-Wall", "-Werror", PREFIX / "include/railstrata/railstrata.f90",
-             examples / "hunting.f90", "-o", self.folder / "hunting_f", *self.links, cwd=self.folder)
+        done(*self.fortran, examples / "hunting.f90", "-o", self.folder / "hunting_f", *self.links, cwd=self.folder)
         drive = [examples / "case.toml", "10", "0", "0.25", "4"]  # m/s, no springs, m, m
 
         def trajectory(*program):

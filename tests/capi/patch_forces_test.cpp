@@ -1,0 +1,124 @@
+// Forces of single patches and profiles from arrays, in the C interface.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/capi/contact_handle.hpp"
+
+namespace railstrata {
+namespace {
+
+rs_patch patch_of(const Contact& contact, int patch, const double* about = nullptr) {
+  rs_patch out{};
+  out.size = sizeof(out);
+  rs_error error{};
+  EXPECT_EQ(rs_patch_forces(contact.handle, patch, about, &out, &error), RS_OK) << error.message;
+  return out;
+}
+
+rs_state pulling(double shift) {
+  rs_state out = state_of(RS_LATERAL_SHIFT | RS_CREEPAGE_X | RS_YAW);
+  out.lateral_shift = shift;
+  out.creepage_x = -1e-3;
+  out.yaw = 2e-3;
+  return out;
+}
+
+TEST(CPatchForces, AddUpAndTurnAboutAnyPoint) {
+  Contact contact;
+  ASSERT_EQ(contact.solve(pulling(2e-3)), RS_OK) << contact.error.message;
+  double sum[3] = {0, 0, 0};
+  for (int k = 0; k < contact.forces.patches; ++k)
+    for (int i : {0, 1, 2}) sum[i] += patch_of(contact, k).force[i];
+  const double load = contact.forces.force_z;
+  EXPECT_NEAR(sum[0], contact.forces.force_x, 1e-12 * load);
+  EXPECT_NEAR(sum[1], contact.forces.force_y, 1e-12 * load);
+  EXPECT_NEAR(sum[2], contact.forces.force_z, 1e-12 * load);
+
+  const rs_patch about_origin = patch_of(contact, 0), about_point = patch_of(contact, 0, about_origin.point);
+  const double *r = about_origin.point, *f = about_origin.force;
+  const double moved[] = {r[1] * f[2] - r[2] * f[1], r[2] * f[0] - r[0] * f[2], r[0] * f[1] - r[1] * f[0]};
+  for (int i : {0, 1, 2}) EXPECT_NEAR(about_origin.moment[i], about_point.moment[i] + moved[i], 1e-9 * load);
+  // across the normal only the tractions turn about the contact point
+  const double c = std::cos(about_point.contact_angle), s = std::sin(about_point.contact_angle);
+  EXPECT_NEAR(-s * about_point.moment[1] + c * about_point.moment[2], about_point.spin_moment,
+              1e-6 * std::abs(about_point.spin_moment));
+}
+
+TEST(CPatchForces, NameThePlacesOnBothProfiles) {
+  Contact contact({"geometry.cant=0"});
+  ASSERT_EQ(contact.solve(pulling(1e-3)), RS_OK) << contact.error.message;
+  const rs_patch p = patch_of(contact, 0);
+  EXPECT_NEAR(p.on_rail[0], p.point[1], 1e-15);
+  EXPECT_NEAR(p.on_rail[1], p.point[2], 1e-15);
+  EXPECT_NEAR(p.rolling_radius, 0.43 - p.on_wheel[1], 1e-5);  // less by the yaw
+  EXPECT_EQ(p.contact_angle, contact.forces.contact_angle);
+  EXPECT_EQ(p.cells, contact.forces.cells);
+  EXPECT_EQ(p.p_max, contact.forces.p_max);
+}
+
+TEST(CPatchForces, RefuseWhatIsNotThere) {
+  Contact contact;
+  rs_patch out{};
+  out.size = sizeof(out);
+  EXPECT_EQ(rs_patch_forces(contact.handle, 0, nullptr, &out, &contact.error), RS_CASE);
+  ASSERT_EQ(contact.solve(pulling(0)), RS_OK);
+  EXPECT_EQ(rs_patch_forces(contact.handle, contact.forces.patches, nullptr, &out, &contact.error), RS_CASE);
+  const double about[] = {0, NAN, 0};
+  EXPECT_EQ(rs_patch_forces(contact.handle, 0, about, &out, &contact.error), RS_CASE);
+  out.size = 8;
+  EXPECT_EQ(rs_patch_forces(contact.handle, 0, nullptr, &out, &contact.error), RS_CASE);
+}
+
+/// A rail head of the radius R with steep flanks, every 0.3 mm.
+std::vector<double> round_head(double radius) {
+  constexpr double kHalfWidth = 36e-3, kFlank = 20e-3;
+  std::vector<double> out;
+  for (int k = -121; k <= 121; ++k) {
+    const double y = 0.3e-3 * k;
+    out.push_back(y);
+    out.push_back(-y * y / (2 * radius) - kFlank * std::pow(y / kHalfWidth, 16));
+  }
+  return out;
+}
+
+TEST(CProfiles, FromAnArrayAreThoseOfAFile) {
+  const std::string file = testing::TempDir() + "round_head.csv";
+  const std::vector<double> head = round_head(0.2);
+  {
+    std::ofstream out(file);
+    out.precision(17);
+    for (std::size_t k = 0; k < head.size(); k += 2) out << head[k] << ' ' << head[k + 1] << '\n';
+  }
+  const std::string from_file = "geometry.rail_profile=" + file;
+  Contact wanted({from_file.c_str()}), contact;
+  ASSERT_EQ(contact.solve(pulling(0)), RS_OK);
+  const double before = contact.forces.p_max;
+  ASSERT_EQ(rs_set_profile(contact.handle, RS_RAIL, head.data(), head.size() / 2, &contact.error), RS_OK)
+      << contact.error.message;
+  int nx = 0;
+  EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, nullptr), RS_CASE);  // the last solution is gone
+  rs_forget(contact.handle);
+  ASSERT_EQ(contact.solve(pulling(0)), RS_OK) << contact.error.message;
+  ASSERT_EQ(wanted.solve(pulling(0)), RS_OK) << wanted.error.message;
+  EXPECT_EQ(contact.forces.p_max, wanted.forces.p_max);
+  EXPECT_EQ(contact.forces.force_x, wanted.forces.force_x);
+  EXPECT_NE(contact.forces.p_max, before);
+  std::remove(file.c_str());
+}
+
+TEST(CProfiles, RefuseAnArrayThatIsNone) {
+  Contact contact;
+  const double points[] = {0, 0, 1e-3, 0};
+  EXPECT_EQ(rs_set_profile(contact.handle, RS_RAIL, points, 2, &contact.error), RS_CASE);
+  EXPECT_NE(std::string(contact.error.message).find("too few"), std::string::npos) << contact.error.message;
+  EXPECT_EQ(rs_set_profile(contact.handle, 7, points, 2, &contact.error), RS_CASE);
+  EXPECT_EQ(rs_set_profile(contact.handle, RS_WHEEL, nullptr, 2, &contact.error), RS_CASE);
+  EXPECT_EQ(contact.solve(pulling(0)), RS_OK) << contact.error.message;
+}
+
+}  // namespace
+}  // namespace railstrata
