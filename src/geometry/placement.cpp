@@ -87,17 +87,22 @@ class Gap {
   double wheel_y(double s) const { return rail_point(s).y - offset_y_; }
   LowestPoint on_wheel(double s) const { return lowest_at(rail_point(s)); }
   double value(double s) const { return over(s, rail_point(s)); }
-  /// The same at a place of the rail, in its own frame; nothing where that does not face the wheel. Heights of a wheel
-  /// without a roll come from `wheel`.
-  std::optional<double> value_if_faced(double s, Vec2 on_rail, RunningSurface& wheel) const {
+  /// What the places of a search are looked up with.
+  struct WalkedWheel {
+    RunningSurface upright;
+    OutlineWalk outline;
+  };
+  WalkedWheel walk() const { return {RunningSurface(wheel_), OutlineWalk(turned_)}; }
+  /// The same at a place of the rail, in its own frame; nothing where that does not face the wheel.
+  std::optional<double> value_if_faced(Vec2 on_rail, WalkedWheel& wheel) const {
     const Vec2 rail = roll(cant_, on_rail);
     const double y = rail.y - offset_y_;
     if (!(y >= wheel_begin_ && y <= wheel_end_)) return {};
-    if (rolled()) return over(s, rail);
-    if (track_.yaw == 0) return wheel.height(y) - rail.z;
+    if (rolled()) return wheel.outline.height(y) - rail.z;
+    if (track_.yaw == 0) return wheel.upright.height(y) - rail.z;
     const LowestPoint p = lowest_point(
-        wheel_, [&](double at) { return wheel.place(at); }, track_, y, rail_radius(rail.z));
-    return over(rail, p, wheel.height(p.y));
+        wheel_, [&](double at) { return wheel.upright.place(at); }, track_, y, rail_radius(rail.z));
+    return over(rail, p, wheel.upright.height(p.y));
   }
   double derivative(double s) const {
     if (rolled()) {
@@ -199,17 +204,17 @@ double lateral_offset(const Profile& wheel, const Profile& rail, const TrackGeom
   return tape_circle - rail_axis + track.lateral_shift;
 }
 
-GapSamples sample_overlap(const Gap& gap, const Profile& wheel, const Profile& rail) {
+GapSamples sample_overlap(const Gap& gap, const Profile& rail) {
   const double begin = rail.s_at_y(rail.y_min()), end = rail.s_at_y(rail.y_max());
   const int n = std::max(10, static_cast<int>(std::ceil((end - begin) / kSearchStep)));
   const std::vector<Vec2> places = even_positions(rail, begin, (end - begin) / n, static_cast<std::size_t>(n) + 1);
-  RunningSurface surface(wheel);
+  Gap::WalkedWheel walked = gap.walk();
   GapSamples out;
   out.s.reserve(places.size());
   out.gap.reserve(places.size());
   for (int i = 0; i <= n; ++i) {
     const double s = i == n ? end : begin + (end - begin) * i / n;
-    const std::optional<double> value = gap.value_if_faced(s, places[static_cast<std::size_t>(i)], surface);
+    const std::optional<double> value = gap.value_if_faced(places[static_cast<std::size_t>(i)], walked);
     if (!value) continue;
     out.s.push_back(s);
     out.gap.push_back(*value);
@@ -346,7 +351,7 @@ double yaw_creepage(const RigidContact& contact) {
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
   const double offset_y = lateral_offset(wheel, rail, track);
   const Gap gap(wheel, rail, track, offset_y);
-  const auto searched = std::make_shared<const GapSamples>(sample_overlap(gap, wheel, rail));
+  const auto searched = std::make_shared<const GapSamples>(sample_overlap(gap, rail));
   const GapSamples& samples = *searched;
   if (samples.s.size() < 3)
     throw CaseError(fmt::format("{}: the wheel misses the rail; its tape circle stands {:.1f} mm from the rail's axis",
@@ -367,8 +372,7 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
                                            const RigidContact& first, double descent) {
   constexpr double kRidge = 1e-6;  // m
   const Gap gap(wheel, rail, track, first.wheel_offset_y);
-  const auto searched =
-      first.searched ? first.searched : std::make_shared<const GapSamples>(sample_overlap(gap, wheel, rail));
+  const auto searched = first.searched ? first.searched : std::make_shared<const GapSamples>(sample_overlap(gap, rail));
   const GapSamples& samples = *searched;
   std::vector<std::size_t> places{sample_near(samples, first.rail_s)};
   std::vector<RigidContact> out;
@@ -388,9 +392,8 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
 Ridge ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
                     const RigidContact& b) {
   const auto searched =
-      b.searched
-          ? b.searched
-          : std::make_shared<const GapSamples>(sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), wheel, rail));
+      b.searched ? b.searched
+                 : std::make_shared<const GapSamples>(sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), rail));
   const GapSamples& samples = *searched;
   const std::size_t i = ridge_sample(samples, sample_near(samples, a.rail_s), sample_near(samples, b.rail_s));
   return {samples.s[i], samples.gap[i]};

@@ -13,6 +13,8 @@ TurnedWheel::TurnedWheel(const Profile& wheel, const TrackGeometry& track)
       yaw_cosine_(1 / std::hypot(1.0, track.yaw)),
       yaw_sine_(track.yaw * yaw_cosine_),
       slope_(track.yaw),
+      lean_cosine_(1 / std::hypot(1.0, slope_ * roll_sine_)),
+      lean_sine_(slope_ * roll_sine_ * lean_cosine_),
       begin_(wheel.s_at_y(wheel.y_min())),
       end_(wheel.s_at_y(wheel.y_max())) {}
 
@@ -30,11 +32,11 @@ Vec2 TurnedWheel::section(Vec2 p) const {
 //   sin theta - tan psi sin phi cos theta = tan psi cos phi t_z/t_y
 TurnedPoint TurnedWheel::outline(double s) const {
   const ProfilePoint p = wheel_.at(s);
-  const double lean = slope_ * roll_sine_,
-               steep = slope_ * roll_cosine_ * p.tangent.z / (std::max(p.tangent.y, 1e-6) * std::hypot(1.0, lean));
   // a flank too steep for its circle to have such a place lies above the outline
-  const double theta = std::asin(std::clamp(steep, -1.0, 1.0)) + std::atan(lean);
-  const double sine = std::sin(theta), cosine = std::cos(theta), r = radius_ - p.position.z;
+  const double steep = std::clamp(slope_ * roll_cosine_ * lean_cosine_ * p.tangent.z / std::max(p.tangent.y, 1e-6),
+                                  -1.0, 1.0),
+               level = std::sqrt((1 - steep) * (1 + steep)), sine = steep * lean_cosine_ + level * lean_sine_,
+               cosine = level * lean_cosine_ - steep * lean_sine_, r = radius_ - p.position.z;
   TurnedPoint out;
   out.position = turned({r * sine, p.position.y, radius_ - r * cosine});
   const Vec3 normal = turned({p.tangent.y * sine, p.tangent.z, -p.tangent.y * cosine});
@@ -59,6 +61,20 @@ double TurnedWheel::s_at_y(double y) const {
     s = next;
   }
   return s;
+}
+
+double OutlineWalk::height(double y) {
+  constexpr double kNear = 1e-7;  // m, from where the tangent leads on
+  constexpr int kMostSteps = 4;
+  for (int i = 0; s_ && i < kMostSteps; ++i) {
+    *s_ += (y - last_.position.y) / std::max(last_.along.y, 0.01);
+    last_ = wheel_.outline(*s_);
+    if (std::abs(y - last_.position.y) < kNear)
+      return last_.position.z + (y - last_.position.y) * last_.along.z / last_.along.y;
+  }
+  s_ = wheel_.s_at_y(y);
+  last_ = wheel_.outline(*s_);
+  return last_.position.z;
 }
 
 TurnedPoint TurnedWheel::cut(double s, double x) const {

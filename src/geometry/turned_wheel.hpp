@@ -6,6 +6,8 @@
 // model's axes. A point of the circle through the profile's place s, at the angle theta from the lowest point, is
 //   (r sin theta, y, R - r cos theta),   r = R - z(s)
 // before it is turned.
+#include <optional>
+
 #include "core/vec.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile.hpp"
@@ -45,7 +47,21 @@ class TurnedWheel {
   const Profile& wheel_;
   double radius_;
   double roll_cosine_, roll_sine_, yaw_cosine_, yaw_sine_, slope_;
-  double begin_, end_;  // arc lengths of the running surface
+  double lean_cosine_, lean_sine_;  // of atan(tan(psi) sin(phi))
+  double begin_, end_;              // arc lengths of the running surface
+};
+
+/// Heights of the outline at places that come one after the other.
+class OutlineWalk {
+ public:
+  explicit OutlineWalk(const TurnedWheel& wheel) : wheel_(wheel) {}
+  /// At y, to some 1e-13 m. Clamped as TurnedWheel::s_at_y.
+  double height(double y);
+
+ private:
+  const TurnedWheel& wheel_;
+  std::optional<double> s_;  // of the last place
+  TurnedPoint last_;
 };
 
 /// Direction in which the wheel's surface moves where it touches: lateral over longitudinal component in the plane of
