@@ -2,12 +2,16 @@
 // ask for them (LMA on CN60, 85 kN, creepage 1e-3, cells of 0.5 mm: about 500 in contact). CPU time of one thread.
 //
 // Lines: median, 90 % and 99 % quantile of a solution, each started from the one before (warm) or anew (cold), without
-// a layer and with 2 mm at 2 E0; with a yaw, and a roll besides; rs_jacobian by six inputs after each solution.
+// a layer and with 2 mm at 2 E0; with a yaw, and a roll besides; rs_jacobian by six inputs after each solution. Then
+// states of a running wheelset, successive along its way or at random.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +49,15 @@ double jacobian_seconds(benchmark::State& state, rs_contact* contact) {
   return cpu_seconds() - begun;
 }
 
+/// `name`: "" or with an underscore at its end.
+void tell(benchmark::State& state, std::vector<double>& times, const std::string& name) {
+  if (times.empty()) return;
+  std::sort(times.begin(), times.end());
+  for (const auto& [word, share] : {std::pair("median", 0.5), {"p90", 0.9}, {"p99", 0.99}})
+    state.counters[name + word + "_ms"] =
+        1e3 * times[static_cast<std::size_t>(share * static_cast<double>(times.size()))];
+}
+
 void lateral_sweep(benchmark::State& state, const Sweep& sweep) {
   railstrata::set_threads(1);
   constexpr int kSolutions = 1000;
@@ -71,15 +84,8 @@ void lateral_sweep(benchmark::State& state, const Sweep& sweep) {
     }
   }
   rs_contact_free(contact);
-  const auto tell = [&](std::vector<double>& times, const std::string& name) {
-    if (times.empty()) return;
-    std::sort(times.begin(), times.end());
-    for (const auto& [word, share] : {std::pair("median", 0.5), {"p90", 0.9}, {"p99", 0.99}})
-      state.counters[name + word + "_ms"] =
-          1e3 * times[static_cast<std::size_t>(share * static_cast<double>(times.size()))];
-  };
-  tell(seconds, "");
-  tell(of_derivatives, "jacobian_");
+  tell(state, seconds, "");
+  tell(state, of_derivatives, "jacobian_");
   state.counters["cells"] = forces.cells;
 }
 
@@ -95,6 +101,53 @@ SWEEP(yaw_cold, {kPlain, false, 5e-3});
 SWEEP(roll_warm, {kPlain, true, 5e-3, 1e-3});
 SWEEP(plain_derivatives, {kPlain, true, 5e-3, 0, true});
 SWEEP(layered_derivatives, {kLayered, true, 5e-3, 0, true});
+
+/// Shift within 6 mm, yaw within 5e-3, the roll that cones of 1:20 give with the shift, load 85 kN and 30 % more or
+/// less, creepages within 1e-3. share: of each but the roll, -1 to 1.
+template <class Share>
+rs_state running(Share&& share) {
+  rs_state s{};
+  s.size = sizeof(s);
+  s.given = RS_LOAD | RS_LATERAL_SHIFT | RS_YAW | RS_ROLL | RS_CREEPAGE_X | RS_CREEPAGE_Y;
+  s.lateral_shift = 6e-3 * share(0);
+  s.yaw = 5e-3 * share(1);
+  s.roll = 0.05 / 0.75 * s.lateral_shift;
+  s.load = 85e3 * (1 + 0.3 * share(2));
+  s.creepage_x = 1e-3 * share(3);
+  s.creepage_y = 1e-3 * share(4);
+  return s;
+}
+
+/// Successive: two waves of hunting, as of 15 m at 30 m/s in steps of 1 ms, the load in five waves.
+void run_of_states(benchmark::State& state, bool successive) {
+  railstrata::set_threads(1);
+  constexpr int kSolutions = 1000;
+  rs_error error{};
+  rs_contact* contact = rs_contact_from_text(kPlain, nullptr, 0, &error);
+  rs_set_cell(contact, 0.5e-3, &error);
+  rs_forces forces{};
+  forces.size = sizeof(forces);
+  std::mt19937 random(1);
+  std::vector<double> seconds;
+  int failed = 0;
+  for (auto _ : state) {
+    for (int k = 0; k < kSolutions; ++k) {
+      const rs_state s = running([&](int which) {
+        constexpr double kWaves[] = {2, 2, 5, 3, 4}, kBegin[] = {0, 1.5, 0.3, 0.7, 2};
+        return successive ? std::sin(2 * std::numbers::pi * kWaves[which] * k / kSolutions + kBegin[which])
+                          : 2 * static_cast<double>(random()) / 4294967296.0 - 1;
+      });
+      const double begun = cpu_seconds();
+      failed += rs_solve(contact, &s, &forces, &error) != RS_OK;
+      seconds.push_back(cpu_seconds() - begun);
+    }
+  }
+  rs_contact_free(contact);
+  tell(state, seconds, "");
+  state.counters["failed"] = failed;
+}
+BENCHMARK_CAPTURE(run_of_states, successive, true)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK_CAPTURE(run_of_states, random, false)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
 
