@@ -349,7 +349,7 @@ void CreepTable::find_scaling(const CreepTableOptions& options) {
     for (const CreepStiffness& s : found) scaling.stiffness[k].values.push_back(s[k]);
   }
   const double largest = *std::max_element(radius.begin(), radius.end());
-  if (!(largest > 0)) throw CaseError(outer_.front().fault, "make the table without --scaled");
+  if (!(largest > 0)) throw CaseError(outer_.front().fault);
   scaling.largest_size = largest / (1 + largest);
 }
 
