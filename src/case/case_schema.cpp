@@ -183,6 +183,11 @@ std::vector<std::string> known_names(std::string_view key) {
   return out;
 }
 
+/// Of a list, whose type shows best that way.
+std::string doc_with_example(const Option& option) {
+  return fmt::format("{}{}", option.doc, option.example.empty() ? "" : fmt::format(": `{}`", option.example));
+}
+
 CaseKey key_of(const OptionTable& table, const Option& option, CaseSpec& spec) {
   CaseKey out;
   out.key = fmt::format("{}{}.{}", table.name, table.repeated ? ".0" : "", option.key);
@@ -251,7 +256,7 @@ std::string case_reference_markdown() {
     for (const Option& option : table.options) {
       const std::string value = default_text(table, option, spec);
       out += fmt::format("| `{}` | {} | {} | {} |\n", option.key, value.empty() ? value : "`" + value + "`",
-                         allowed(option), option.doc);
+                         allowed(option), doc_with_example(option));
     }
   }
   return out;
