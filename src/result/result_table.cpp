@@ -42,6 +42,7 @@ constexpr double kNoise = 1e-7;
 constexpr RoundOff kOfForce{kNoise, kNormalForce}, kOfMoment{kNoise, kNormalForce, "/contact/patch_length_m"},
     kOfPressure{kNoise, "/contact/p_max_Pa"}, kOfApproach{kNoise, "/contact/approach_m"},
     kOfWork{kNoise, kNormalForce, "/contact/approach_m"};
+constexpr RoundOff kOfTGamma{1e-12, kNormalForce};  // a creepage that is none times the normal force
 constexpr RoundOff kOfCreepage{1e-10}, kOfSpin{1e-8}, kOfAngle{1e-9};
 
 constexpr const char* kErrorEnding = "_error";
@@ -299,9 +300,9 @@ constexpr auto damage = &at<&Summary::damage, Member>;
 std::vector<ResultNumber> damage_numbers() {
   using D = DamageSummary;
   return {row("t_gamma", kNewtons, damage<&D::t_gamma>, "T-gamma", "T-gamma",
-              "|F_x creepage_x| + |F_y creepage_y|, of several patches their sum; J per m rolled", kMain),
+              "|F_x creepage_x| + |F_y creepage_y|, of several patches their sum; J per m rolled", kMain, kOfTGamma),
           row("t_gamma_with_spin", kNewtons, damage<&D::t_gamma_with_spin>, "with spin", "T-gamma with spin",
-              "And |M_z spin|", kCompared),
+              "And |M_z spin|", kShown | kCompared, kOfTGamma),
           row("friction_energy", kJoulesPerMetre, damage<&D::friction_energy>, "friction energy",
               "Friction energy per distance", "Sum over the points of traction times slip times area, over the speed",
               kCompared),

@@ -53,12 +53,11 @@ TEST(PassClass, NoClaimWhileItStillChangesOrAfterFewPasses) {
 }
 
 TEST(PassClass, ARateThatFallsIsNoRatchettingThoughItsStepsAreSmall) {
-  const auto falling = [](double power) {
-    return classify(passes(
-        60, [](double) { return 3e-3; }, [=](double n) { return 1e-3 * std::pow(n, -power); }));
-  };
-  EXPECT_EQ(falling(0.63).kind, PassClass::transient) << "0.6 of a percent from pass to pass";
-  EXPECT_EQ(falling(0.03).kind, PassClass::ratchetting);
+  const auto constant = [](double) { return 3e-3; };
+  const PassVerdict falling = classify(passes(60, constant, [](double n) { return 1e-3 * std::pow(n, -0.63); }));
+  EXPECT_EQ(falling.kind, PassClass::transient) << "1 % from pass to pass";
+  const PassVerdict slow = classify(passes(60, constant, [](double n) { return 1e-3 * std::pow(n, -0.03); }));
+  EXPECT_EQ(slow.kind, PassClass::ratchetting);
 }
 
 TEST(PassClass, TheDuctilityIsUsedUpAtTheRateOfTheRatchetting) {

@@ -258,9 +258,10 @@ setOrigin([
 ]);
 const judgement = judged() ? [verdict(report)] : [];
 const passes = report.passes ? passesParts(report.passes) : [];
-// the pictures of a run that others or answers stand beside come with it
+// the pictures of a run that others or answers stand beside come with it; an answer stands before all pictures
 const few = report.runs.length < 3 && !report.tables.length;
-const first = few ? [header(), glance, ...judgement] : [header(), ...judgement];
+const beside = few && !report.answers?.length ? [glance, ...judgement] : [...judgement, ...(few ? [glance] : [])];
+const first = [header(), ...beside];
 const rest = few ? [] : [glance];
 const main = element("main", {}, ...first, ...passes, ...studyParts(), chooser(), ...rest, stage, ...whatIfPart());
 document.body.replaceChildren(main);
