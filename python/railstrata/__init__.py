@@ -23,6 +23,7 @@ from .patch import Patch, PatchState
 from .results import BemResult, Body, Check, FolderResult, Peak, Peaks, Result, von_mises
 from .solve import bem, resume, run, shakedown, sweep
 from .table import Table
+from .wheelset import WheelForces, Wheelset, WheelsetForces
 from .yielding import PassesResult, passes
 from .yielding import open_folder as open  # noqa: A004 - the word users expect
 
@@ -37,6 +38,7 @@ def threads(count: int = 0) -> int:
 __all__ = [
     "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Contact", "ContactForces", "CreepTable",
     "Diagnostic", "DrivenPath", "FolderResult", "MachineError", "MaterialFit", "NumericalError", "PassesResult",
-    "Patch", "PatchState", "Peak", "Peaks", "Result", "Table", "bem", "calibrate", "damage", "material", "open",
-    "open_table", "passes", "resume", "run", "schema", "shakedown", "shipped_data", "sweep", "threads", "von_mises",
+    "Patch", "PatchState", "Peak", "Peaks", "Result", "Table", "WheelForces", "Wheelset", "WheelsetForces", "bem",
+    "calibrate", "damage", "material", "open", "open_table", "passes", "resume", "run", "schema", "shakedown",
+    "shipped_data", "sweep", "threads", "von_mises",
 ]

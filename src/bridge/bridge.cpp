@@ -66,9 +66,9 @@ void work(RailstrataCall& running, const std::string& function) {
 const Functions& functions() {
   static const Functions all = [] {
     Functions out;
-    for (const auto& some :
-         {case_functions(), contact_functions(), damage_functions(), folder_functions(), half_space_functions(),
-          material_functions(), pass_functions(), run_functions(), sweep_functions(), table_functions()})
+    for (const auto& some : {case_functions(), contact_functions(), damage_functions(), folder_functions(),
+                             half_space_functions(), material_functions(), pass_functions(), run_functions(),
+                             sweep_functions(), table_functions(), wheelset_functions()})
       out.insert(some.begin(), some.end());
     return out;
   }();

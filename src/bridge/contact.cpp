@@ -2,11 +2,9 @@
 #include <memory>
 #include <mutex>
 
+#include "bridge/c_interface.hpp"
 #include "bridge/functions.hpp"
-#include "capi/railstrata.h"
 #include "case/case_file.hpp"
-#include "core/faults.hpp"
-#include "core/stop_request.hpp"
 #include "runs/solve_settings.hpp"
 
 namespace railstrata::bridge {
@@ -21,14 +19,6 @@ struct Contact {
   rs_contact* at;
   std::mutex one_at_a_time;
 };
-
-[[noreturn]] void raise(const Call& call, const rs_error& error) {
-  if (call.control.stop.load()) throw Interrupted("stopped");
-  if (error.code == RS_CASE) throw CaseError(error.message);
-  if (error.code == RS_NUMERICS) throw NumericalError(error.message);
-  if (error.code == RS_MACHINE) throw EnvironmentError(error.message);
-  throw std::runtime_error(error.message);
-}
 
 /// The resolved case, whose profile files have whole paths: it needs neither its file nor its overrides.
 void open_contact(Call& call) {

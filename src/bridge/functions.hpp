@@ -23,5 +23,6 @@ Functions pass_functions();
 Functions run_functions();
 Functions sweep_functions();
 Functions table_functions();
+Functions wheelset_functions();
 
 }  // namespace railstrata::bridge

@@ -237,14 +237,17 @@ class CConsumer(Consumer):
         done(*self.fortran, examples / "hunting.f90", "-o", self.folder / "hunting_f", *self.links, cwd=self.folder)
         drive = [examples / "case.toml", "10", "0", "0.25", "4"]  # m/s, no springs, m, m
 
+        package = next(PREFIX.rglob("railstrata/libbridge.so")).parent.parent
+        here = environment(PYTHONPATH=str(package), PYTHONDONTWRITEBYTECODE="1")
+
         def trajectory(*program):
-            return [list(map(float, row.split(","))) for row in done(*program, *drive).splitlines()[1:]]
+            return [list(map(float, row.split(","))) for row in done(*program, *drive, env=here).splitlines()[1:]]
 
         by_c = trajectory(self.folder / "hunting")
         self.assertEqual(len(by_c), 16)
         self.assertGreater(by_c[-1][1], 0.1)  # mm aside
         self.assertEqual(by_c, trajectory(self.folder / "hunting_f"))
-        self.assertEqual(by_c, trajectory("/usr/bin/python3", examples / "hunting.py", libraries()[0]))
+        self.assertEqual(by_c, trajectory("/usr/bin/python3", examples / "hunting.py"))
         self.assertEqual(by_c, trajectory("octave-cli", "--no-gui", "-q", examples / "hunting.m",
                                           self.folder / "wheelset_pipe"))
 

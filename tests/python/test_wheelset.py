@@ -1,0 +1,60 @@
+"""rs.Wheelset: states of two wheels on one axle."""
+import copy
+
+import numpy as np
+import pytest
+
+import railstrata as rs
+
+
+@pytest.fixture(scope="module")
+def wheelset():
+    return rs.Wheelset("cases/quick", "1 mm", threads=1)
+
+
+def test_a_wheelset_bears_its_load_and_roll_moment(wheelset):
+    forces = wheelset.solve(speed=20, load=160e3, y=2e-3, yaw=1e-3, roll_moment=20e3)
+    assert forces.force[2] == pytest.approx(160e3, rel=1e-4) and forces.moment[0] == pytest.approx(-20e3, rel=1e-3)
+    assert np.allclose(np.add(forces.left.force, forces.right.force), forces.force, rtol=1e-12)
+    assert forces.left.point[1] > 0.7 > -0.7 > forces.right.point[1] and forces.left.ok and forces.right.ok
+    again = wheelset.solve(speed=20, z=forces.z, roll=forces.roll, y=2e-3, yaw=1e-3)
+    assert again.left.force[2] == pytest.approx(forces.left.force[2], rel=1e-4)
+
+
+def test_mirror_images_have_mirrored_forces(wheelset):
+    one = wheelset.solve(speed=20, load=160e3, y=1e-3, rail_y=(0.2e-3, 0))
+    other = wheelset.solve(speed=20, load=160e3, y=-1e-3, rail_y=(0, -0.2e-3))
+    assert other.force[1] == pytest.approx(-one.force[1], rel=1e-3)
+    assert other.right.p_max == pytest.approx(one.left.p_max, rel=1e-3)
+
+
+def test_trial_steps_leave_no_trace(wheelset):
+    wheelset.solve(speed=20, load=160e3)
+    wheelset.keep()
+    first = wheelset.solve(speed=20, load=160e3, y=1e-3)
+    wheelset.solve(speed=20, load=160e3, y=-2e-3)
+    wheelset.reset()
+    assert wheelset.solve(speed=20, load=160e3, y=1e-3) == first
+
+
+def test_the_right_wheel_may_differ_and_a_copy_is_made_anew():
+    softer = rs.Wheelset("cases/quick", "1 mm", right={"layer.0.young": 210e9}, threads=1)
+    forces = softer.solve(speed=20, load=160e3)
+    assert forces.left.p_max > 1.02 * forces.right.p_max
+    assert copy.deepcopy(softer).solve(speed=20, load=160e3) == forces
+    assert "cell 1 mm" in repr(softer)
+
+
+def test_mistakes_have_a_reason(wheelset):
+    with pytest.raises(rs.CaseError, match="RS_WHEELSET_LOAD"):
+        wheelset.solve(speed=20)
+    with pytest.raises(rs.CaseError, match="speed"):
+        wheelset.solve(speed=0, load=160e3)
+    with pytest.raises(rs.CaseError, match="tips"):
+        wheelset.solve(speed=20, load=160e3, roll_moment=1e6)
+    with pytest.raises(ValueError, match="rail_y"):
+        wheelset.solve(speed=20, load=160e3, rail_y=(1e-3,))
+    with pytest.raises(TypeError, match="load"):
+        wheelset.solve(speed=20, load="160 kN")
+    with pytest.raises(rs.CaseError):
+        rs.Wheelset("cases/quick", right={"geometry.rail_profile": "no such profile"})
