@@ -63,9 +63,13 @@ void require(const rs_contact* contact) {
   if (!contact) throw CaseError("the contact is NULL", "make one with rs_contact_new");
 }
 
+bool same_place(const GeometrySpec& a, const GeometrySpec& b) {
+  return a.lateral_shift == b.lateral_shift && a.yaw == b.yaw && a.roll == b.roll;
+}
+
 Placement placed(const rs_contact& contact, const CaseSpec& spec) {
-  const GeometrySpec &now = spec.geometry, &was = contact.loaded.spec.geometry;
-  if (now.lateral_shift == was.lateral_shift && now.yaw == was.yaw && now.roll == was.roll) return contact.placement;
+  const GeometrySpec& now = spec.geometry;
+  if (same_place(now, contact.loaded.spec.geometry)) return contact.placement;
   Placement out = contact.placement;
   out.track.lateral_shift = now.lateral_shift;
   out.track.yaw = now.yaw;

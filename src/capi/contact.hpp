@@ -24,6 +24,8 @@ struct rs_contact {
 
 namespace railstrata::capi {
 
+/// Whether a state leaves the wheel where it is.
+bool same_place(const GeometrySpec& a, const GeometrySpec& b);
 /// The placement of the case's profiles where a state has moved the wheel.
 Placement placed(const rs_contact& contact, const CaseSpec& spec);
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <optional>
 
 #include "bem/contact_derivative.hpp"
 #include "capi/contact.hpp"
@@ -15,15 +15,16 @@ namespace {
 /// The case of the last state with one input moved.
 struct Moved {
   CaseSpec spec;
-  Placement placement;
-  PlacedCase there() const { return {spec, placement}; }
+  std::optional<Placement> placement;  ///< none: that of the last state
+  const Placement& unmoved;
+  PlacedCase there() const { return {spec, placement ? *placement : unmoved}; }
 };
-Moved moved(const rs_contact& contact, const capi::Input& input, unsigned bit, double by) {
+Moved moved(const rs_contact& contact, const capi::Input& input, unsigned bit, double by, const PlacedCase& here) {
   rs_state state = *contact.state;
   state.given |= bit;
   state.*input.member = input.value + by;
-  Moved out{capi::with_state(contact.loaded.spec, state), contact.placement};
-  out.placement = capi::placed(contact, out.spec);
+  Moved out{capi::with_state(contact.loaded.spec, state), {}, here.placement};
+  if (!capi::same_place(out.spec.geometry, here.spec.geometry)) out.placement = capi::placed(contact, out.spec);
   return out;
 }
 
@@ -44,13 +45,13 @@ void fill(const ContactDerivative& d, rs_derivatives& out) {
 
 /// The same as differences of two solutions.
 void difference(const rs_contact& contact, const capi::Input& input, unsigned bit, BemOptions options,
-                rs_derivatives& out) {
+                const PlacedCase& here, rs_derivatives& out) {
   constexpr double kTolerance = 1e-10, kLonger = 30;  // a step that its errors allow
   capi::set_tolerance(options, kTolerance);
   const double step = kLonger * input.step;
   const auto forces = [&](double by) {
-    const Moved there = moved(contact, input, bit, by);
-    const BemResult result = solve_bem(there.spec, there.placement, options);
+    const Moved there = moved(contact, input, bit, by, here);
+    const BemResult result = solve_bem(there.spec, there.there().placement, options);
     return capi::forces_of(result, bem_contact_summary(there.spec, result));
   };
   rs_forces more{}, less{};
@@ -97,11 +98,11 @@ void jacobian(rs_contact& contact, const unsigned* inputs, int count, rs_derivat
   for (int k = 0; k < count; ++k) {
     const capi::Input input = capi::input_of(*contact.state, inputs[k], spec, result);
     if (!derivatives || !derivatives->linear()) {
-      difference(contact, input, inputs[k], options, out[k]);
+      difference(contact, input, inputs[k], options, {spec, placement}, out[k]);
       continue;
     }
-    const Moved more = moved(contact, input, inputs[k], input.step),
-                less = moved(contact, input, inputs[k], -input.step);
+    const Moved more = moved(contact, input, inputs[k], input.step, {spec, placement}),
+                less = moved(contact, input, inputs[k], -input.step, {spec, placement});
     fill(derivatives->by(more.there(), less.there(), input.step), out[k]);
   }
 }

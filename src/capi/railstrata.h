@@ -134,7 +134,7 @@ typedef struct rs_derivatives {
  * All other inputs stay as they were given; what was not given follows as in rs_solve: by RS_YAW the lateral creepage
  * turns with the wheel unless RS_CREEPAGE_Y was given. The equations of the cells in contact, sticking and slipping,
  * linearised at the last solution, so that errors are those of its sets: some 1e-4 after a tolerance of 1e-5, 1e-6
- * after 1e-8. Costs two warm solutions for each input, four with layers. Where a derivative jumps (a cell comes into
+ * after 1e-8. Costs less than two warm solutions for each of six inputs. Where a derivative jumps (a cell comes into
  * contact, a profile's curvature changes) it is that of one side.
  * Without linear equations (several patches, friction that falls with slip or temperature, a film that yields, a force
  * over a given approach) by central differences of new solutions of a tolerance of 1e-10, several times dearer. Of a
