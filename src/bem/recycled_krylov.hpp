@@ -22,8 +22,7 @@ class RecycledKrylov {
     left_ = b;
     const double goal = relative * std::sqrt(dot(b, b));
     std::vector<double> parts(columns_.size(), 0.0);
-    double square = columns_.empty() ? goal * goal : orthogonalize(images_.basis, columns_.size(), left_, parts);
-    if (columns_.empty()) square = dot(left_, left_);
+    double square = columns_.empty() ? dot(left_, left_) : orthogonalize(images_.basis, columns_.size(), left_, parts);
     while (std::sqrt(square) > goal && columns_.size() < kMost) {
       const std::size_t k = columns_.size();
       directions_.emplace_back(b.size());
