@@ -24,6 +24,15 @@ Profile cone(double slope) {
                                 {{{-60 * mm, -60 * mm * slope}, {60 * mm, 60 * mm * slope}, {}, 0}});
 }
 
+TEST(OutlineWalk, HasTheHeightsOfTheOutlineWhereverItGoes) {
+  const Profile lma = builtin_profile(ProfileKind::wheel, "LMA");
+  const TurnedWheel wheel(lma, rolled(0.005, 0.01));
+  OutlineWalk walk(wheel);
+  const auto looked_up = [&](double y) { return wheel.outline(wheel.s_at_y(y)).position.z; };
+  for (double y = -25 * mm; y < 35 * mm; y += 0.05 * mm) EXPECT_NEAR(walk.height(y), looked_up(y), 1e-12) << y;
+  for (const double y : {30 * mm, -20 * mm, -20 * mm, 5 * mm}) EXPECT_NEAR(walk.height(y), looked_up(y), 1e-12) << y;
+}
+
 // A cone touches a round head of radius R where the head is as steep as the cone with the roll: at -R sin(gamma + phi).
 TEST(Roll, MovesAndTiltsTheContactOfAConeOnARoundHead) {
   const Profile head = builtin_profile(ProfileKind::rail, "arc:R=300 mm");
