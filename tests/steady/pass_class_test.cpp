@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 namespace railstrata {
 namespace {
 
-std::vector<PassStrain> passes(int count, double (*accumulated)(double), double (*net)(double)) {
+using OfPass = std::function<double(double)>;
+
+std::vector<PassStrain> passes(int count, const OfPass& accumulated, const OfPass& net) {
   std::vector<PassStrain> all;
   for (int n = 1; n <= count; ++n) all.push_back({accumulated(n), net(n)});
   return all;
