@@ -76,6 +76,31 @@ void require_all_taken(Problem& problem) {
   throw Refused(code, text);
 }
 
+class Patches : public PatchProblems {
+ public:
+  explicit Patches(int ire) : ire_(ire) {}
+  Problem& patch(int number) override { return registry().problem(ire_, number); }
+
+ private:
+  int ire_;
+};
+
+/// Of module 1: all patches. The elements at their borders.
+int solve_patches(int ire, ModuleOne& wheel, Problem& base) {
+  constexpr const char* kCall = "cntc_calculate";
+  ++base.cases;
+  require_all_taken(base);
+  registry().clear_message(base);
+  std::vector<std::string> remarks;
+  Patches patches(ire);
+  solve_wheel(wheel, base, patches, remarks);
+  int at_border = 0;
+  for (int k = 1; k <= static_cast<int>(wheel.patches.size()); ++k)
+    at_border += patches.patch(k).solved->border_cells;
+  for (const std::string& remark : remarks) registry().report(ire, -1, &base, kCall, 0, remark);
+  return at_border;
+}
+
 void solve_case(int ire, int icp, Problem& problem) {
   constexpr const char* kCall = "cntc_calculate";
   ++problem.cases;
@@ -105,6 +130,10 @@ int calculate(int ire, int icp) noexcept {
     const std::unique_lock<std::mutex> lock = alone(problem);
     const Clock clock(problem);
     const Threads threads(registry().threads);
+    if (ModuleOne* wheel = registry().find_wheel(ire)) {
+      at_border = solve_patches(ire, *wheel, problem);
+      return;
+    }
     solve_case(ire, icp, problem);
     at_border = problem.solved ? problem.solved->border_cells : 0;
   });

@@ -4,6 +4,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "cntc/registry.hpp"
@@ -68,6 +69,16 @@ void setting(int ire, int icp, int key, const char* call, Work&& work) noexcept 
 template <class T>
 std::span<T> given(T* values, int length) {
   return values && length > 0 ? std::span<T>(values, static_cast<std::size_t>(length)) : std::span<T>();
+}
+
+/// A text of a caller, without the blanks that Fortran fills it with.
+inline std::string_view text(const char* characters, const int* length) {
+  if (!characters || !length || *length <= 0) return {};
+  std::string_view out(characters, static_cast<std::size_t>(*length));
+  out = out.substr(0, out.find('\0'));
+  const std::size_t first = out.find_first_not_of(' ');
+  if (first == std::string_view::npos) return {};
+  return out.substr(first, out.find_last_not_of(' ') - first + 1);
 }
 
 /// Fills what a caller has room for; what there is no value for becomes NaN.

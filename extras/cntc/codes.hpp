@@ -9,10 +9,12 @@ inline constexpr int kInterfaceVersion = 2510;
 inline constexpr int kMostElements = 999, kMostProblems = 9;
 
 enum ErrorCode : int {
+  kSearch = -25,        ///< failure of the contact search
   kTotalForce = -26,    ///< no solution for given total forces
   kNormal = -27,        ///< no convergence of the normal problem
   kTangential = -28,    ///< no convergence of the tangential problem
   kWrongProblem = -31,  ///< no such result element or contact problem
+  kProfile = -32,       ///< a profile that cannot be read
   kFriction = -33,      ///< invalid friction
   kGrid = -34,          ///< invalid discretisation
   kInputFile = -39,

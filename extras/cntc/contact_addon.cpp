@@ -18,16 +18,6 @@ using namespace railstrata::cntc;
 
 namespace {
 
-/// A text of a caller, without the blanks that Fortran fills it with.
-std::string_view text(const char* characters, const int* length) {
-  if (!characters || !length || *length <= 0) return {};
-  std::string_view out(characters, static_cast<std::size_t>(*length));
-  out = out.substr(0, out.find('\0'));
-  const std::size_t first = out.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return out.substr(first, out.find_last_not_of(' ') - first + 1);
-}
-
 int open(const int* output, std::string_view wrkdir, std::string_view outdir, std::string_view name) noexcept {
   return guarded(0, 0, nullptr, "cntc_initializefirst", [&] {
     const int to = output ? *output : 0;
@@ -60,12 +50,6 @@ void scatter(const Numbers& from, double* a, double* b, double* c) {
   *c = from[2];
 }
 
-void refuse_module_one(const int* ire, const char* call) noexcept {
-  guarded(*ire, -1, nullptr, call, [] {
-    throw Refused(kOther, "is of module 1, wheel on rail, which is not offered: basic contact (module 3) is");
-  });
-}
-
 void set_global_flag(int code, int value) {
   if (code == kThreads) registry().threads = value;
   if (code == kPrintLevel) registry().print_level = value;
@@ -96,9 +80,9 @@ void cntc_initialize(const int* ire, const int* imodul, int* ifcver, int* ierror
   *ierror = open(nullptr, {}, text(outdir, len_outdir), {});
   if (*ierror != 0) return;
   *ierror = guarded(*ire, -1, nullptr, "cntc_initialize", [&] {
-    if (*imodul != 3)
-      throw Refused(kOther, fmt::format("module {} is not offered: basic contact (module 3) is", *imodul));
-    registry().make_element(*ire);
+    if (*imodul != 1 && *imodul != 3)
+      throw Refused(kOther, fmt::format("module {} is not offered: 1 (wheel on rail) and 3 (basic contact) are", *imodul));
+    registry().make_element(*ire, *imodul);
   });
 }
 
@@ -174,12 +158,19 @@ void cntc_setreferencevelocity(const int* ire, const int* icp, const double* vel
 }
 
 void cntc_setrollingstepsize(const int* ire, const int* icp, const double* chi, const double* dq) {
-  set(ire, icp, Setting::step, "cntc_setrollingstepsize", [&](Problem& p) { set_rolling_step(p, *chi, *dq); });
+  set(ire, icp, Setting::step, "cntc_setrollingstepsize", [&](Problem& p) {
+    if (ModuleOne* wheel = registry().find_wheel(*ire))
+      set_relative_step(*wheel, *dq);
+    else
+      set_rolling_step(p, *chi, *dq);
+  });
 }
 
 void cntc_setfrictionmethod(const int* ire, const int* icp, const int* imeth, const int* nparam, const double* params) {
   set(ire, icp, Setting::friction, "cntc_setfrictionmethod", [&](Problem& p) {
-    const std::string remark = set_friction(p, *imeth, given(params, *nparam));
+    ModuleOne* wheel = registry().find_wheel(*ire);
+    const std::string remark = wheel ? set_wheel_friction(*wheel, p, *imeth, given(params, *nparam))
+                                     : set_friction(p, *imeth, given(params, *nparam));
     if (!remark.empty()) registry().report(*ire, *icp, &p, "cntc_setfrictionmethod", 0, remark);
   });
 }
@@ -191,10 +182,13 @@ void cntc_sethertzcontact(const int* ire, const int* icp, const int* ipotcn, con
 
 void cntc_setpotcontact(const int* ire, const int* icp, const int* ipotcn, const int* nparam, const double* rparam) {
   set(ire, icp, Setting::grid, "cntc_setpotcontact",
-      [&](Problem& p) { set_potential_contact(p, *ipotcn, given(rparam, *nparam)); });
+      [&](Problem& p) {
+        if (ModuleOne* wheel = registry().find_wheel(*ire))
+          set_search(*wheel, p, *ipotcn, given(rparam, *nparam));
+        else
+          set_potential_contact(p, *ipotcn, given(rparam, *nparam));
+      });
 }
-
-void cntc_setverticalforce(const int* ire, const double*) { refuse_module_one(ire, "cntc_setverticalforce"); }
 
 void cntc_setpenetration(const int* ire, const int* icp, const double* pen) {
   set(ire, icp, Setting::normal, "cntc_setpenetration", [&](Problem& p) { set_approach(p, *pen); });
@@ -221,36 +215,6 @@ void cntc_setextrarigidslip(const int* ire, const int* icp, const int* lenarr, c
 
 void cntc_settangentialforces(const int* ire, const int* icp, const double* fx, const double* fy) {
   set(ire, icp, Setting::forces, "cntc_settangentialforces", [&](Problem& p) { set_forces(p, *fx, *fy); });
-}
-
-void cntc_setprofileinputfname(const int* ire, const char*, const int*, const int*, const int*, const int*,
-                               const double*) {
-  refuse_module_one(ire, "cntc_setprofileinputfname");
-}
-
-void cntc_setprofileinputvalues(const int* ire, const int*, const double*, const int*, const int*, const int*,
-                                const double*) {
-  refuse_module_one(ire, "cntc_setprofileinputvalues");
-}
-
-void cntc_settrackdimensions(const int* ire, const int*, const int*, const double*) {
-  refuse_module_one(ire, "cntc_settrackdimensions");
-}
-
-void cntc_setwheelsetdimensions(const int* ire, const int*, const int*, const double*) {
-  refuse_module_one(ire, "cntc_setwheelsetdimensions");
-}
-
-void cntc_setwheelsetposition(const int* ire, const int*, const int*, const double*) {
-  refuse_module_one(ire, "cntc_setwheelsetposition");
-}
-
-void cntc_setwheelsetvelocity(const int* ire, const int*, const int*, const double*) {
-  refuse_module_one(ire, "cntc_setwheelsetvelocity");
-}
-
-void cntc_setwheelsetflexibility(const int* ire, const int*, const int*, const double*) {
-  refuse_module_one(ire, "cntc_setwheelsetflexibility");
 }
 
 void subs_addblock(const int* ire, const int* icp, const int* iblk, const int* isubs, const int* nx, const int* ny,
@@ -284,42 +248,6 @@ void cntc_getflags(const int* ire, const int* icp, const int* nparam, const int*
 
 void cntc_getparameters(const int* ire, const int* icp, const int* itask, const int* lenarr, double* values) {
   get(ire, icp, "cntc_getparameters", given(values, *lenarr), [&](Problem& p) { return parameters(p, *itask); });
-}
-
-void cntc_getprofilevalues(const int* ire, const int*, const int*, const int*, const int*, const double*,
-                           const int* lenarr, double* values) {
-  copy_to(given(values, *lenarr), std::span<const double>());
-  refuse_module_one(ire, "cntc_getprofilevalues");
-}
-
-void cntc_getprofilevalues_new(const int* ire, const int* itask, const int* nints, const int* iparam, const int* nreals,
-                               const double* rparam, const int* lenarr, double* values) {
-  cntc_getprofilevalues(ire, itask, nints, iparam, nreals, rparam, lenarr, values);
-}
-
-void cntc_getwheelsetposition(const int* ire, const int* lenarr, double* values) {
-  copy_to(given(values, *lenarr), std::span<const double>());
-  refuse_module_one(ire, "cntc_getwheelsetposition");
-}
-
-void cntc_getwheelsetvelocity(const int* ire, const int* lenarr, double* values) {
-  copy_to(given(values, *lenarr), std::span<const double>());
-  refuse_module_one(ire, "cntc_getwheelsetvelocity");
-}
-
-void cntc_getnumcontactpatches(const int* ire, int* npatch) {
-  *npatch = -1;
-  refuse_module_one(ire, "cntc_getnumcontactpatches");
-}
-
-void cntc_getcontactlocation(const int* ire, const int*, const int* lenarr, double* values) {
-  copy_to(given(values, *lenarr), std::span<const double>());
-  refuse_module_one(ire, "cntc_getcontactlocation");
-}
-
-void cntc_getglobalforces(const int* ire, const int*, const int* lenarr, double* values) {
-  copy_to(given(values, *lenarr), std::span<const double>());
-  refuse_module_one(ire, "cntc_getglobalforces");
 }
 
 void cntc_getreferencevelocity(const int* ire, const int* icp, double* veloc) {

@@ -27,7 +27,7 @@ constexpr Rule kRules[] = {
     {kForce, 0, 0, 2, "F, FORCE", "F = 0 to 2 are offered"},
     {kFrictionLaw, 0, 1, 0, "L, FRCLAW", "is set by cntc_setfrictionmethod"},
     {kDiscretisation, 2, -kAny, kAny, "D, DISCNS", "is of module 1"},
-    {kInfluence, 2, 2, 2, "C3, INFLCF", "C3 = 2 is offered, piecewise constant tractions on half-spaces"},
+    {kInfluence, 2, 0, 2, "C3, INFLCF", "C3 = 2 is offered, piecewise constant tractions on half-spaces, and 0 and 1, as before"},
     {kMaterialLaw, 0, 1, 0, "M, MATER", "is set by cntc_setmaterialparameters"},
     {kExtraSlip, 0, 0, 1, "E, EXRHS", "E = 0 (none) and 1 (as set by cntc_setextrarigidslip) are offered"},
     {kDebug, 0, -kAny, kAny, "X, XFLOW", "has no effect: there is no such output"},
@@ -77,7 +77,8 @@ std::string set_flag(Problem& problem, int code, int value) {
   if (!rule) return fmt::format("flag {} is not known: it has no effect", code);
   if (!offered(*rule, value))
     throw Refused(kOther, fmt::format("flag {} ({}) = {}: {}", code, rule->name, value, rule->else_));
-  problem.settings.flags[code] = value;
+  const bool as_before = code == kInfluence && value < 2;
+  if (!as_before) problem.settings.flags[code] = value;
   if (code == kCaseNumber) problem.cases = std::max(0, value - 1);
   const bool idle = rule->low == -kAny && value > 0 && rule->else_[0] != '\0';
   return idle ? fmt::format("flag {} ({}) = {} {}", code, rule->name, value, rule->else_) : "";

@@ -35,7 +35,14 @@ enum class Setting {
   speed,
   layers,
   blocks,
-  temperature
+  temperature,
+  rail_profile,
+  wheel_profile,
+  track,
+  wheelset,
+  position,
+  velocity,
+  flexibility
 };
 
 /// Simplified theory in place of half-spaces under friction, M = 3 and 5: the slope reduction K0_MF, ALFAMF, BETAMF.
@@ -142,6 +149,7 @@ struct Refusal {
 
 struct Problem {
   Units units;
+  double side = 1;  ///< -1: of a left wheel, which is seen in a mirror: y of results is turned
   Settings settings;
   InfluenceCache cache;
   std::optional<Solved> solved;

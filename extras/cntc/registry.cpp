@@ -28,28 +28,55 @@ void Registry::open(std::string_view wrkdir, std::string_view outdir, std::strin
     if (folder.empty()) folder = experiment.substr(0, slash + 1);
     experiment.erase(0, slash + 1);
   }
+  work_folder_ = folder;
   const std::string out = outdir.empty() ? folder : joined(folder, std::string(outdir));
   messages_.set(joined(out, experiment + ".out"), to);
 }
 
-void Registry::make_element(int ire) {
+void Registry::make_element(int ire, int module) {
   if (ire < 1 || ire > kMostElements)
     throw Refused(kWrongProblem, fmt::format("ire = {} is not 1 to {}", ire, kMostElements));
   open({}, {}, {}, MessageFile::To::file);  // unless it was called for
   const std::lock_guard lock(mutex_);
   auto& element = elements_[static_cast<std::size_t>(ire)];
-  if (!element) element = std::make_unique<Element>();
+  if (!element) {
+    element = std::make_unique<Element>();
+    if (module == 1) element->wheel = std::make_unique<ModuleOne>();
+  }
+  if (module != 0 && (module == 1) != (element->wheel != nullptr))
+    throw Refused(kWrongProblem, fmt::format("ire = {} is of the other module: call cntc_finalize first", ire));
 }
 
 Problem& Registry::problem(int ire, int icp) {
-  if (!in_range(ire, icp))
-    throw Refused(kWrongProblem, fmt::format("ire = {}, icp = {}: basic contact has ire 1 to {} and icp 1 to {}", ire,
-                                             icp, kMostElements, kMostProblems));
+  const bool of_wheel = find_wheel(ire) != nullptr;
+  if (of_wheel && icp < 1) icp = 0;
+  if (!(of_wheel && icp == 0) && !in_range(ire, icp))
+    throw Refused(kWrongProblem,
+                  fmt::format("ire = {}, icp = {}: ire is 1 to {} and icp 1 to {}, of module 1 also -1", ire, icp,
+                              kMostElements, kMostProblems));
   make_element(ire);
   const std::lock_guard lock(mutex_);
   auto& problem = elements_[static_cast<std::size_t>(ire)]->problems[static_cast<std::size_t>(icp)];
   if (!problem) problem = std::make_unique<Problem>();
   return *problem;
+}
+
+ModuleOne* Registry::find_wheel(int ire) {
+  if (ire < 1 || ire > kMostElements) return nullptr;
+  const std::lock_guard lock(mutex_);
+  const auto& element = elements_[static_cast<std::size_t>(ire)];
+  return element ? element->wheel.get() : nullptr;
+}
+
+ModuleOne& Registry::wheel(int ire) {
+  ModuleOne* out = find_wheel(ire);
+  if (!out) throw Refused(kWrongProblem, fmt::format("ire = {} is not of module 1: call cntc_initialize", ire));
+  return *out;
+}
+
+std::string Registry::in_work_folder(std::string_view path) {
+  const std::lock_guard lock(mutex_);
+  return joined(work_folder_, std::string(path));
 }
 
 Problem* Registry::find(int ire, int icp) {

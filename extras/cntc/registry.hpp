@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cntc/message_file.hpp"
+#include "cntc/module_one.hpp"
 #include "cntc/problem.hpp"
 
 namespace railstrata::cntc {
@@ -16,10 +17,16 @@ class Registry {
   /// Folders and name as CONTACT takes them: outdir may be relative to wrkdir. The first call counts, until the last
   /// element is gone.
   void open(std::string_view wrkdir, std::string_view outdir, std::string_view name, MessageFile::To to);
-  /// Makes a result element of module 3 unless it exists. Throws Refused for a number out of range.
-  void make_element(int ire);
-  /// Makes it too. Throws Refused for numbers out of range.
+  /// Makes a result element unless it exists. Throws Refused for a number out of range or another module.
+  void make_element(int ire, int module = 0);
+  /// Makes it too, of module 3. Throws Refused for numbers out of range. Of module 1 the problems are patches; icp below
+  /// 1 has the settings of all.
   Problem& problem(int ire, int icp);
+  /// Null where the element is of module 3; `wheel` throws Refused then.
+  ModuleOne* find_wheel(int ire);
+  ModuleOne& wheel(int ire);
+  /// A path of a caller, relative to wrkdir.
+  std::string in_work_folder(std::string_view path);
   /// Null where there is none.
   Problem* find(int ire, int icp);
   void remove(int ire);
@@ -36,11 +43,13 @@ class Registry {
 
  private:
   struct Element {
-    std::array<std::unique_ptr<Problem>, kMostProblems + 1> problems;
+    std::array<std::unique_ptr<Problem>, kMostProblems + 1> problems;  ///< 0: settings of module 1
+    std::unique_ptr<ModuleOne> wheel;
   };
   std::mutex mutex_;
   std::array<std::unique_ptr<Element>, kMostElements + 1> elements_;
   bool open_ = false;
+  std::string work_folder_;
   MessageFile messages_;
   Refusal last_;
 };

@@ -12,11 +12,16 @@
 namespace railstrata::cntc {
 namespace {
 
-/// From cells with y fastest to elements with x fastest, times a factor.
-std::vector<double> in_order(const PatchGrid& g, const Plane& cells, double factor) {
+/// The element of a cell: x fastest, y rising as the caller sees it.
+std::size_t element(const PatchGrid& g, double side, int i, int j) {
+  return static_cast<std::size_t>(i + g.nx * (side > 0 ? j : g.ny - 1 - j));
+}
+
+/// From cells with y fastest to elements, times a factor.
+std::vector<double> in_order(const PatchGrid& g, double side, const Plane& cells, double factor) {
   std::vector<double> out(g.size());
   for (int i = 0; i < g.nx; ++i)
-    for (int j = 0; j < g.ny; ++j) out[static_cast<std::size_t>(i + g.nx * j)] = factor * cells[g.index(i, j)];
+    for (int j = 0; j < g.ny; ++j) out[element(g, side, i, j)] = factor * cells[g.index(i, j)];
   return out;
 }
 
@@ -119,34 +124,40 @@ const Solved& solution(const Problem& p) {
   return *p.solved;
 }
 
+Resultant resultant(const Solved& s) {
+  const PatchGrid& g = s.on.grid;
+  const TangentialSolution& t = s.rolling.tangential;
+  Resultant out;
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) {
+      const std::size_t k = g.index(i, j);
+      const Vec3 traction{-t.q_x[k], -t.q_y[k], s.rolling.normal.pressure[k]};
+      out.force += traction;
+      out.moment += cross(Vec3{g.x(i), g.y(j), 0}, traction);
+    }
+  return {g.cell_area() * out.force, g.cell_area() * out.moment};
+}
+
 Grid grid_of(const Problem& p) {
   const PatchGrid g = p.solved ? p.solved->on.grid : discretise(p.settings).grid;
   const double length = p.units.length;
-  return {g.nx, g.ny, g.x0 / length, g.y0 / length, g.dx / length, g.dy / length};
+  const double y = p.side > 0 ? g.y0 : -g.y(g.ny - 1);
+  return {g.nx, g.ny, g.x0 / length, y / length, g.dx / length, g.dy / length};
 }
 
 std::array<double, 4> forces(const Problem& p) {
   const Solved& s = solution(p);
-  const PatchGrid& g = s.on.grid;
-  const TangentialSolution& t = s.rolling.tangential;
-  double sum[3] = {0, 0, 0};
-  for (int i = 0; i < g.nx; ++i)
-    for (int j = 0; j < g.ny; ++j) {
-      const std::size_t k = g.index(i, j);
-      const double p_x = -t.q_x[k], p_y = -t.q_y[k];
-      sum[0] += p_x;
-      sum[1] += p_y;
-      sum[2] += g.x(i) * p_y - g.y(j) * p_x;
-    }
-  const double area = g.cell_area(), body = p.units.body;
-  return {s.rolling.normal.load, body * area * sum[0], body * area * sum[1], body * area * sum[2] / p.units.length};
+  const Resultant r = resultant(s);
+  const double body = p.units.body;
+  return {s.rolling.normal.load, body * r.force.x, body * p.side * r.force.y, body * p.side * r.moment.z / p.units.length};
 }
 
 std::array<double, 3> creepages(const Problem& p) {
   const Solved& s = solution(p);
   const double body = p.units.body, length = p.units.length, unit = s.shift ? 1 / length : 1;
   const TangentialSolution& t = s.rolling.tangential;
-  return {body * unit * t.creepage_x, body * unit * t.creepage_y, body * s.spin * (s.shift ? 1 : length)};
+  return {body * unit * t.creepage_x, body * p.side * unit * t.creepage_y,
+          body * p.side * s.spin * (s.shift ? 1 : length)};
 }
 
 double approach(const Problem& p) { return solution(p).rolling.normal.approach / p.units.length; }
@@ -161,7 +172,7 @@ std::vector<int> division(const Problem& p) {
       const TangentialSolution& t = s.rolling.tangential;
       const bool slips = t.state[k] == ContactState::slip && (!s.film.yields() || t.slip_x[k] != 0 || t.slip_y[k] != 0);
       const int in_contact = slips ? (yields(s, k) ? 3 : 2) : 1;
-      out[static_cast<std::size_t>(i + g.nx * j)] = s.rolling.normal.pressure[k] > 0 ? in_contact : 0;
+      out[element(g, p.side, i, j)] = s.rolling.normal.pressure[k] > 0 ? in_contact : 0;
     }
   return out;
 }
@@ -200,34 +211,34 @@ std::vector<double> field(const Problem& p, int number) {
   const double slip = body * (s.shift ? 1e3 : 1);
   switch (number) {
     case kGap:
-      return in_order(g, s.on.gap, length);
+      return in_order(g, p.side, s.on.gap, length);
     case kFrictionField:
-      return in_order(g, friction_field(s), 1);
+      return in_order(g, p.side, friction_field(s), 1);
     case kTractionX:
-      return in_order(g, t.q_x, -body * stress);
+      return in_order(g, p.side, t.q_x, -body * stress);
     case kTractionY:
-      return in_order(g, t.q_y, -body * stress);
+      return in_order(g, p.side, t.q_y, -p.side * body * stress);
     case kPressure:
-      return in_order(g, s.rolling.normal.pressure, stress);
+      return in_order(g, p.side, s.rolling.normal.pressure, stress);
     case kDisplacementX:
-      return in_order(g, tangential_displacement(s).x, -length);
+      return in_order(g, p.side, tangential_displacement(s).x, -length);
     case kDisplacementY:
-      return in_order(g, tangential_displacement(s).y, -length);
+      return in_order(g, p.side, tangential_displacement(s).y, -p.side * length);
     case kDisplacementN:
-      return in_order(g, normal_displacement(s), length);
+      return in_order(g, p.side, normal_displacement(s), length);
     case kFilmStrength: {
       if (!s.film.yields()) throw Refused(kOther, "field 11 is of a film that yields");
       Plane strength(g.size());
       for (std::size_t k = 0; k < strength.size(); ++k) strength[k] = film_strength(s, k);
-      return in_order(g, strength, stress);
+      return in_order(g, p.side, strength, stress);
     }
     case kTemperature1:
     case kTemperature2:
-      return in_order(g, temperatures(s), 1);
+      return in_order(g, p.side, temperatures(s), 1);
     case kSlipX:
-      return in_order(g, t.slip_x, slip);
+      return in_order(g, p.side, t.slip_x, slip);
     case kSlipY:
-      return in_order(g, t.slip_y, slip);
+      return in_order(g, p.side, t.slip_y, p.side * slip);
     default:
       throw Refused(kOther, fmt::format("field {} is not offered: 1 to 5, 7 to 9, 11, 15, 16, 20 and 21 are", number));
   }

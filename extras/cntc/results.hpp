@@ -5,10 +5,17 @@
 #include <vector>
 
 #include "cntc/problem.hpp"
+#include "core/vec.hpp"
 
 namespace railstrata::cntc {
 
 const Solved& solution(const Problem& problem);
+
+/// On body 1, in the plane's axes about the origin of the grid, SI.
+struct Resultant {
+  Vec3 force, moment;
+};
+Resultant resultant(const Solved& solved);
 
 struct Grid {
   int mx = 0, my = 0;

@@ -1,0 +1,68 @@
+#pragma once
+// Where a rigid wheel overlaps a rail or a roller, by CONTACT's rules for the reference point of a patch.
+// [eve70a/CONTACT, user guide, wheel-rail contact search]
+//
+// All in the system of the track (marker.hpp), m. Seen from above the wheel's lowest points over x are a line over y,
+// z_w(y); where its gap z_r - z_w is negative lies a region. Weights are those of the gap squared, parabolic along x,
+// (-gap)^(5/2) dy, and the region's centre is the mean of x and y, its angle that of the rail's inclination.
+#include <vector>
+
+#include "cntc/marker.hpp"
+#include "cntc/outline.hpp"
+
+namespace railstrata::cntc {
+
+/// Two bodies where they stand. The wheel turns about the axis z = -radius of its own system, the roller about z =
+/// +roller_radius of its; 0: a rail.
+struct RigidPair {
+  const Outline* rail = nullptr;
+  const Outline* wheel = nullptr;
+  Marker rail_at, wheel_at;  ///< of the profiles in the track
+  double wheel_radius = 0, roller_radius = 0;
+};
+
+struct Box {
+  double x[2], y[2], z[2];  ///< z: of the rail at the ends of y
+};
+
+struct Overlap {
+  Box extent;
+  double x = 0, y = 0, angle = 0;  ///< weighted
+  double weight = 0;
+  std::vector<Box> parts;  ///< regions that act on each other in part; one: the whole
+};
+
+struct SearchSteps {
+  double dx = 0, ds = 0;                                     ///< elements
+  double angle = 0, separate = 0, combine = 0, turn = 0;     ///< A_SEP, D_SEP, D_COMB, D_TURN
+};
+
+struct Search {
+  std::vector<Overlap> overlaps;  ///< from the field side to the middle of the track
+  double least_gap = 0;           ///< < 0: they overlap; how far the wheel may come down (z) until it touches
+};
+
+/// Throws Refused where the wheel does not stand over the rail.
+Search search_overlaps(const RigidPair& pair, const SearchSteps& steps);
+
+/// By how much two parts of an overlap act on each other, 0 to 1.
+double interaction(const Box& a, const Box& b, const SearchSteps& steps);
+
+/// Elements of a patch in the plane of its reference system (n down, into the rail), centred on multiples of their
+/// sides.
+struct PatchPlane {
+  Marker reference;
+  double angle = 0;
+  int mx = 0, my = 0;
+  double x = 0, s = 0, dx = 0, ds = 0;  ///< centre of the first element, sides
+};
+PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchSteps& steps, int most_elements);
+
+/// The rigid distance of wheel and rail along n, in the order of the elements (x fastest), less its minimum.
+struct Distance {
+  std::vector<double> gap;  ///< m
+  double approach = 0;      ///< minus the minimum
+};
+Distance rigid_distance(const RigidPair& pair, const PatchPlane& plane);
+
+}  // namespace railstrata::cntc

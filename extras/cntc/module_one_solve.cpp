@@ -1,0 +1,278 @@
+// Module 1: places, kinematics and the height under a load.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cntc/drive.hpp"
+#include "cntc/module_one.hpp"
+#include "cntc/results.hpp"
+#include "cntc/settings.hpp"
+
+namespace railstrata::cntc {
+namespace {
+
+constexpr int kMostHeights = 60;
+
+void require_settings(const ModuleOne& one, const Problem& base) {
+  const auto missing = [](bool is_there, const char* what, const char* call) {
+    if (!is_there) throw Refused(kOther, fmt::format("no {}: call {}", what, call));
+  };
+  if (!one.rail || !one.wheel) throw Refused(kProfile, "no rail or wheel profile: call cntc_setprofileinputfname");
+  missing(one.has_track, "track", "cntc_settrackdimensions");
+  missing(one.has_wheelset, "wheelset", "cntc_setwheelsetdimensions");
+  missing(one.steps.dx > 0, "elements", "cntc_setpotcontact with icp = -1");
+  missing(base.settings.has_materials, "materials", "cntc_setmaterialparameters");
+  const auto refuse = [&](int code, int least, int most, const char* what) {
+    const int value = flag(base.settings, code);
+    if (value < least || value > most) throw Refused(kOther, fmt::format("{} = {}: {}", what, value, "is not offered"));
+  };
+  const int config = flag(base.settings, kConfiguration);
+  if (config != 0 && config != 1 && config != 4 && config != 5)
+    throw Refused(kOther, fmt::format("CONFIG = {}: 0 and 1 (rail), 4 and 5 (roller) are offered", config));
+  if (on_roller(base) && !(one.track.roller_radius != 0))
+    throw Refused(kOther, "a roller (CONFIG 4, 5) has a radius, NOMRAD of cntc_settrackdimensions");
+  refuse(kForce, 0, 0, "total tangential forces, F");
+  const int method = flag(base.settings, kDiscretisation) % 10;
+  if (method > 2 && method != 5)
+    throw Refused(kOther, fmt::format("D = {} (conformal, oblique or other contact search) is not offered: 2 and 5 are", method));
+  if (flag(base.settings, kTang) > 0 && flag(base.settings, kTime) != 2)
+    throw Refused(kOther, "P = 0, a case that goes on from the one before, is not offered for wheel on rail: P = 2");
+  if (flag(base.settings, kNorm) == 1 && !(one.load > 0))
+    throw Refused(kOther, "no vertical force: call cntc_setverticalforce");
+}
+
+RigidPair place(ModuleOne& one, const Problem& base, double z) {
+  const double side = side_of(base);
+  const auto& shift = one.rail_shift;
+  const TrackPlace& t = one.track;
+  Vec3 at{0, side * t.y, t.z};
+  if (t.gauge_depth > 0) {
+    const GaugePoint gauge = gauge_point(*one.rail, t.cant, t.gauge_depth);
+    at = {0, 0.5 * t.gauge - gauge.y, on_roller(base) ? 0 : -gauge.top};
+  }
+  one.rail_at = marker(at + Vec3{0, side * shift[0], shift[1]}, -t.cant + side * shift[2]);
+  const auto& flexible = one.flexibility.at;
+  const double tread = one.tape_y ? one.wheel->at(*one.tape_y).z : 0;
+  one.wheel_in_wheelset = marker({flexible[0], 0.5 * one.flange_distance - one.flange_place + side * flexible[1],
+                                  one.wheel_radius - tread + flexible[2]},
+                                 side * flexible[3], side * flexible[4]);
+  const auto& p = one.wheelset.at;
+  one.wheelset_at = marker({0, side * p[1], z - one.wheel_radius}, side * p[3], side * p[4]);
+  RigidPair out;
+  out.rail = &*one.rail;
+  out.wheel = &*one.wheel;
+  out.rail_at = one.rail_at;
+  out.wheel_at = placed(one.wheelset_at, one.wheel_in_wheelset);
+  out.wheel_radius = one.wheel_radius;
+  out.roller_radius = on_roller(base) ? t.roller_radius : 0;
+  return out;
+}
+
+Vec3 mirrored(Vec3 v, double side) { return {v.x, side * v.y, v.z}; }
+Vec3 mirrored_turn(double roll, double pitch, double yaw, double side) { return {side * roll, pitch, side * yaw}; }
+
+/// Velocity and rotation of the bodies at a point, in the axes of the patch.
+struct Moving {
+  Vec3 velocity, turn;
+};
+
+Moving of_rail(const ModuleOne& one, const Problem& base, const Marker& patch) {
+  const double side = side_of(base), curvature = one.track.curvature;
+  const auto& shift = one.rail_shift;
+  const Vec3 arm = patch.at - one.rail_at.at;
+  Moving out;
+  if (!on_roller(base)) {
+    const double turning = -side * one.wheelset.rate[0] * curvature;
+    out.turn = {side * shift[5], 0, turning};
+    out.velocity = Vec3{-turning * one.rail_at.at.y, side * shift[3], shift[4]} + cross(out.turn, arm);
+    return out;
+  }
+  const Vec3 from_axle = patch.at - Vec3{0, 0, one.track.roller_radius};
+  const Vec3 of_profile{side * shift[5], 0, 0};
+  const double pitch = one.pitch_rate_of_roller;
+  const Vec3 roller{0, pitch, -side * std::abs(from_axle.z) * pitch * curvature};
+  out.turn = of_profile + roller;
+  out.velocity = Vec3{0, side * shift[3], shift[4]} + cross(of_profile, arm) + cross(roller, from_axle);
+  return out;
+}
+
+struct Rolling {
+  double speed = 0, chi = 0;
+  Creepages creepages;  ///< SI
+};
+
+/// (rail - wheel) over the mean of the wheel's way along the track and around its axle. [eve70a/CONTACT, user guide]
+Rolling rolling(const ModuleOne& one, const Problem& base, const WheelRailPatch& patch) {
+  const double side = side_of(base);
+  const Marker& m = patch.plane.reference;
+  const Vec3 point = m.at + patch.approach * m.axes[2];
+  const Moving rail = of_rail(one, base, m);
+  const auto &r = one.wheelset.rate, &f = one.flexibility.rate;
+  const Vec3 in_wheelset = one.wheelset_at.to_inner(point);
+  const Vec3 bending = mirrored_turn(f[3], f[5], f[4], side);
+  const Vec3 own = mirrored({f[0], f[1], f[2]}, side) + cross(bending, in_wheelset - one.wheel_in_wheelset.at);
+  const Vec3 turn = one.wheelset_at.turned(mirrored_turn(r[3], r[5], r[4], side));
+  const Vec3 arm = one.wheelset_at.turned(in_wheelset);
+  const Vec3 wheel = mirrored({r[0], r[1], r[2]}, side) + cross(turn, arm) + one.wheelset_at.turned(own);
+  const double around = cross(one.wheelset_at.turned({0, r[5], 0}), arm).x;
+  Rolling out;
+  const Vec3 slip = m.turned_back(rail.velocity - wheel);
+  const Vec3 spin = m.turned_back(rail.turn - turn - one.wheelset_at.turned(bending));
+  const bool shift = flag(base.settings, kTang) == 1;
+  if (shift) {
+    out.speed = 1;
+  } else if (!on_roller(base)) {
+    const double along = wheel.x - rail.velocity.x - around;
+    out.speed = 0.5 * (std::abs(along) + std::abs(around));
+    const bool forward = std::abs(along) >= std::abs(around) ? along >= 0 : around <= 0;
+    out.chi = forward ? 0 : std::numbers::pi;
+  } else {
+    const double roller = m.turned_back(rail.velocity).x;
+    out.speed = 0.5 * std::abs(roller + m.turned_back(wheel).x);
+    const bool forward = std::abs(roller) >= std::abs(wheel.x) ? roller <= 0 : wheel.x <= 0;
+    out.chi = forward ? 0 : std::numbers::pi;
+  }
+  if (out.speed < 1e-9) return out;
+  out.creepages = {slip.x / out.speed, slip.y / out.speed, spin.z / out.speed, 1};
+  return out;
+}
+
+std::vector<double> numbers_at(const std::vector<FrictionSlice>& slices, double at) {
+  std::size_t k = 0;
+  while (k + 1 < slices.size() && slices[k + 1].at <= at) ++k;
+  const FrictionSlice &a = slices[k], &b = slices[std::min(k + 1, slices.size() - 1)];
+  const double share = b.at > a.at ? std::clamp((at - a.at) / (b.at - a.at), 0.0, 1.0) : 0;
+  std::vector<double> out(a.numbers.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = a.numbers[i] + share * (b.numbers[i] - a.numbers[i]);
+  return out;
+}
+
+class Wheel {
+ public:
+  Wheel(ModuleOne& one, Problem& base, PatchProblems& problems, std::vector<std::string>& remarks)
+      : one_(one), base_(base), problems_(problems), remarks_(remarks) {}
+
+  void run() {
+    require_settings(one_, base_);
+    one_.patches.clear();
+    if (flag(base_.settings, kNorm) == 0)
+      press(one_.wheelset.at[2], true);
+    else
+      sink();
+  }
+
+ private:
+  /// The patches of the wheel at the height z; the vertical force on the rail.
+  double press(double z, bool with_friction) {
+    one_.wheelset.at[2] = z;
+    const RigidPair pair = place(one_, base_, z);
+    const Search search = search_overlaps(pair, one_.steps);
+    one_.patches.clear();
+    if (search.overlaps.size() > kMostProblems)
+      throw Refused(kSearch, fmt::format("{} patches are more than {}", search.overlaps.size(), kMostProblems));
+    double force = 0;
+    for (const Overlap& overlap : search.overlaps) {
+      WheelRailPatch patch;
+      patch.overlap = overlap;
+      patch.plane = plane_of(overlap, pair, one_.steps, flag(base_.settings, kMostCells));
+      Distance distance = rigid_distance(pair, patch.plane);
+      patch.approach = distance.approach;
+      patch.on_wheel = seen_from(pair.wheel_at, patch.plane.reference);
+      patch.on_rail = seen_from(pair.rail_at, patch.plane.reference);
+      one_.patches.push_back(std::move(patch));
+      force += solve_patch(static_cast<int>(one_.patches.size()), std::move(distance.gap), with_friction, pair.wheel_at);
+    }
+    return force;
+  }
+
+  double solve_patch(int number, std::vector<double> gap, bool with_friction, const Marker& wheel) {
+    WheelRailPatch& patch = one_.patches[static_cast<std::size_t>(number - 1)];
+    Problem& problem = problems_.patch(number);
+    const PatchPlane& plane = patch.plane;
+    problem.units = base_.units;
+    problem.side = side_of(base_);
+    problem.settings = base_.settings;
+    Settings& s = problem.settings;
+    s.grid = {3, plane.mx, plane.my, {plane.x, plane.s, plane.dx, plane.ds}};
+    s.gap = {9, 0, 0, std::move(gap)};
+    s.flags[kNorm] = 0;
+    s.approach = patch.approach;
+    if (!with_friction) s.flags[kTang] = 0;
+    const Rolling moving = rolling(one_, base_, patch);
+    s.creepages = moving.creepages;
+    s.chi = moving.chi;
+    s.speed = std::max(moving.speed, 1e-12);
+    s.step = one_.relative_step * plane.dx;
+    if (one_.varies > 0)
+      set_friction(problem, one_.friction_digit,
+                   numbers_at(one_.slices, one_.varies == 1 ? patch.on_wheel.roll() : one_.wheelset.at[0]));
+    std::vector<std::string> remarks;
+    solve(problem, remarks);
+    if (with_friction) remarks_.insert(remarks_.end(), remarks.begin(), remarks.end());
+    add_up(patch, *problem.solved, wheel);
+    return patch.force.z;
+  }
+
+  void add_up(WheelRailPatch& patch, const Solved& solved, const Marker& wheel) const {
+    const Resultant on_rail = resultant(solved);
+    const Marker& m = patch.plane.reference;
+    patch.force = m.turned(on_rail.force);
+    const Vec3 moment = m.turned(on_rail.moment);
+    patch.moment_on_rail = cross(m.at - one_.rail_at.at, patch.force) + moment;
+    patch.force_of_wheelset = one_.wheelset_at.turned_back(patch.force);
+    patch.moment_on_wheel = one_.wheelset_at.turned_back(cross(m.at - wheel.at, patch.force) + moment);
+  }
+
+  /// The height under the load: F = k (z - z_0)^(3/2) through the last heights, between heights that bracket it.
+  void sink() {
+    const double load = one_.load, touching = search_overlaps(place(one_, base_, 0), one_.steps).least_gap;
+    constexpr double kFirst = 5e-5;  // m
+    double low = touching, high = touching, z = touching + kFirst;
+    double force = 0;
+    bool bracketed = false;
+    for (int k = 0; k < kMostHeights; ++k) {
+      force = press(z, true);
+      if (std::abs(force - load) <= base_.settings.tolerance * load) return;
+      if (force < load)
+        low = std::max(low, z);
+      else {
+        high = z;
+        bracketed = true;
+      }
+      const double sunk = z - touching;
+      double next = touching + (force > 0 ? sunk * std::pow(load / force, power(z - touching, force)) : 2 * sunk);
+      next = std::min(next, touching + 4 * sunk);
+      if (bracketed && !(next > low && next < high)) next = 0.5 * (low + high);
+      if (!bracketed && next <= low) next = low + 0.5 * sunk;
+      if (std::abs(next - z) < 1e-13) return;
+      z = next;
+    }
+    throw Refused(kTotalForce, fmt::format("no height of the wheelset was found for the vertical force {:g}", load));
+  }
+
+  /// 1/n of F = k sunk^n through this height and the one before.
+  double power(double sunk, double force) {
+    double out = 2.0 / 3;
+    if (last_force_ > 0 && force > 0 && force != last_force_ && sunk != last_sunk_)
+      out = std::clamp(std::log(sunk / last_sunk_) / std::log(force / last_force_), 0.1, 1.5);
+    last_sunk_ = sunk;
+    last_force_ = force;
+    return out;
+  }
+
+  ModuleOne& one_;
+  Problem& base_;
+  PatchProblems& problems_;
+  std::vector<std::string>& remarks_;
+  double last_sunk_ = 0, last_force_ = 0;
+};
+
+}  // namespace
+
+void solve_wheel(ModuleOne& one, Problem& base, PatchProblems& problems, std::vector<std::string>& remarks) {
+  Wheel(one, base, problems, remarks).run();
+}
+
+}  // namespace railstrata::cntc

@@ -1,0 +1,134 @@
+#include "cntc/outline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "cntc/codes.hpp"
+#include "core/faults.hpp"
+#include "geometry/exchange_profiles.hpp"
+#include "geometry/number_table.hpp"
+
+namespace railstrata::cntc {
+namespace {
+
+constexpr double kStep = 0.05e-3;       // m, between the points of a search
+constexpr double kSamePoint = 1e-7;     // m: points nearer than this are one
+
+std::string ending_of(std::string_view name) {
+  std::string out = std::filesystem::path(name).extension().string();
+  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
+  return out;
+}
+
+/// Whether z points up: a rail's ends lie below its middle, a wheel's flange below its tread.
+bool points_up(ProfileKind kind, const std::vector<Vec2>& points) {
+  const auto by_z = [](Vec2 a, Vec2 b) { return a.z < b.z; };
+  const double middle = 0.5 * (points.front().y + points.back().y);
+  const auto near = [&](double y) {
+    return *std::min_element(points.begin(), points.end(),
+                             [&](Vec2 a, Vec2 b) { return std::abs(a.y - y) < std::abs(b.y - y); });
+  };
+  if (kind == ProfileKind::rail) return 0.5 * (points.front().z + points.back().z) < near(middle).z;
+  const double tread = near(0).z;
+  const double lowest = std::max_element(points.begin(), points.end(), by_z)->z - tread;
+  const double highest = tread - std::min_element(points.begin(), points.end(), by_z)->z;
+  return highest > lowest;
+}
+
+Outline outline(ProfileKind kind, std::vector<Vec2> points, const OutlineOptions& options, const std::string& name) {
+  if (options.mirror_y)
+    for (Vec2& p : points) p.y = -p.y;
+  if (points.size() >= 2 && points.front().y > points.back().y) std::reverse(points.begin(), points.end());
+  const bool turn = options.mirror_z == 1 || (options.mirror_z == 0 && points.size() >= 2 && points_up(kind, points));
+  // CONTACT's z is down, that of a Profile up.
+  for (Vec2& p : points) p = (1e-3 * options.scale) * Vec2{p.y, turn ? p.z : -p.z};
+  const auto repeated = [](Vec2 a, Vec2 b) { return norm(a - b) < kSamePoint; };
+  points.erase(std::unique(points.begin(), points.end(), repeated), points.end());
+  try {
+    return Outline(Profile::from_points(kind, name, points));
+  } catch (const CaseError& e) {
+    throw Refused(kProfile, fmt::format("{}: {}", name, e.diagnostics.front().message));
+  }
+}
+
+}  // namespace
+
+Outline::Outline(Profile profile) : profile_(std::move(profile)) {
+  const double begin = profile_.s_at_y(profile_.y_min()), end = profile_.s_at_y(profile_.y_max());
+  const int count = std::max(2, static_cast<int>(std::ceil((end - begin) / kStep)) + 1);
+  for (int k = 0; k < count; ++k) {
+    const ProfilePoint p = profile_.at(std::clamp(begin + (end - begin) * k / (count - 1), begin, end));
+    const Point next{p.position.y, -p.position.z, -p.tangent.z / std::max(p.tangent.y, 1e-9)};
+    if (points_.empty() || next.y > points_.back().y) points_.push_back(next);
+  }
+}
+
+Outline::Point Outline::at(double y) const {
+  const double inside = std::clamp(y, profile_.y_min(), profile_.y_max());
+  const ProfilePoint p = profile_.at(profile_.s_at_y(inside));
+  return {inside, -p.position.z, -p.tangent.z / std::max(p.tangent.y, 1e-9)};
+}
+
+ProfileKind kind_of_file(std::string_view name) {
+  const std::string ending = ending_of(name);
+  if (ending == ".prr" || ending == ".ban") return ProfileKind::rail;
+  if (ending == ".prw" || ending == ".whl") return ProfileKind::wheel;
+  throw Refused(kProfile, fmt::format("{}: the ending does not say whether this is a rail or a wheel: give itype 0 or 1",
+                                      name));
+}
+
+Outline read_outline(ProfileKind kind, const std::string& file, const OutlineOptions& options) {
+  const std::string ending = ending_of(file);
+  if (ending == ".slcs" || ending == ".slcw")
+    throw Refused(kProfile, file + ": profiles that vary along the track or the tread are not offered");
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in || text.empty()) throw Refused(kProfile, file + ": this profile cannot be read: check its path");
+  try {
+    const NumberTable table = ending == ".prr" || ending == ".prw"   ? parse_simpack(kind, text, file)
+                              : ending == ".ban" || ending == ".whl" ? parse_miniprof(text, file)
+                                                                     : parse_number_table(text, file);
+    return outline(kind, table.rows, options, file);
+  } catch (const CaseError& e) {
+    throw Refused(kProfile, e.what());
+  }
+}
+
+Outline outline_of(ProfileKind kind, std::span<const double> values, const OutlineOptions& options) {
+  std::vector<Vec2> points;
+  for (std::size_t k = 0; k + 1 < values.size(); k += 2) points.push_back({values[k], values[k + 1]});
+  return outline(kind, std::move(points), options, "<values>");
+}
+
+GaugePoint gauge_point(const Outline& rail, double cant, double depth) {
+  const Profile& p = rail.profile();
+  const double c = std::cos(cant), s = std::sin(cant), begin = p.s_min(), end = p.s_max();
+  const int count = std::max(2, static_cast<int>((end - begin) / (0.2 * kStep)));
+  const auto canted = [&](double at) {
+    const Vec2 q = p.at(std::clamp(at, begin, end)).position;
+    return Vec2{c * q.y - s * q.z, -s * q.y - c * q.z};  // z down
+  };
+  const auto place = [&](int k) { return begin + (end - begin) * k / count; };
+  int top = 0;
+  GaugePoint out{1e9, 0, 1e9};
+  for (int k = 0; k <= count; ++k)
+    if (const double z = canted(place(k)).z; z < out.top) {
+      out.top = z;
+      top = k;
+    }
+  for (int k = 0; k <= top; ++k) {
+    const Vec2 q = canted(place(k));
+    if (q.z - out.top > depth || q.y >= out.y) continue;
+    out.y = q.y;
+    out.z = q.z;
+  }
+  return out;
+}
+
+}  // namespace railstrata::cntc

@@ -1,0 +1,302 @@
+#!/usr/bin/python3
+"""Runs CONTACT's own examples of wheel on rail (module 1) through the interface and compares what CONTACT printed.
+
+usage: contact_wheel_examples.py LIBRARY CHECKOUT [NAME...] [--verbose]   CHECKOUT: a clone of github.com/eve70a/CONTACT
+
+Of every case of CHECKOUT/examples/*.inp and CHECKOUT/testbank/**/*.inp of module 1 (all unless named) every patch is
+compared by its place (0.1 mm) and its forces (1 % of FN), and the sums FX, FY, FZ in the track (1 % of FZ). A case
+that is refused counts with the reason. Exit code 1 where an accepted case differs by more."""
+import argparse
+import ctypes
+import pathlib
+import re
+import sys
+
+import contact_library
+from contact_examples import FRICTION, Refusal, Unread, numbers, numbers_or_nan
+
+FORCE, PLACE = 0.01, 0.1  # of the normal force; mm
+DIGITS = {"CONFIG": 1967, "P": 1970, "B": 1971, "T": 1972, "N": 1973, "F": 1974, "D": 1977, "C": 1978, "I": 1983}
+LOCATIONS = ["XCP(TR)", "YCP(TR)", "ZCP(TR)", "DELTCP(TR)"]
+
+
+class Lines:
+    """The lines of an input, comments left out."""
+
+    def __init__(self, text):
+        self.lines = [line for line in text.splitlines() if line.split("%")[0].strip()]
+        self.at = 0
+
+    def next(self):
+        self.at += 1
+        return self.lines[self.at - 1]
+
+    def numbers(self, least):
+        out = numbers(self.next())
+        if len(out) < least:
+            raise Unread(self.lines[self.at - 1].strip())
+        return out
+
+    def module(self):
+        """The number of the next case's module; 0 at the end."""
+        while self.at < len(self.lines):
+            found = re.match(r"\s*(\d)\s+MODULE", self.next(), re.I)
+            if found:
+                return int(found[1])
+        return 0
+
+
+class Wheel(contact_library.Contact):
+    """A result element of module 1."""
+
+    def __init__(self, library, ire=1):
+        self.library, self.ire, self.icp = library, ire, -1
+        library.cntc_finalize(ctypes.c_int(ire))
+        version, error = ctypes.c_int(), ctypes.c_int()
+        library.cntc_initialize(ctypes.c_int(ire), ctypes.c_int(1), version, error, b" ", ctypes.c_int(1))
+        self.flag(contact_library.UNITS, contact_library.MM)
+
+    def wheel(self, name, digit, values):
+        getattr(self.library, name)(ctypes.c_int(self.ire), ctypes.c_int(digit), ctypes.c_int(len(values)),
+                           (ctypes.c_double * max(1, len(values)))(*values))
+
+    def profile(self, file, kind, mirror_y, mirror_z, scale, smooth):
+        ints, reals = (ctypes.c_int * 4)(kind, 0, mirror_y, mirror_z), (ctypes.c_double * 2)(scale, smooth)
+        name = str(file).encode()
+        self.library.cntc_setprofileinputfname(ctypes.c_int(self.ire), name, ctypes.c_int(len(name)),
+                                               ctypes.c_int(4), ints, ctypes.c_int(2), reals)
+
+    def load(self, force):
+        self.library.cntc_setverticalforce(ctypes.c_int(self.ire), ctypes.c_double(force))
+
+    def patches(self):
+        count = ctypes.c_int()
+        self.library.cntc_getnumcontactpatches(ctypes.c_int(self.ire), count)
+        return count.value
+
+    def patch(self, number):
+        out = contact_library.Contact.__new__(contact_library.Contact)
+        out.library, out.ire, out.icp = self.library, self.ire, number
+        return out
+
+    def list_of(self, name, icp, count):
+        out = (ctypes.c_double * count)()
+        getattr(self.library, name)(ctypes.c_int(self.ire), ctypes.c_int(icp), ctypes.c_int(count), out)
+        return list(out)
+
+    def location(self, icp, count=38):
+        return self.list_of("cntc_getcontactlocation", icp, count)
+
+    def global_forces(self, icp=-1):
+        return self.list_of("cntc_getglobalforces", icp, 24)
+
+
+def profile(c, lines, folder, kind):
+    line = lines.next()
+    file = re.match(r"\s*'([^']+)'(.*)", line)
+    if not file:
+        raise Unread(line.strip())
+    options = numbers(file[2])
+    mirror_z = int(options[3]) if len(options) > 3 else 0
+    if len(options) > 4 and options[4] >= 1:
+        raise Unread("profile options " + line.strip())
+    c.profile(folder / file[1], kind, int(options[0]), mirror_z, options[1], options[2])
+
+
+def friction(c, lines, varies, law):
+    if law not in FRICTION:
+        raise Unread(f"L = {law}")
+    if varies == 0:
+        return c.set("cntc_setfrictionmethod", law, lines.numbers(FRICTION[law])[:FRICTION[law]])
+    count = int(lines.numbers(1)[0])
+    values = [float(count)]
+    for _ in range(count):
+        values += lines.numbers(1 + FRICTION[law])[:1 + FRICTION[law]]
+    return c.set("cntc_setfrictionmethod", 10 * varies + law, values)
+
+
+def subsurface(lines):
+    lines.numbers(1)
+    while int(lines.numbers(1)[0]) != 0:
+        lines.numbers(1)
+
+
+def design(values, roller):
+    """GAUGHT and its two, cant, radius, curvature as the call takes them."""
+    fourth = [0.0, values[3]] if roller else [values[3], 0.0]
+    return values[:3] + fourth + [values[4] if len(values) > 4 else 0.0]
+
+
+def track(c, lines, folder, digit, roller):
+    values = design(lines.numbers(4), roller) if digit in (1, 3) else []
+    if digit == 3:
+        profile(c, lines, folder, 0)
+    if digit in (2, 3):
+        values += lines.numbers(6)[:6]
+    c.wheel("cntc_settrackdimensions", digit, values)
+
+
+def wheelset(c, lines, folder, digit, normal, forces):
+    if digit in (3, 5):
+        values = lines.numbers(3)
+        c.wheel("cntc_setwheelsetdimensions", digit, values[:4])
+        profile(c, lines, folder, 1)
+    if digit >= 1:
+        values = lines.numbers(6)[:6]
+        if normal == 1:
+            c.load(values[2])
+            values[2] = 0.0
+        c.wheel("cntc_setwheelsetposition", digit, values)
+    if digit >= 2:
+        values = lines.numbers(6)[:6]
+        if forces != 0:
+            raise Unread(f"F = {forces}")
+        c.wheel("cntc_setwheelsetvelocity", digit, values)
+    if digit >= 4:
+        c.wheel("cntc_setwheelsetflexibility", digit, lines.numbers(6)[:6] + lines.numbers(6)[:6])
+
+
+def set_case(c, lines, folder):
+    config, p, b, t, n, f, stress = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
+    varies, law, d, influence, m, z, e = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
+    heat, g, i, *_ = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
+    for name, value in {"CONFIG": config, "P": p, "B": b, "T": t, "N": n, "F": f, "I": i}.items():
+        c.flag(DIGITS[name], value)
+    if d != 1:
+        c.flag(DIGITS["D"], d)
+    if influence > 1:
+        c.flag(DIGITS["C"], influence)
+    if g not in (0, 1):
+        raise Unread(f"G = {g}")
+    if g == 0:
+        values = lines.numbers(5)
+        c.call("cntc_setsolverflags", 0, 4, [int(v) for v in values[:4]], 1, [values[4]])
+    if law != 1:
+        friction(c, lines, varies, law)
+    if influence >= 2:
+        values = lines.numbers(4)[:4]
+        if m not in (0, 4):
+            raise Unread(f"M = {m}")
+        c.set("cntc_setmaterialparameters", m, values + (lines.numbers(4)[:4] if m == 4 else []))
+    if heat == 3:
+        c.set("cntc_settemperaturedata", 3, lines.numbers(4)[:4] + lines.numbers(4)[:4])
+    if d >= 2:
+        values = lines.numbers(6)
+        c.call("cntc_setrollingstepsize", 0.0, values[2])
+        c.grid(-1, values[:2] + values[3:])
+    track(c, lines, folder, z, config >= 4)
+    wheelset(c, lines, folder, e, n, f)
+    if stress >= 2:
+        subsurface(lines)
+
+
+def rows(lines, k):
+    return dict(zip(lines[k].replace("FN/G", "FN/G").split(), (float(v) for v in numbers_or_nan(lines[k + 1]))))
+
+
+def printed(path):
+    """Of each case: the sums, and of each patch the numbers by name."""
+    out = []
+    for case in re.split(r"^ *Case +\d+ *$", path.read_text(errors="replace"), flags=re.M)[1:]:
+        parts = re.split(r"^ *-+ DATA FOR CONTACT PATCH.*$", case, flags=re.M)
+        found = []
+        for part in parts:
+            lines, values = part.splitlines(), {}
+            for k, line in enumerate(lines[:-1]):
+                if re.match(r" +(FX\(TR\)|XCP\(TR\)|XCP\(W\)|CHI|FN|FN/G|NPOT) ", line):
+                    values.update(rows(lines, k))
+            found.append(values)
+        out.append(found)
+    return out
+
+
+def answers(c, number):
+    patch, place = c.patch(number), c.location(number)
+    fn, fx, fs, _ = patch.forces()
+    cksi, ceta, cphi = patch.creepages()
+    out = dict(zip(LOCATIONS, place))
+    out.update({"FN": fn, "FX": fx, "FS": fs, "YCP(R)": place[5], "ZCP(R)": place[6], "YCP(W)": place[10],
+                "ZCP(W)": place[11], "CKSI": cksi, "CETA": ceta, "CPHI": cphi, "APPROACH": patch.approach(),
+                "PMAX": patch.p_max()})
+    return out
+
+
+def differences(c, wanted):
+    total, patches = wanted[0], wanted[1:]
+    sums = dict(zip(["FX(TR)", "FY(TR)", "FZ(TR)"], c.global_forces()[:3]))
+    out = [f"{k} {v:.5g} for {total[k]:.5g}" for k, v in sums.items()
+           if not abs(v - total[k]) <= FORCE * abs(total["FZ(TR)"])]
+    if c.patches() != len(patches):
+        return out + [f"{c.patches()} patches for {len(patches)}"], {}
+    worst = {"place": 0.0, "force": 0.0}
+    for number, patch in enumerate(patches, 1):
+        found = answers(c, number)
+        for name, value in found.items():
+            is_place = "CP(" in name and not name.startswith("DELT")
+            if name not in patch or not (is_place or name in ("FN", "FX", "FS")):
+                continue
+            off = abs(value - patch[name]) / (1 if is_place else abs(patch["FN"]))
+            worst["place" if is_place else "force"] = max(worst["place" if is_place else "force"], off)
+            if not off <= (PLACE if is_place else FORCE):
+                out.append(f"patch {number} {name} {value:.5g} for {patch[name]:.5g}")
+    return out, worst
+
+
+def run(library, file, options):
+    lines, wanted = Lines(file.read_text(errors="replace")), printed(file.with_suffix(".ref_out"))
+    c = Wheel(library)
+    cases = good = off = 0
+    reasons, worst, broken = [], {"place": 0.0, "force": 0.0}, False
+    while (module := lines.module()) != 0:
+        cases += 1
+        try:
+            if module != 1:
+                raise Unread(f"module {module}")
+            set_case(c, lines, file.parent)
+            code = c.calculate()
+            if code < 0:
+                raise Refusal(f"{code}: {c.error()[1].splitlines()[0][:150]}")
+            wrong, most = differences(c, wanted[cases - 1])
+        except (Refusal, Unread, IndexError) as e:
+            reasons.append(str(e))
+            continue
+        good += not wrong
+        off += bool(wrong)
+        for name, value in most.items():
+            worst[name] = max(worst[name], value)
+        if options.verbose:
+            print(f"  {file.stem} case {cases}: {', '.join(wrong) or 'equal'}")
+            if wrong or options.numbers:
+                for number, patch in enumerate(wanted[cases - 1][1:], 1):
+                    for name, value in answers(c, number).items():
+                        print(f"      {number} {name:12} {value:14.6g} {patch.get(name, float('nan')):14.6g}")
+    print(f"{file.stem:22} {cases:5} {good:6} {off:5}  {worst['place']:8.4f} {100 * worst['force']:8.3f}  "
+          f"{'; '.join(dict.fromkeys(reasons))[:240]}", flush=True)
+    return cases, good, off
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("library")
+    parser.add_argument("checkout", type=pathlib.Path)
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--verbose", action="store_true")
+    parser.add_argument("--numbers", action="store_true", help="all numbers of every case")
+    options = parser.parse_args()
+    library = contact_library.load(options.library)
+    print(f"{'example':22} {'cases':>5} {'equal':>6} {'off':>5}  {'mm':>8} {'% of FN':>8}  refused")
+    total = [0, 0, 0]
+    files = sorted(options.checkout.glob("examples/*.inp")) + sorted(options.checkout.glob("testbank/**/*.inp"))
+    for file in files:
+        if options.names and file.stem not in options.names:
+            continue
+        text = file.read_text(errors="replace")
+        if not re.search(r"^ *1 +MODULE", text, re.M | re.I) or not file.with_suffix(".ref_out").exists():
+            continue
+        total = [a + b for a, b in zip(total, run(library, file, options))]
+    print(f"{'all':22} {total[0]:5} {total[1]:6} {total[2]:5}")
+    return 1 if total[2] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
