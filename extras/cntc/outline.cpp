@@ -26,19 +26,23 @@ std::string ending_of(std::string_view name) {
   return out;
 }
 
-/// Whether z points up: a rail's ends lie below its middle, a wheel's flange below its tread.
+/// Whether z points up: the ends of a rail lie below its middle, those of a wheel above its flange and tread.
 bool points_up(ProfileKind kind, const std::vector<Vec2>& points) {
   const auto by_z = [](Vec2 a, Vec2 b) { return a.z < b.z; };
-  const double middle = 0.5 * (points.front().y + points.back().y);
-  const auto near = [&](double y) {
-    return *std::min_element(points.begin(), points.end(),
-                             [&](Vec2 a, Vec2 b) { return std::abs(a.y - y) < std::abs(b.y - y); });
+  const auto [least, most] = std::minmax_element(points.begin(), points.end(), by_z);
+  if (kind == ProfileKind::rail) {
+    const double middle = 0.5 * (points.front().y + points.back().y);
+    const auto near = [&](Vec2 a, Vec2 b) { return std::abs(a.y - middle) < std::abs(b.y - middle); };
+    return 0.5 * (points.front().z + points.back().z) < std::min_element(points.begin(), points.end(), near)->z;
+  }
+  const auto at_end = [&](auto at) {
+    const double share = static_cast<double>(at - points.begin() + 1) / static_cast<double>(points.size());
+    return share < 0.05 || share > 0.95;
   };
-  if (kind == ProfileKind::rail) return 0.5 * (points.front().z + points.back().z) < near(middle).z;
-  const double tread = near(0).z;
-  const double lowest = std::max_element(points.begin(), points.end(), by_z)->z - tread;
-  const double highest = tread - std::min_element(points.begin(), points.end(), by_z)->z;
-  return highest > lowest;
+  if (at_end(least)) return false;
+  if (at_end(most)) return true;
+  return points[static_cast<std::size_t>((least - points.begin() + most - points.begin()) / 2)].z >
+         0.5 * (least->z + most->z);
 }
 
 Outline outline(ProfileKind kind, std::vector<Vec2> points, const OutlineOptions& options, const std::string& name) {
@@ -91,7 +95,8 @@ Outline read_outline(ProfileKind kind, const std::string& file, const OutlineOpt
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   if (!in || text.empty()) throw Refused(kProfile, file + ": this profile cannot be read: check its path");
   try {
-    const NumberTable table = ending == ".prr" || ending == ".prw"   ? parse_simpack(kind, text, file)
+    const bool simpack = text.find("point.begin") != std::string::npos;
+    const NumberTable table = simpack                                ? parse_simpack(kind, text, file)
                               : ending == ".ban" || ending == ".whl" ? parse_miniprof(text, file)
                                                                      : parse_number_table(text, file);
     return outline(kind, table.rows, options, file);

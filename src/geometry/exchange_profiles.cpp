@@ -73,7 +73,7 @@ class Simpack {
     std::string section;
     bool listing = false, listed = false;
     each_line(text, [&](std::string_view line, int number) {
-      line = trimmed(line.substr(0, line.find('!')));
+      line = trimmed(line.substr(0, line.find_first_of("!%")));
       if (line.empty()) return;
       if (line == "point.begin") {
         if (listed) refuse("there is a second list of points", "keep one spline a file", name_, number);

@@ -10,7 +10,7 @@
 namespace railstrata {
 
 /// Simpack .prr (rail) and .prw (wheel): key = value in sections ("spline.begin" … "spline.end"), points between
-/// point.begin and point.end, comments after "!". The points are worked on in Simpack's order: point.dist.min, shift,
+/// point.begin and point.end, comments after "!" and "%". The points are worked on in Simpack's order: point.dist.min, shift,
 /// bound (where min < max), mirror, inversion, units.len.f (points of a metre: 1000 means millimetres). Weights and
 /// approx.smooth are not used. What was done stands in `notes`. Throws CaseError with name:line: no number, no or two
 /// lists of points, a profile of the other kind, points to be rotated.

@@ -28,12 +28,13 @@ class Unread(Exception):
 
 
 def numbers(line):
-    """The numbers before the first word of a line; degrees as radians."""
+    """The numbers before the first word of a line; degrees (12d) as radians (0.2r)."""
     out = []
     for word in line.split("%")[0].replace(",", " ").split():
-        degrees = re.fullmatch(r"([-+\d.]+)d", word, re.I)
+        angle = re.fullmatch(r"([-+\d.]+)([dr])", word, re.I)
+        unit = {"d": math.radians(1), "r": 1}[angle[2].lower()] if angle else 1
         try:
-            out.append(math.radians(float(degrees[1])) if degrees else float(re.sub("[dD]", "e", word)))
+            out.append(unit * float(re.sub("[dD]", "e", angle[1] if angle else word)))
         except ValueError:
             break
     return out

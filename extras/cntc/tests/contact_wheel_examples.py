@@ -32,9 +32,13 @@ class Lines:
         return self.lines[self.at - 1]
 
     def numbers(self, least):
-        out = numbers(self.next())
-        if len(out) < least:
-            raise Unread(self.lines[self.at - 1].strip())
+        """All numbers of a line, and of as many more as it takes for so many."""
+        out = []
+        while len(out) < least:
+            found = numbers(self.next())
+            if not found:
+                raise Unread(self.lines[self.at - 1].strip())
+            out += found
         return out
 
     def module(self):
@@ -98,8 +102,9 @@ def profile(c, lines, folder, kind):
         raise Unread(line.strip())
     options = numbers(file[2])
     mirror_z = int(options[3]) if len(options) > 3 else 0
-    if len(options) > 4 and options[4] >= 1:
-        raise Unread("profile options " + line.strip())
+    if len(options) > 4:
+        for _ in range(int(options[4])):
+            lines.next()
     c.profile(folder / file[1], kind, int(options[0]), mirror_z, options[1], options[2])
 
 
@@ -159,7 +164,9 @@ def wheelset(c, lines, folder, digit, normal, forces):
 def set_case(c, lines, folder):
     config, p, b, t, n, f, stress = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
     varies, law, d, influence, m, z, e = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
-    heat, g, i, *_ = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
+    extra, heat, g, i, *_ = (int(v) for v in lines.next().split()[0].zfill(8)[-8:])
+    if extra >= 1:
+        lines.next()
     for name, value in {"CONFIG": config, "P": p, "B": b, "T": t, "N": n, "F": f, "I": i}.items():
         c.flag(DIGITS[name], value)
     if d != 1:
