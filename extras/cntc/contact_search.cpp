@@ -275,7 +275,7 @@ PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchS
     const double z = mix(rail[place->first].z, rail[place->first + 1].z, place->second);
     return at.to_inner({0, y, z}).y;
   };
-  const auto arc = [&](double y) { return pair.rail->profile().s_at_y(profile_y(y)); };
+  const auto arc = [&](double y) { return pair.rail->arc(profile_y(y)); };
   PatchPlane out;
   out.angle = overlap.angle;
   const Outline::Point p = pair.rail->at(profile_y(overlap.y));

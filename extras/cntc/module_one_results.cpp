@@ -48,8 +48,7 @@ std::vector<double> contact_location(const ModuleOne& one, const Problem& base, 
   };
   const Marker& m = patch->plane.reference;
   const auto arc = [&](const Outline& o, const Marker& at) {
-    const Outline::Point p = o.at(at.at.y);
-    return o.profile().s_at_y(p.y) / length;
+    return o.arc(o.at(at.at.y).y) / length;
   };
   put(1, m);
   out.put(4, {side * m.roll()});
@@ -148,13 +147,15 @@ std::vector<double> profile_values(const ModuleOne& one, const Problem& base, in
   std::vector<double> first, second;
   const Marker place = of_wheel ? placed(one.wheelset_at, one.wheel_in_wheelset) : one.rail_at;
   for (const double s : at) {
-    const ProfilePoint q = p.at(std::clamp(s, p.s_min(), p.s_max()));
-    Vec3 v{0, q.position.y, -q.position.z};
+    const double inside = std::clamp(s, p.s_min(), p.s_max());
+    const Outline::Point q = outline->along(inside);
+    const Vec2 tangent = p.at(inside).tangent;
+    Vec3 v{0, q.y, q.z};
     if (task == 2) {
       v = place.to_outer(v);
       v.y *= side_of(base);
     }
-    first.push_back(task == 4 ? kMillimetre * s : task == 5 ? std::atan2(-q.tangent.z, q.tangent.y) : kMillimetre * v.y);
+    first.push_back(task == 4 ? kMillimetre * s : task == 5 ? std::atan2(-tangent.z, tangent.y) : kMillimetre * v.y);
     second.push_back(kMillimetre * v.z);
   }
   if (task <= 2) first.insert(first.end(), second.begin(), second.end());

@@ -54,8 +54,11 @@ Outline outline(ProfileKind kind, std::vector<Vec2> points, const OutlineOptions
   for (Vec2& p : points) p = (1e-3 * options.scale) * Vec2{p.y, turn ? p.z : -p.z};
   const auto repeated = [](Vec2 a, Vec2 b) { return norm(a - b) < kSamePoint; };
   points.erase(std::unique(points.begin(), points.end(), repeated), points.end());
+  double aside = 0;
+  if (!points.empty() && points.front().y * points.back().y > 0) aside = points[points.size() / 2].y;
+  for (Vec2& p : points) p.y -= aside;
   try {
-    return Outline(Profile::from_points(kind, name, points));
+    return {Profile::from_points(kind, name, points), aside};
   } catch (const CaseError& e) {
     throw Refused(kProfile, fmt::format("{}: {}", name, e.diagnostics.front().message));
   }
@@ -63,20 +66,23 @@ Outline outline(ProfileKind kind, std::vector<Vec2> points, const OutlineOptions
 
 }  // namespace
 
-Outline::Outline(Profile profile) : profile_(std::move(profile)) {
+Outline::Outline(Profile profile, double aside) : profile_(std::move(profile)), aside_(aside) {
   const double begin = profile_.s_at_y(profile_.y_min()), end = profile_.s_at_y(profile_.y_max());
   const int count = std::max(2, static_cast<int>(std::ceil((end - begin) / kStep)) + 1);
   for (int k = 0; k < count; ++k) {
-    const ProfilePoint p = profile_.at(std::clamp(begin + (end - begin) * k / (count - 1), begin, end));
-    const Point next{p.position.y, -p.position.z, -p.tangent.z / std::max(p.tangent.y, 1e-9)};
+    const Point next = along(std::clamp(begin + (end - begin) * k / (count - 1), begin, end));
     if (points_.empty() || next.y > points_.back().y) points_.push_back(next);
   }
 }
 
+Outline::Point Outline::along(double s) const {
+  constexpr double kSteepest = 1e-9;
+  const ProfilePoint p = profile_.at(s);
+  return {p.position.y + aside_, -p.position.z, -p.tangent.z / std::max(p.tangent.y, kSteepest)};
+}
+
 Outline::Point Outline::at(double y) const {
-  const double inside = std::clamp(y, profile_.y_min(), profile_.y_max());
-  const ProfilePoint p = profile_.at(profile_.s_at_y(inside));
-  return {inside, -p.position.z, -p.tangent.z / std::max(p.tangent.y, 1e-9)};
+  return along(profile_.s_at_y(std::clamp(y - aside_, profile_.y_min(), profile_.y_max())));
 }
 
 ProfileKind kind_of_file(std::string_view name) {
@@ -116,8 +122,8 @@ GaugePoint gauge_point(const Outline& rail, double cant, double depth) {
   const double c = std::cos(cant), s = std::sin(cant), begin = p.s_min(), end = p.s_max();
   const int count = std::max(2, static_cast<int>((end - begin) / (0.2 * kStep)));
   const auto canted = [&](double at) {
-    const Vec2 q = p.at(std::clamp(at, begin, end)).position;
-    return Vec2{c * q.y - s * q.z, -s * q.y - c * q.z};  // z down
+    const Outline::Point q = rail.along(std::clamp(at, begin, end));
+    return Vec2{c * q.y + s * q.z, -s * q.y + c * q.z};
   };
   const auto place = [&](int k) { return begin + (end - begin) * k / count; };
   int top = 0;

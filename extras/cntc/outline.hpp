@@ -18,19 +18,25 @@ struct OutlineOptions {
 /// A profile with points of its running surface for searches.
 class Outline {
  public:
-  explicit Outline(Profile profile);
+  /// `aside`: y of the profile's origin; a Profile has to cover its own.
+  Outline(Profile profile, double aside);
   struct Point {
     double y = 0, z = 0, slope = 0;  ///< m, m, dz/dy
   };
   /// Of the running surface; the end where y lies beyond.
   Point at(double y) const;
-  bool covers(double y) const { return y >= profile_.y_min() && y <= profile_.y_max(); }
+  bool covers(double y) const { return y >= aside_ + profile_.y_min() && y <= aside_ + profile_.y_max(); }
+  /// Arc length of the running surface at y, m.
+  double arc(double y) const { return profile_.s_at_y(y - aside_); }
+  /// At any arc length, also beyond the running surface.
+  Point along(double s) const;
   const Profile& profile() const { return profile_; }
   /// By rising y, about 0.05 mm apart.
   const std::vector<Point>& points() const { return points_; }
 
  private:
   Profile profile_;
+  double aside_ = 0;
   std::vector<Point> points_;
 };
 

@@ -262,9 +262,9 @@ def run(library, file, options):
             set_case(c, lines, file.parent)
             code = c.calculate()
             if code < 0:
-                raise Refusal(f"{code}: {c.error()[1].splitlines()[0][:150]}")
+                raise Refusal(f"{code}: {c.error()[1].splitlines()[0][:400]}")
             wrong, most = differences(c, wanted[cases - 1])
-        except (Refusal, Unread, IndexError) as e:
+        except (Refusal, Unread, IndexError, KeyError) as e:
             reasons.append(str(e))
             continue
         good += not wrong
@@ -278,7 +278,7 @@ def run(library, file, options):
                     for name, value in answers(c, number).items():
                         print(f"      {number} {name:12} {value:14.6g} {patch.get(name, float('nan')):14.6g}")
     print(f"{file.stem:22} {cases:5} {good:6} {off:5}  {worst['place']:8.4f} {100 * worst['force']:8.3f}  "
-          f"{'; '.join(dict.fromkeys(reasons))[:240]}", flush=True)
+          f"{'; '.join(dict.fromkeys(reasons))[:400]}", flush=True)
     return cases, good, off
 
 
