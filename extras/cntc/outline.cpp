@@ -133,11 +133,22 @@ GaugePoint gauge_point(const Outline& rail, double cant, double depth) {
       out.top = z;
       top = k;
     }
-  for (int k = 0; k <= top; ++k) {
-    const Vec2 q = canted(place(k));
-    if (q.z - out.top > depth || q.y >= out.y) continue;
+  const auto take = [&](Vec2 q) {
+    if (q.y >= out.y) return;
     out.y = q.y;
     out.z = q.z;
+  };
+  const auto within = [&](double at) { return canted(at).z - out.top <= depth; };
+  for (int k = 0; k <= top; ++k) {
+    if (!within(place(k))) continue;
+    take(canted(place(k)));
+    if (k == 0 || within(place(k - 1))) continue;
+    double outside = place(k - 1), inside = place(k);  // passes the depth in between
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (outside + inside);
+      (within(middle) ? inside : outside) = middle;
+    }
+    take(canted(inside));
   }
   return out;
 }
