@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "cntc/drive.hpp"
 #include "cntc/module_one.hpp"
@@ -149,6 +150,74 @@ std::vector<double> numbers_at(const std::vector<FrictionSlice>& slices, double 
   return out;
 }
 
+/// Parts of a patch, regions of overlap that lie between D_COMB and D_SEP apart: the pressure of one depresses another
+/// by a share of what a half-space would, so that two patches grow into one without a jump. [eve70a/CONTACT, user guide]
+class Parts {
+ public:
+  Parts(const WheelRailPatch& patch, const SearchSteps& steps) : boxes_(patch.overlap.parts), steps_(steps) {
+    const PatchPlane& plane = patch.plane;
+    const double more = 0.4 * steps.combine, slope = std::cos(plane.angle);
+    for (int j = 0; j < plane.my; ++j)
+      for (int i = 0; i < plane.mx; ++i) {
+        const double x = plane.reference.at.x + plane.x + i * plane.dx;
+        const double y = plane.reference.at.y + (plane.s + j * plane.ds) * slope;
+        const auto holds = [&](const Box& b) {
+          return x >= b.x[0] - more && x <= b.x[1] + more && y >= b.y[0] - more * slope && y <= b.y[1] + more * slope;
+        };
+        part_.push_back(static_cast<std::size_t>(std::find_if(boxes_.begin(), boxes_.end(), holds) - boxes_.begin()));
+      }
+  }
+
+  /// Solves without friction until the gap of each part, less what the others do not do to it, is settled.
+  void settle(Problem& problem) const {
+    constexpr double kSettled = 1e-7, kBeside = 0.05;  // of the approach; m
+    constexpr int kMostTurns = 50;
+    std::vector<double>& gap = problem.settings.gap.value;
+    for (std::size_t k = 0; k < gap.size(); ++k)
+      if (part_[k] == boxes_.size()) gap[k] = kBeside;
+    const std::vector<double> rigid = gap;
+    const int friction = std::exchange(problem.settings.flags[kTang], 0);
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+      std::vector<std::string> remarks;
+      solve(problem, remarks);
+      const std::vector<double> missing = missing_depression(*problem.solved);
+      double change = 0;
+      for (std::size_t k = 0; k < gap.size(); ++k) {
+        const double next = rigid[k] - missing[k];
+        change = std::max(change, std::abs(next - gap[k]));
+        gap[k] = next;
+      }
+      if (change <= kSettled * problem.settings.approach) break;
+    }
+    problem.settings.flags[kTang] = friction;
+  }
+
+ private:
+  std::vector<double> missing_depression(const Solved& s) const {
+    const PatchGrid& g = s.on.grid;
+    std::vector<double> out(g.size(), 0.0);
+    const auto element = [&](int i, int j) { return static_cast<std::size_t>(i + g.nx * j); };
+    for (std::size_t b = 0; b < boxes_.size(); ++b) {
+      Plane pressure(g.size(), 0.0), depression(g.size());
+      for (int i = 0; i < g.nx; ++i)
+        for (int j = 0; j < g.ny; ++j)
+          if (part_[element(i, j)] == b) pressure[g.index(i, j)] = s.rolling.normal.pressure[g.index(i, j)];
+      s.influence->normal(pressure.data(), depression.data());
+      for (int i = 0; i < g.nx; ++i)
+        for (int j = 0; j < g.ny; ++j) {
+          const std::size_t a = part_[element(i, j)];
+          if (a == b || a == boxes_.size()) continue;
+          out[element(i, j)] += (1 - interaction(boxes_[a], boxes_[b], steps_)) * depression[g.index(i, j)];
+        }
+    }
+    return out;
+  }
+
+  const std::vector<Box>& boxes_;
+  const SearchSteps& steps_;
+  std::vector<std::size_t> part_;  ///< of each element; the number of parts: of none
+};
+
 class Wheel {
  public:
   Wheel(ModuleOne& one, Problem& base, PatchProblems& problems, std::vector<std::string>& remarks)
@@ -198,8 +267,8 @@ class Wheel {
     s.grid = {3, plane.mx, plane.my, {plane.x, plane.s, plane.dx, plane.ds}};
     s.gap = {9, 0, 0, std::move(gap)};
     s.flags[kNorm] = 0;
+    s.flags[kTang] = with_friction ? flag(base_.settings, kTang) : 0;
     s.approach = patch.approach;
-    if (!with_friction) s.flags[kTang] = 0;
     const Rolling moving = rolling(one_, base_, patch);
     s.creepages = moving.creepages;
     s.chi = moving.chi;
@@ -208,6 +277,7 @@ class Wheel {
     if (one_.varies > 0)
       set_friction(problem, one_.friction_digit,
                    numbers_at(one_.slices, one_.varies == 1 ? patch.on_wheel.roll() : one_.wheelset.at[0]));
+    if (patch.overlap.parts.size() > 1) Parts(patch, one_.steps).settle(problem);
     std::vector<std::string> remarks;
     solve(problem, remarks);
     if (with_friction) remarks_.insert(remarks_.end(), remarks.begin(), remarks.end());
