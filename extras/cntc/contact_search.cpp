@@ -213,16 +213,38 @@ std::optional<double> way_to(Function&& value_and_slope, double start) {
   return {};
 }
 
+/// A wheel's profile by chords between points a step apart, from the one at y on: CONTACT's surface, whose distances
+/// are then those that it computes.
+class Chords {
+ public:
+  Chords(const Outline& wheel, double y, double step) {
+    const std::vector<Outline::Point>& all = wheel.points();
+    const double least = wheel.arc(all.front().y), most = wheel.arc(all.back().y);
+    const double middle = wheel.arc(std::clamp(y, all.front().y, all.back().y));
+    for (double k = std::ceil((least - middle) / step); middle + k * step <= most; ++k)
+      points_.push_back(wheel.along(middle + k * step));
+  }
+  std::optional<Outline::Point> at(double y) const {
+    const auto place = between(points_, y);
+    if (!place) return {};
+    const Outline::Point &a = points_[place->first], &b = points_[place->first + 1];
+    return Outline::Point{y, mix(a.z, b.z, place->second), (b.z - a.z) / (b.y - a.y)};
+  }
+
+ private:
+  std::vector<Outline::Point> points_;
+};
+
 /// Along `ray` from `at`, both in the wheel's system.
-std::optional<double> way_to_wheel(const RigidPair& pair, Vec3 at, Vec3 ray, double start) {
+std::optional<double> way_to_wheel(const RigidPair& pair, const Chords& wheel, Vec3 at, Vec3 ray, double start) {
   return way_to(
       [&](double n) -> std::optional<std::pair<double, double>> {
         const Vec3 p = at + n * ray;
-        if (!pair.wheel->covers(p.y)) return {};
-        const Outline::Point q = pair.wheel->at(p.y);
+        const std::optional<Outline::Point> q = wheel.at(p.y);
+        if (!q) return {};
         const double rho = std::hypot(p.x, p.z + pair.wheel_radius);
-        return std::pair{rho - pair.wheel_radius - q.z,
-                         (p.x * ray.x + (p.z + pair.wheel_radius) * ray.z) / rho - q.slope * ray.y};
+        return std::pair{rho - pair.wheel_radius - q->z,
+                         (p.x * ray.x + (p.z + pair.wheel_radius) * ray.z) / rho - q->slope * ray.y};
       },
       start);
 }
@@ -303,13 +325,14 @@ Distance rigid_distance(const RigidPair& pair, const PatchPlane& plane) {
   const auto from = [&](const Marker& m, double x, double s) { return m.to_inner(plane.reference.to_outer({x, s, 0})); };
   const Vec3 normal = plane.reference.axes[2];
   const Vec3 in_wheel = pair.wheel_at.turned_back(normal), in_rail = pair.rail_at.turned_back(normal);
+  const Chords chords(*pair.wheel, pair.wheel_at.to_inner(plane.reference.at).y, plane.ds);
   Distance out;
   out.gap.assign(static_cast<std::size_t>(plane.mx) * static_cast<std::size_t>(plane.my), kNoSurface);
   double least = kNoSurface, of_wheel = 0, of_rail = 0;
   for (int j = 0; j < plane.my; ++j)
     for (int i = 0; i < plane.mx; ++i) {
       const double x = plane.x + i * plane.dx, s = plane.s + j * plane.ds;
-      const auto wheel = way_to_wheel(pair, from(pair.wheel_at, x, s), in_wheel, of_wheel);
+      const auto wheel = way_to_wheel(pair, chords, from(pair.wheel_at, x, s), in_wheel, of_wheel);
       const auto rail = way_to_rail(pair, from(pair.rail_at, x, s), in_rail, of_rail);
       of_wheel = wheel.value_or(0);
       of_rail = rail.value_or(0);
