@@ -95,8 +95,7 @@ int solve_patches(int ire, ModuleOne& wheel, Problem& base) {
   Patches patches(ire);
   solve_wheel(wheel, base, patches, remarks);
   int at_border = 0;
-  for (int k = 1; k <= static_cast<int>(wheel.patches.size()); ++k)
-    at_border += patches.patch(k).solved->border_cells;
+  for (int k = 1; k <= static_cast<int>(wheel.patches.size()); ++k) at_border += patches.patch(k).solved->border_cells;
   for (const std::string& remark : remarks) registry().report(ire, -1, &base, kCall, 0, remark);
   return at_border;
 }

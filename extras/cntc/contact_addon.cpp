@@ -81,7 +81,8 @@ void cntc_initialize(const int* ire, const int* imodul, int* ifcver, int* ierror
   if (*ierror != 0) return;
   *ierror = guarded(*ire, -1, nullptr, "cntc_initialize", [&] {
     if (*imodul != 1 && *imodul != 3)
-      throw Refused(kOther, fmt::format("module {} is not offered: 1 (wheel on rail) and 3 (basic contact) are", *imodul));
+      throw Refused(kOther,
+                    fmt::format("module {} is not offered: 1 (wheel on rail) and 3 (basic contact) are", *imodul));
     registry().make_element(*ire, *imodul);
   });
 }
@@ -181,13 +182,12 @@ void cntc_sethertzcontact(const int* ire, const int* icp, const int* ipotcn, con
 }
 
 void cntc_setpotcontact(const int* ire, const int* icp, const int* ipotcn, const int* nparam, const double* rparam) {
-  set(ire, icp, Setting::grid, "cntc_setpotcontact",
-      [&](Problem& p) {
-        if (ModuleOne* wheel = registry().find_wheel(*ire))
-          set_search(*wheel, p, *ipotcn, given(rparam, *nparam));
-        else
-          set_potential_contact(p, *ipotcn, given(rparam, *nparam));
-      });
+  set(ire, icp, Setting::grid, "cntc_setpotcontact", [&](Problem& p) {
+    if (ModuleOne* wheel = registry().find_wheel(*ire))
+      set_search(*wheel, p, *ipotcn, given(rparam, *nparam));
+    else
+      set_potential_contact(p, *ipotcn, given(rparam, *nparam));
+  });
 }
 
 void cntc_setpenetration(const int* ire, const int* icp, const double* pen) {

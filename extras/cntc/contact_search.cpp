@@ -51,7 +51,8 @@ std::vector<RailPoint> rail_line(const RigidPair& pair) {
 template <class List>
 std::optional<std::pair<std::size_t, double>> between(const List& list, double y) {
   if (list.size() < 2 || y < list.front().y || y > list.back().y) return {};
-  const auto after = std::upper_bound(list.begin() + 1, list.end() - 1, y, [](double v, const auto& p) { return v < p.y; });
+  const auto after =
+      std::upper_bound(list.begin() + 1, list.end() - 1, y, [](double v, const auto& p) { return v < p.y; });
   const auto k = static_cast<std::size_t>(after - list.begin()) - 1;
   return std::pair{k, (y - list[k].y) / (list[k + 1].y - list[k].y)};
 }
@@ -171,8 +172,8 @@ void combine(std::vector<Overlap>& all, const SearchSteps& steps, bool as_parts)
   const double near = as_parts ? steps.separate : std::min(steps.separate, steps.combine);
   for (std::size_t i = 0; i + 1 < all.size(); ++i)
     for (std::size_t j = i + 1; j < all.size();) {
-      const bool apart = std::abs(all[i].angle - all[j].angle) > steps.angle ||
-                         distance(all[i].extent, all[j].extent) > near;
+      const bool apart =
+          std::abs(all[i].angle - all[j].angle) > steps.angle || distance(all[i].extent, all[j].extent) > near;
       if (apart) {
         ++j;
         continue;
@@ -267,7 +268,8 @@ std::optional<double> way_to_rail(const RigidPair& pair, Vec3 at, Vec3 ray, doub
 
 Search search_overlaps(const RigidPair& pair, const SearchSteps& steps) {
   const std::vector<Row> rows = rows_of(pair, steps.ds);
-  const auto least = std::min_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.gap < b.gap; });
+  const auto least =
+      std::min_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.gap < b.gap; });
   if (least->gap > 0.5) throw Refused(kSearch, "the wheel does not stand over the rail: check places and profiles");
   Search out;
   out.least_gap = least->gap;
@@ -322,7 +324,9 @@ PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchS
 }
 
 Distance rigid_distance(const RigidPair& pair, const PatchPlane& plane) {
-  const auto from = [&](const Marker& m, double x, double s) { return m.to_inner(plane.reference.to_outer({x, s, 0})); };
+  const auto from = [&](const Marker& m, double x, double s) {
+    return m.to_inner(plane.reference.to_outer({x, s, 0}));
+  };
   const Vec3 normal = plane.reference.axes[2];
   const Vec3 in_wheel = pair.wheel_at.turned_back(normal), in_rail = pair.rail_at.turned_back(normal);
   const Chords chords(*pair.wheel, pair.wheel_at.to_inner(plane.reference.at).y, plane.ds);

@@ -33,8 +33,8 @@ struct Overlap {
 };
 
 struct SearchSteps {
-  double dx = 0, ds = 0;                                     ///< elements
-  double angle = 0, separate = 0, combine = 0, turn = 0;     ///< A_SEP, D_SEP, D_COMB, D_TURN
+  double dx = 0, ds = 0;                                  ///< elements
+  double angle = 0, separate = 0, combine = 0, turn = 0;  ///< A_SEP, D_SEP, D_COMB, D_TURN
 };
 
 struct Search {

@@ -61,7 +61,8 @@ using Numbers = std::span<const double>;
 
 /// By itype, or by the ending of the file's name.
 bool profile_is_of_wheel(const std::string& file, std::span<const int> ints);
-void set_profile(ModuleOne& one, const Problem& base, const std::string& file, std::span<const int> ints, Numbers reals);
+void set_profile(ModuleOne& one, const Problem& base, const std::string& file, std::span<const int> ints,
+                 Numbers reals);
 void set_profile(ModuleOne& one, const Problem& base, Numbers values, std::span<const int> ints, Numbers reals);
 /// Z = 0 to 3; 32 and 33, rails that give way, are refused.
 void set_track(ModuleOne& one, const Problem& base, int digit, Numbers values);

@@ -6,6 +6,7 @@
 #include "cntc/calls.hpp"
 #include "cntc/module_one.hpp"
 #include "cntc/results.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata::cntc {
 namespace {
@@ -47,9 +48,7 @@ std::vector<double> contact_location(const ModuleOne& one, const Problem& base, 
     out.put(first, {m.at.x / length, side * m.at.y / length, m.at.z / length});
   };
   const Marker& m = patch->plane.reference;
-  const auto arc = [&](const Outline& o, const Marker& at) {
-    return o.arc(o.at(at.at.y).y) / length;
-  };
+  const auto arc = [&](const Outline& o, const Marker& at) { return o.arc(o.at(at.at.y).y) / length; };
   put(1, m);
   out.put(4, {side * m.roll()});
   put(5, patch->on_rail);
@@ -140,9 +139,8 @@ std::vector<double> profile_values(const ModuleOne& one, const Problem& base, in
   if (task < 0 || task > 5) throw Refused(kProfile, "tasks -1 to 5 are offered: profiles do not vary");
   const Profile& p = outline->profile();
   // As in CONTACT: profiles in mm, whatever the units are.
-  constexpr double kMillimetre = 1e3;
   const double step = reals.empty() || reals[0] < 1e-4 ? 1.0 : reals[0];
-  const std::vector<double> at = places(p, ints.size() > 1 ? ints[1] : 0, step / kMillimetre);
+  const std::vector<double> at = places(p, ints.size() > 1 ? ints[1] : 0, kMilli * step);
   if (task == 0) return {static_cast<double>(at.size())};
   std::vector<double> first, second;
   const Marker place = of_wheel ? placed(one.wheelset_at, one.wheel_in_wheelset) : one.rail_at;
@@ -155,8 +153,8 @@ std::vector<double> profile_values(const ModuleOne& one, const Problem& base, in
       v = place.to_outer(v);
       v.y *= side_of(base);
     }
-    first.push_back(task == 4 ? kMillimetre * s : task == 5 ? std::atan2(-tangent.z, tangent.y) : kMillimetre * v.y);
-    second.push_back(kMillimetre * v.z);
+    first.push_back(task == 4 ? kToMilli * s : task == 5 ? std::atan2(-tangent.z, tangent.y) : kToMilli * v.y);
+    second.push_back(kToMilli * v.z);
   }
   if (task <= 2) first.insert(first.end(), second.begin(), second.end());
   return first;

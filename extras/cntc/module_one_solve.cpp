@@ -37,7 +37,8 @@ void require_settings(const ModuleOne& one, const Problem& base) {
   refuse(kForce, 0, 0, "total tangential forces, F");
   const int method = flag(base.settings, kDiscretisation) % 10;
   if (method > 2 && method != 5)
-    throw Refused(kOther, fmt::format("D = {} (conformal, oblique or other contact search) is not offered: 2 and 5 are", method));
+    throw Refused(
+        kOther, fmt::format("D = {} (conformal, oblique or other contact search) is not offered: 2 and 5 are", method));
   if (flag(base.settings, kTang) > 0 && flag(base.settings, kTime) != 2)
     throw Refused(kOther, "P = 0, a case that goes on from the one before, is not offered for wheel on rail: P = 2");
   if (flag(base.settings, kNorm) == 1 && !(one.load > 0))
@@ -151,7 +152,8 @@ std::vector<double> numbers_at(const std::vector<FrictionSlice>& slices, double 
 }
 
 /// Parts of a patch, regions of overlap that lie between D_COMB and D_SEP apart: the pressure of one depresses another
-/// by a share of what a half-space would, so that two patches grow into one without a jump. [eve70a/CONTACT, user guide]
+/// by a share of what a half-space would, so that two patches grow into one without a jump. [eve70a/CONTACT, user
+/// guide]
 class Parts {
  public:
   Parts(const WheelRailPatch& patch, const SearchSteps& steps) : boxes_(patch.overlap.parts), steps_(steps) {
@@ -251,7 +253,8 @@ class Wheel {
       patch.on_wheel = seen_from(pair.wheel_at, patch.plane.reference);
       patch.on_rail = seen_from(pair.rail_at, patch.plane.reference);
       one_.patches.push_back(std::move(patch));
-      force += solve_patch(static_cast<int>(one_.patches.size()), std::move(distance.gap), with_friction, pair.wheel_at);
+      force +=
+          solve_patch(static_cast<int>(one_.patches.size()), std::move(distance.gap), with_friction, pair.wheel_at);
     }
     return force;
   }

@@ -13,12 +13,13 @@
 #include "core/faults.hpp"
 #include "geometry/exchange_profiles.hpp"
 #include "geometry/number_table.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata::cntc {
 namespace {
 
-constexpr double kStep = 0.05e-3;       // m, between the points of a search
-constexpr double kSamePoint = 1e-7;     // m: points nearer than this are one
+constexpr double kStep = 0.05e-3;    // m, between the points of a search
+constexpr double kSamePoint = 1e-7;  // m: points nearer than this are one
 
 std::string ending_of(std::string_view name) {
   std::string out = std::filesystem::path(name).extension().string();
@@ -51,7 +52,7 @@ Outline outline(ProfileKind kind, std::vector<Vec2> points, const OutlineOptions
   if (points.size() >= 2 && points.front().y > points.back().y) std::reverse(points.begin(), points.end());
   const bool turn = options.mirror_z == 1 || (options.mirror_z == 0 && points.size() >= 2 && points_up(kind, points));
   // CONTACT's z is down, that of a Profile up.
-  for (Vec2& p : points) p = (1e-3 * options.scale) * Vec2{p.y, turn ? p.z : -p.z};
+  for (Vec2& p : points) p = (kMilli * options.scale) * Vec2{p.y, turn ? p.z : -p.z};
   const auto repeated = [](Vec2 a, Vec2 b) { return norm(a - b) < kSamePoint; };
   points.erase(std::unique(points.begin(), points.end(), repeated), points.end());
   double aside = 0;
@@ -89,8 +90,8 @@ ProfileKind kind_of_file(std::string_view name) {
   const std::string ending = ending_of(name);
   if (ending == ".prr" || ending == ".ban") return ProfileKind::rail;
   if (ending == ".prw" || ending == ".whl") return ProfileKind::wheel;
-  throw Refused(kProfile, fmt::format("{}: the ending does not say whether this is a rail or a wheel: give itype 0 or 1",
-                                      name));
+  throw Refused(kProfile,
+                fmt::format("{}: the ending does not say whether this is a rail or a wheel: give itype 0 or 1", name));
 }
 
 Outline read_outline(ProfileKind kind, const std::string& file, const OutlineOptions& options) {

@@ -32,7 +32,7 @@ RSCNTC_API void cntc_initializefirst(int* ifcver, int* ierror, const int* ioutpu
 RSCNTC_API void cntc_initializefirst_new(int* ifcver, int* ierror, const int* ioutput, const char* wrkdir,
                                          const char* outdir, const char* expnam, const int* len_wrkdir,
                                          const int* len_outdir, const int* len_expnam);
-/* imodul: 3; 1 (wheel on rail) answers with ierror = -99. */
+/* imodul: 1 (wheel on rail) or 3 (basic contact). In module 1 the patches are icp 1, 2, ... and icp = -1 is all. */
 RSCNTC_API void cntc_initialize(const int* ire, const int* imodul, int* ifcver, int* ierror, const char* outdir,
                                 const int* len_outdir);
 RSCNTC_API void cntc_finalize(const int* ire);

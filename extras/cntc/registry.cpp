@@ -51,9 +51,8 @@ Problem& Registry::problem(int ire, int icp) {
   const bool of_wheel = find_wheel(ire) != nullptr;
   if (of_wheel && icp < 1) icp = 0;
   if (!(of_wheel && icp == 0) && !in_range(ire, icp))
-    throw Refused(kWrongProblem,
-                  fmt::format("ire = {}, icp = {}: ire is 1 to {} and icp 1 to {}, of module 1 also -1", ire, icp,
-                              kMostElements, kMostProblems));
+    throw Refused(kWrongProblem, fmt::format("ire = {}, icp = {}: ire is 1 to {} and icp 1 to {}, of module 1 also -1",
+                                             ire, icp, kMostElements, kMostProblems));
   make_element(ire);
   const std::lock_guard lock(mutex_);
   auto& problem = elements_[static_cast<std::size_t>(ire)]->problems[static_cast<std::size_t>(icp)];

@@ -19,8 +19,8 @@ class Registry {
   void open(std::string_view wrkdir, std::string_view outdir, std::string_view name, MessageFile::To to);
   /// Makes a result element unless it exists. Throws Refused for a number out of range or another module.
   void make_element(int ire, int module = 0);
-  /// Makes it too, of module 3. Throws Refused for numbers out of range. Of module 1 the problems are patches; icp below
-  /// 1 has the settings of all.
+  /// Makes it too, of module 3. Throws Refused for numbers out of range. Of module 1 the problems are patches; icp
+  /// below 1 has the settings of all.
   Problem& problem(int ire, int icp);
   /// Null where the element is of module 3; `wheel` throws Refused then.
   ModuleOne* find_wheel(int ire);

@@ -157,3 +157,53 @@ class Contact:
         out = np.zeros((21, nz, ny, nx))
         self.call("subs_getresults", number, nx * ny * nz, 21, list(range(1, 22)), out)
         return out
+
+
+class Wheel(Contact):
+    """A result element of module 1."""
+
+    def __init__(self, library, ire=1, units=MM):
+        self.library, self.ire, self.icp = library, ire, -1
+        library.cntc_finalize(c_int(ire))
+        version, error = c_int(), c_int()
+        library.cntc_initialize(c_int(ire), c_int(1), version, error, b" ", c_int(1))
+        self.flag(UNITS, units)
+
+    def wheel(self, name, digit, values):
+        getattr(self.library, name)(c_int(self.ire), c_int(digit), c_int(len(values)),
+                           (c_double * max(1, len(values)))(*values))
+
+    def profile(self, file, kind, mirror_y, mirror_z, scale, smooth):
+        ints, reals = (c_int * 4)(kind, 0, mirror_y, mirror_z), (c_double * 2)(scale, smooth)
+        name = str(file).encode()
+        self.library.cntc_setprofileinputfname(c_int(self.ire), name, c_int(len(name)),
+                                               c_int(4), ints, c_int(2), reals)
+
+    def profile_values(self, points, kind, scale=1.0):
+        flat = [float(v) for point in points for v in point]
+        self.library.cntc_setprofileinputvalues(c_int(self.ire), c_int(len(points)), (c_double * len(flat))(*flat),
+                                                c_int(1), (c_int * 1)(kind), c_int(1), (c_double * 1)(scale))
+
+    def load(self, force):
+        self.library.cntc_setverticalforce(c_int(self.ire), c_double(force))
+
+    def patches(self):
+        count = c_int()
+        self.library.cntc_getnumcontactpatches(c_int(self.ire), count)
+        return count.value
+
+    def patch(self, number):
+        out = Contact.__new__(Contact)
+        out.library, out.ire, out.icp = self.library, self.ire, number
+        return out
+
+    def list_of(self, name, icp, count):
+        out = (c_double * count)()
+        getattr(self.library, name)(c_int(self.ire), c_int(icp), c_int(count), out)
+        return list(out)
+
+    def location(self, icp, count=38):
+        return self.list_of("cntc_getcontactlocation", icp, count)
+
+    def global_forces(self, icp=-1):
+        return self.list_of("cntc_getglobalforces", icp, 24)

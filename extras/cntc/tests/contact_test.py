@@ -670,10 +670,13 @@ class Interface(unittest.TestCase):
             self.assertIn("ire 3, icp 1: cntc_calculate: error -99: cntc_setflags: flag 1971 (B, BOUND) = 4", text)
             begin(None)
 
-    def test_module_one_and_wrong_numbers(self):
+    def test_other_modules_and_wrong_numbers(self):
         version, error, npatch = c_int(), c_int(77), c_int(77)
-        library.cntc_initialize(c_int(5), c_int(1), version, error, b" ", c_int(1))
+        library.cntc_initialize(c_int(5), c_int(11), version, error, b" ", c_int(1))
         self.assertEqual(error.value, -99)
+        library.cntc_initialize(c_int(5), c_int(3), version, error, b" ", c_int(1))
+        library.cntc_initialize(c_int(5), c_int(1), version, error, b" ", c_int(1))
+        self.assertEqual(error.value, -31)
         library.cntc_getnumcontactpatches(c_int(5), npatch)
         self.assertEqual(npatch.value, -1)
         library.cntc_readinpfile(c_int(5), c_int(1988), b"a.inp", c_int(5), error)
