@@ -146,7 +146,14 @@ int calculate_blocks(int ire, int icp) noexcept {
     const Threads threads(registry().threads);
     const auto refused = problem.refused.find(static_cast<int>(Setting::blocks));
     if (refused != problem.refused.end()) throw Refused(refused->second.code, refused->second.text);
-    solve_blocks(problem);
+    const ModuleOne* wheel = icp < 1 ? registry().find_wheel(ire) : nullptr;
+    if (!wheel) return solve_blocks(problem);
+    Patches patches(ire);
+    for (int k = 1; k <= static_cast<int>(wheel->patches.size()); ++k) {
+      Problem& patch = patches.patch(k);
+      patch.blocks = problem.blocks;
+      solve_blocks(patch);
+    }
   });
 }
 

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace railstrata::cntc {
 namespace {
 
 constexpr int kAny = 1 << 30;
+constexpr const char* kOfWheel = "is of module 1";
 
 struct Rule {
   int code;
@@ -18,7 +20,7 @@ struct Rule {
 };
 
 constexpr Rule kRules[] = {
-    {kConfiguration, 1, -kAny, kAny, "C1, CONFIG", "is of module 1"},
+    {kConfiguration, 1, -kAny, kAny, "C1, CONFIG", kOfWheel},
     {kTime, 2, 0, 2, "P, PVTIME", "P = 0 (goes on from the case before) and 2 (starts) are offered"},
     {kBound, 0, 0, 3, "B, BOUND",
      "B = 0 is offered, the traction bound of the full solution; 2 and 3 with M = 3 and 5"},
@@ -26,7 +28,7 @@ constexpr Rule kRules[] = {
     {kNorm, 1, 0, 1, "N, NORM", "N = 0 and 1 are offered"},
     {kForce, 0, 0, 2, "F, FORCE", "F = 0 to 2 are offered"},
     {kFrictionLaw, 0, 1, 0, "L, FRCLAW", "is set by cntc_setfrictionmethod"},
-    {kDiscretisation, 2, -kAny, kAny, "D, DISCNS", "is of module 1"},
+    {kDiscretisation, 2, -kAny, kAny, "D, DISCNS", kOfWheel},
     {kInfluence, 2, 0, 2, "C3, INFLCF",
      "C3 = 2 is offered, piecewise constant tractions on half-spaces, and 0 and 1, as before"},
     {kMaterialLaw, 0, 1, 0, "M, MATER", "is set by cntc_setmaterialparameters"},
@@ -43,7 +45,7 @@ constexpr Rule kRules[] = {
     {kInfluenceVariant, 4, -kAny, kAny, "IF_VER", "is of conformal contact"},
     {kBlockOutput, 1, -kAny, kAny, "O_s, OUTPUT_SUBS", ""},
     {kBlockFile, 1, -kAny, kAny, "A_s, MATFIL_SUBS", "has no effect: no .subs file is written"},
-    {kMostCells, 20000, -kAny, kAny, "NPOMAX", "is of module 1"},
+    {kMostCells, 20000, -kAny, kAny, "NPOMAX", kOfWheel},
     {kPrintLevel, 1, -kAny, kAny, "IDEBUG", ""},
     {kLicenceTrace, 1, -kAny, kAny, "LICDBG", ""},
     {kWriteInput, 0, -kAny, kAny, "WRTINP", "has no effect: no .inp file is written"},
@@ -81,7 +83,8 @@ std::string set_flag(Problem& problem, int code, int value) {
   const bool as_before = code == kInfluence && value < 2;
   if (!as_before) problem.settings.flags[code] = value;
   if (code == kCaseNumber) problem.cases = std::max(0, value - 1);
-  const bool idle = rule->low == -kAny && value > 0 && rule->else_[0] != '\0';
+  const bool used = problem.of_wheel && std::string_view(rule->else_) == kOfWheel;
+  const bool idle = !used && rule->low == -kAny && value > 0 && rule->else_[0] != '\0';
   return idle ? fmt::format("flag {} ({}) = {} {}", code, rule->name, value, rule->else_) : "";
 }
 

@@ -149,7 +149,8 @@ struct Refusal {
 
 struct Problem {
   Units units;
-  double side = 1;  ///< -1: of a left wheel, which is seen in a mirror: y of results is turned
+  bool of_wheel = false;  ///< settings and patches of module 1
+  double side = 1;        ///< -1: of a left wheel, which is seen in a mirror: y of results is turned
   Settings settings;
   InfluenceCache cache;
   std::optional<Solved> solved;

@@ -56,7 +56,10 @@ Problem& Registry::problem(int ire, int icp) {
   make_element(ire);
   const std::lock_guard lock(mutex_);
   auto& problem = elements_[static_cast<std::size_t>(ire)]->problems[static_cast<std::size_t>(icp)];
-  if (!problem) problem = std::make_unique<Problem>();
+  if (!problem) {
+    problem = std::make_unique<Problem>();
+    problem->of_wheel = of_wheel;
+  }
   return *problem;
 }
 
