@@ -45,6 +45,15 @@ def load(path):
     return library
 
 
+def begin(library, folder=None, output=-1, name=b" "):
+    """Without a file of messages unless there is a folder for it."""
+    version, error, text = c_int(), c_int(77), str(folder or " ").encode()
+    library.cntc_finalizelast()
+    library.cntc_initializefirst(version, error, c_int(output), b" ", text, name, c_int(1), c_int(len(text)),
+                                 c_int(len(name)))
+    assert version.value == 2510 and error.value == 0
+
+
 class Contact:
     """One contact problem. Settings take plain numbers and lists."""
 

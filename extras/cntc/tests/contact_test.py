@@ -32,11 +32,7 @@ def setUpModule():
 
 
 def begin(folder, output=-1, name=b" "):
-    version, error, text = c_int(), c_int(77), str(folder or " ").encode()
-    library.cntc_finalizelast()
-    library.cntc_initializefirst(version, error, c_int(output), b" ", text, name, c_int(1), c_int(len(text)),
-                                 c_int(len(name)))
-    assert version.value == 2510 and error.value == 0
+    contact_library.begin(library, folder, output, name)
 
 
 def tearDownModule():

@@ -248,6 +248,7 @@ def main():
     parser.add_argument("--numbers", action="store_true", help="all numbers of every case")
     options = parser.parse_args()
     library = contact_library.load(options.library)
+    contact_library.begin(library)
     print(f"{'example':22} {'cases':>5} {'equal':>6} {'off':>5}  {'mm':>8} {'% of FN':>8}  refused")
     total = [0, 0, 0]
     files = sorted(options.checkout.glob("examples/*.inp")) + sorted(options.checkout.glob("testbank/**/*.inp"))

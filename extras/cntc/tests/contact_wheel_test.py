@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Wheel on rail through CONTACT's interface, module 1. usage: contact_wheel_test.py LIBRARY REFERENCE_FOLDER [unittest...]
+"""Wheel on rail, module 1 of CONTACT's interface. usage: contact_wheel_test.py LIBRARY REFERENCE_FOLDER [unittest...]
 
 Numbers to compare with: REFERENCE_FOLDER/mbench_a22.csv, what CONTACT printed of the Manchester contact benchmark.
 """
@@ -23,9 +23,7 @@ SPEED = 2000.0  # mm/s
 
 def setUpModule():
     """No file of messages in the working folder."""
-    version, error = c_int(), c_int(77)
-    library.cntc_finalizelast()
-    library.cntc_initializefirst(version, error, c_int(-1), b" ", b" ", b" ", c_int(1), c_int(1), c_int(1))
+    contact_library.begin(library)
 
 
 def tearDownModule():
