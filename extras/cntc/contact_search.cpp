@@ -290,7 +290,8 @@ double interaction(const Box& a, const Box& b, const SearchSteps& steps) {
   return std::pow(std::max(0.0, steps.separate - distance(a, b)) / (steps.separate - steps.combine), 0.8);
 }
 
-PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchSteps& steps, int most_elements) {
+PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchSteps& steps, int most_elements,
+                    Lattice lattice) {
   const std::vector<RailPoint> rail = rail_line(pair);
   const Marker& at = pair.rail_at;
   const auto profile_y = [&](double y) {
@@ -310,14 +311,18 @@ PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchS
   const double middle = arc(overlap.y), s[2] = {arc(overlap.extent.y[0]) - middle, arc(overlap.extent.y[1]) - middle};
   out.dx = steps.dx;
   out.ds = steps.ds;
+  if (lattice) {
+    out.origin_x = *lattice + overlap.x;
+    out.origin_s = middle - pair.rail->zero_arc();
+  }
+  const double x[2] = {overlap.extent.x[0] - overlap.x + out.origin_x, overlap.extent.x[1] - overlap.x + out.origin_x};
   for (;;) {
-    const double x_first = std::floor((overlap.extent.x[0] - overlap.x) / out.dx) - 1,
-                 s_first = std::floor(s[0] / out.ds) - 1;
-    out.mx = static_cast<int>(std::ceil((overlap.extent.x[1] - overlap.x) / out.dx) + 2 - x_first);
-    out.my = static_cast<int>(std::ceil(s[1] / out.ds) + 2 - s_first);
-    out.x = x_first * out.dx;
-    out.s = s_first * out.ds;
-    if (most_elements < 100 || out.mx * out.my < most_elements || (out.mx <= 10 && out.my <= 10)) return out;
+    const double x_first = std::floor(x[0] / out.dx) - 1, s_first = std::floor((s[0] + out.origin_s) / out.ds) - 1;
+    out.mx = static_cast<int>(std::ceil(x[1] / out.dx) + 2 - x_first);
+    out.my = static_cast<int>(std::ceil((s[1] + out.origin_s) / out.ds) + 2 - s_first);
+    out.x = x_first * out.dx - out.origin_x;
+    out.s = s_first * out.ds - out.origin_s;
+    if (lattice || most_elements < 100 || out.mx * out.my < most_elements || (out.mx <= 10 && out.my <= 10)) return out;
     if (out.mx > 10) out.dx *= 2;
     if (out.my > 10) out.ds *= 2;
   }
@@ -329,7 +334,8 @@ Distance rigid_distance(const RigidPair& pair, const PatchPlane& plane) {
   };
   const Vec3 normal = plane.reference.axes[2];
   const Vec3 in_wheel = pair.wheel_at.turned_back(normal), in_rail = pair.rail_at.turned_back(normal);
-  const Chords chords(*pair.wheel, pair.wheel_at.to_inner(plane.reference.at).y, plane.ds);
+  const Vec3 origin = plane.reference.to_outer({-plane.origin_x, -plane.origin_s, 0});
+  const Chords chords(*pair.wheel, pair.wheel_at.to_inner(origin).y, plane.ds);
   Distance out;
   out.gap.assign(static_cast<std::size_t>(plane.mx) * static_cast<std::size_t>(plane.my), kNoSurface);
   double least = kNoSurface, of_wheel = 0, of_rail = 0;

@@ -5,6 +5,7 @@
 // All in the system of the track (marker.hpp), m. Seen from above the wheel's lowest points over x are a line over y,
 // z_w(y); where its gap z_r - z_w is negative lies a region. Weights are those of the gap squared, parabolic along x,
 // (-gap)^(5/2) dy, and the region's centre is the mean of x and y, its angle that of the rail's inclination.
+#include <optional>
 #include <vector>
 
 #include "cntc/marker.hpp"
@@ -49,14 +50,19 @@ Search search_overlaps(const RigidPair& pair, const SearchSteps& steps);
 double interaction(const Box& a, const Box& b, const SearchSteps& steps);
 
 /// Elements of a patch in the plane of its reference system (n down, into the rail), centred on multiples of their
-/// sides.
+/// sides from an origin, in whose coordinates the reference lies at origin_x, origin_s.
 struct PatchPlane {
   Marker reference;
   double angle = 0;
   int mx = 0, my = 0;
-  double x = 0, s = 0, dx = 0, ds = 0;  ///< centre of the first element, sides
+  double x = 0, s = 0, dx = 0, ds = 0;  ///< of the first element's centre from the reference; sides
+  double origin_x = 0, origin_s = 0;
 };
-PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchSteps& steps, int most_elements);
+/// Where elements have to be those of the case before (T = 1 and 2): along the rail, x of the track's origin, and from
+/// the middle of the rail's profile.
+using Lattice = std::optional<double>;
+PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchSteps& steps, int most_elements,
+                    Lattice lattice);
 
 /// The rigid distance of wheel and rail along n, in the order of the elements (x fastest), less its minimum.
 struct Distance {

@@ -32,7 +32,7 @@ const WheelRailPatch* patch_of(const ModuleOne& one, int number) {
 
 /// The centre of pressure, in the track.
 Vec3 centre_of_pressure(const WheelRailPatch& patch, const Problem& problem) {
-  const Resultant r = resultant(solution(problem));
+  const Resultant r = resultant(problem);
   const double n = r.force.z;
   return n > 0 ? patch.plane.reference.to_outer({-r.moment.y / n, r.moment.x / n, 0}) : patch.plane.reference.at;
 }

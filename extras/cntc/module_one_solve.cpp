@@ -39,8 +39,6 @@ void require_settings(const ModuleOne& one, const Problem& base) {
   if (method > 2 && method != 5)
     throw Refused(
         kOther, fmt::format("D = {} (conformal, oblique or other contact search) is not offered: 2 and 5 are", method));
-  if (flag(base.settings, kTang) > 0 && flag(base.settings, kTime) != 2)
-    throw Refused(kOther, "P = 0, a case that goes on from the one before, is not offered for wheel on rail: P = 2");
   if (flag(base.settings, kNorm) == 1 && !(one.load > 0))
     throw Refused(kOther, "no vertical force: call cntc_setverticalforce");
 }
@@ -227,6 +225,7 @@ class Wheel {
 
   void run() {
     require_settings(one_, base_);
+    keep_before();
     one_.patches.clear();
     if (flag(base_.settings, kNorm) == 0)
       press(one_.wheelset.at[2], true);
@@ -235,6 +234,29 @@ class Wheel {
   }
 
  private:
+  /// The patches of the case before, which P = 0 goes on from, whatever heights are tried.
+  void keep_before() {
+    for (std::size_t k = 0; k < one_.patches.size(); ++k) {
+      Problem& problem = problems_.patch(static_cast<int>(k) + 1);
+      if (problem.solved && flag(base_.settings, kTime) == 0)
+        before_.push_back({one_.patches[k].overlap.extent, std::move(problem.solved)});
+      problem.solved.reset();
+    }
+  }
+
+  /// The state before of a patch: that of the one which its stretch of the rail meets.
+  std::optional<Solved> before(const Box& extent) const {
+    const auto meets = [&](const Before& b) { return b.extent.y[0] <= extent.y[1] && extent.y[0] <= b.extent.y[1]; };
+    const auto at = std::find_if(before_.begin(), before_.end(), meets);
+    return at == before_.end() ? std::nullopt : at->solved;
+  }
+
+  /// Where elements keep their places: on the rail in a shift, over the track's origin in transient rolling.
+  Lattice lattice() const {
+    const int tang = flag(base_.settings, kTang);
+    return tang == 1 ? Lattice(one_.wheelset.at[0]) : tang == 2 ? Lattice(0.0) : std::nullopt;
+  }
+
   /// The patches of the wheel at the height z; the vertical force on the rail.
   double press(double z, bool with_friction) {
     one_.wheelset.at[2] = z;
@@ -247,7 +269,7 @@ class Wheel {
     for (const Overlap& overlap : search.overlaps) {
       WheelRailPatch patch;
       patch.overlap = overlap;
-      patch.plane = plane_of(overlap, pair, one_.steps, flag(base_.settings, kMostCells));
+      patch.plane = plane_of(overlap, pair, one_.steps, flag(base_.settings, kMostCells), lattice());
       Distance distance = rigid_distance(pair, patch.plane);
       patch.approach = distance.approach;
       patch.on_wheel = seen_from(pair.wheel_at, patch.plane.reference);
@@ -267,13 +289,18 @@ class Wheel {
     problem.side = side_of(base_);
     problem.settings = base_.settings;
     Settings& s = problem.settings;
-    s.grid = {3, plane.mx, plane.my, {plane.x, plane.s, plane.dx, plane.ds}};
+    problem.origin_x = plane.origin_x;
+    problem.origin_y = plane.origin_s;
+    problem.broken = false;
+    s.grid = {3, plane.mx, plane.my, {plane.x + plane.origin_x, plane.s + plane.origin_s, plane.dx, plane.ds}};
     s.gap = {9, 0, 0, std::move(gap)};
     s.flags[kNorm] = 0;
     s.flags[kTang] = with_friction ? flag(base_.settings, kTang) : 0;
     s.approach = patch.approach;
     const Rolling moving = rolling(one_, base_, patch);
     s.creepages = moving.creepages;
+    s.creepages.x += moving.creepages.spin * plane.origin_s;
+    s.creepages.y -= moving.creepages.spin * plane.origin_x;
     s.chi = moving.chi;
     s.speed = std::max(moving.speed, 1e-12);
     s.step = one_.relative_step * plane.dx;
@@ -281,15 +308,17 @@ class Wheel {
       set_friction(problem, one_.friction_digit,
                    numbers_at(one_.slices, one_.varies == 1 ? patch.on_wheel.roll() : one_.wheelset.at[0]));
     if (patch.overlap.parts.size() > 1) Parts(patch, one_.steps).settle(problem);
+    problem.solved = before(patch.overlap.extent);
+    s.flags[kTime] = problem.solved ? 0 : 2;
     std::vector<std::string> remarks;
     solve(problem, remarks);
     if (with_friction) remarks_.insert(remarks_.end(), remarks.begin(), remarks.end());
-    add_up(patch, *problem.solved, wheel);
+    add_up(patch, problem, wheel);
     return patch.force.z;
   }
 
-  void add_up(WheelRailPatch& patch, const Solved& solved, const Marker& wheel) const {
-    const Resultant on_rail = resultant(solved);
+  void add_up(WheelRailPatch& patch, const Problem& problem, const Marker& wheel) const {
+    const Resultant on_rail = resultant(problem);
     const Marker& m = patch.plane.reference;
     patch.force = m.turned(on_rail.force);
     const Vec3 moment = m.turned(on_rail.moment);
@@ -335,9 +364,15 @@ class Wheel {
     return out;
   }
 
+  struct Before {
+    Box extent;
+    std::optional<Solved> solved;
+  };
+
   ModuleOne& one_;
   Problem& base_;
   PatchProblems& problems_;
+  std::vector<Before> before_;
   std::vector<std::string>& remarks_;
   double last_sunk_ = 0, last_force_ = 0;
 };

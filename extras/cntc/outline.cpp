@@ -46,6 +46,14 @@ bool points_up(ProfileKind kind, const std::vector<Vec2>& points) {
          0.5 * (least->z + most->z);
 }
 
+/// y where CONTACT's arc length is 0: at y = 0 where y rises all along, else at the listed point nearest to the origin.
+double begin_of_arc(const std::vector<Vec2>& points) {
+  const auto falls = [](Vec2 a, Vec2 b) { return a.y >= b.y; };
+  if (std::adjacent_find(points.begin(), points.end(), falls) == points.end()) return 0;
+  const auto nearer = [](Vec2 a, Vec2 b) { return norm(a) < norm(b); };
+  return std::min_element(points.begin(), points.end(), nearer)->y;
+}
+
 Outline outline(ProfileKind kind, std::vector<Vec2> points, const OutlineOptions& options, const std::string& name) {
   if (options.mirror_y)
     for (Vec2& p : points) p.y = -p.y;
@@ -55,11 +63,12 @@ Outline outline(ProfileKind kind, std::vector<Vec2> points, const OutlineOptions
   for (Vec2& p : points) p = (kMilli * options.scale) * Vec2{p.y, turn ? p.z : -p.z};
   const auto repeated = [](Vec2 a, Vec2 b) { return norm(a - b) < kSamePoint; };
   points.erase(std::unique(points.begin(), points.end(), repeated), points.end());
+  const double zero = begin_of_arc(points);
   double aside = 0;
   if (!points.empty() && points.front().y * points.back().y > 0) aside = points[points.size() / 2].y;
   for (Vec2& p : points) p.y -= aside;
   try {
-    return {Profile::from_points(kind, name, points), aside};
+    return {Profile::from_points(kind, name, points), aside, zero};
   } catch (const CaseError& e) {
     throw Refused(kProfile, fmt::format("{}: {}", name, e.diagnostics.front().message));
   }
@@ -67,7 +76,8 @@ Outline outline(ProfileKind kind, std::vector<Vec2> points, const OutlineOptions
 
 }  // namespace
 
-Outline::Outline(Profile profile, double aside) : profile_(std::move(profile)), aside_(aside) {
+Outline::Outline(Profile profile, double aside, double zero) : profile_(std::move(profile)), aside_(aside) {
+  if (covers(zero)) zero_arc_ = arc(zero);
   const double begin = profile_.s_at_y(profile_.y_min()), end = profile_.s_at_y(profile_.y_max());
   const int count = std::max(2, static_cast<int>(std::ceil((end - begin) / kStep)) + 1);
   for (int k = 0; k < count; ++k) {

@@ -18,8 +18,8 @@ struct OutlineOptions {
 /// A profile with points of its running surface for searches.
 class Outline {
  public:
-  /// `aside`: y of the profile's origin; a Profile has to cover its own.
-  Outline(Profile profile, double aside);
+  /// `aside`: y of the profile's origin; a Profile has to cover its own. `zero`: y where CONTACT's arc length begins.
+  Outline(Profile profile, double aside, double zero);
   struct Point {
     double y = 0, z = 0, slope = 0;  ///< m, m, dz/dy
   };
@@ -28,6 +28,7 @@ class Outline {
   bool covers(double y) const { return y >= aside_ + profile_.y_min() && y <= aside_ + profile_.y_max(); }
   /// Arc length of the running surface at y, m.
   double arc(double y) const { return profile_.s_at_y(y - aside_); }
+  double zero_arc() const { return zero_arc_; }
   /// At any arc length, also beyond the running surface.
   Point along(double s) const;
   const Profile& profile() const { return profile_; }
@@ -36,7 +37,7 @@ class Outline {
 
  private:
   Profile profile_;
-  double aside_ = 0;
+  double aside_ = 0, zero_arc_ = 0;
   std::vector<Point> points_;
 };
 

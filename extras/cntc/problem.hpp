@@ -149,8 +149,9 @@ struct Refusal {
 
 struct Problem {
   Units units;
-  bool of_wheel = false;  ///< settings and patches of module 1
-  double side = 1;        ///< -1: of a left wheel, which is seen in a mirror: y of results is turned
+  double origin_x = 0, origin_y = 0;  ///< m, the point of forces and creepages, in the coordinates of the elements
+  bool of_wheel = false;              ///< settings and patches of module 1
+  double side = 1;                    ///< -1: of a left wheel, which is seen in a mirror: y of results is turned
   Settings settings;
   InfluenceCache cache;
   std::optional<Solved> solved;

@@ -124,7 +124,8 @@ const Solved& solution(const Problem& p) {
   return *p.solved;
 }
 
-Resultant resultant(const Solved& s) {
+Resultant resultant(const Problem& p) {
+  const Solved& s = solution(p);
   const PatchGrid& g = s.on.grid;
   const TangentialSolution& t = s.rolling.tangential;
   Resultant out;
@@ -133,7 +134,7 @@ Resultant resultant(const Solved& s) {
       const std::size_t k = g.index(i, j);
       const Vec3 traction{-t.q_x[k], -t.q_y[k], s.rolling.normal.pressure[k]};
       out.force += traction;
-      out.moment += cross(Vec3{g.x(i), g.y(j), 0}, traction);
+      out.moment += cross(Vec3{g.x(i) - p.origin_x, g.y(j) - p.origin_y, 0}, traction);
     }
   return {g.cell_area() * out.force, g.cell_area() * out.moment};
 }
@@ -146,18 +147,18 @@ Grid grid_of(const Problem& p) {
 }
 
 std::array<double, 4> forces(const Problem& p) {
-  const Solved& s = solution(p);
-  const Resultant r = resultant(s);
+  const Resultant r = resultant(p);
   const double body = p.units.body;
-  return {s.rolling.normal.load, body * r.force.x, body * p.side * r.force.y, body * p.side * r.moment.z / p.units.length};
+  return {solution(p).rolling.normal.load, body * r.force.x, body * p.side * r.force.y,
+          body * p.side * r.moment.z / p.units.length};
 }
 
 std::array<double, 3> creepages(const Problem& p) {
   const Solved& s = solution(p);
   const double body = p.units.body, length = p.units.length, unit = s.shift ? 1 / length : 1;
   const TangentialSolution& t = s.rolling.tangential;
-  return {body * unit * t.creepage_x, body * p.side * unit * t.creepage_y,
-          body * p.side * s.spin * (s.shift ? 1 : length)};
+  return {body * unit * (t.creepage_x - s.spin * p.origin_y),
+          body * p.side * unit * (t.creepage_y + s.spin * p.origin_x), body * p.side * s.spin * (s.shift ? 1 : length)};
 }
 
 double approach(const Problem& p) { return solution(p).rolling.normal.approach / p.units.length; }

@@ -11,11 +11,11 @@ namespace railstrata::cntc {
 
 const Solved& solution(const Problem& problem);
 
-/// On body 1, in the plane's axes about the origin of the grid, SI.
+/// On body 1, in the plane's axes about the point of forces, SI.
 struct Resultant {
   Vec3 force, moment;
 };
-Resultant resultant(const Solved& solved);
+Resultant resultant(const Problem& problem);
 
 struct Grid {
   int mx = 0, my = 0;
