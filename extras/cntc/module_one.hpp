@@ -53,6 +53,7 @@ struct ModuleOne {
   std::vector<FrictionSlice> slices;
   int friction_digit = 0, varies = 0;  ///< L, V
   // Results.
+  double sunk = 0;  ///< m, of the last height that was found under a load below that of the first touch
   std::vector<WheelRailPatch> patches;
   Marker wheelset_at, wheel_in_wheelset, rail_at;
 };

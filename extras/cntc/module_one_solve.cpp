@@ -245,9 +245,10 @@ class Wheel {
   }
 
   /// The state before of a patch: that of the one which its stretch of the rail meets.
-  std::optional<Solved> before(const Box& extent) const {
+  std::optional<Solved> before(const Box& extent) {
     const auto meets = [&](const Before& b) { return b.extent.y[0] <= extent.y[1] && extent.y[0] <= b.extent.y[1]; };
     const auto at = std::find_if(before_.begin(), before_.end(), meets);
+    joins_ = std::count_if(before_.begin(), before_.end(), meets) > 1;
     return at == before_.end() ? std::nullopt : at->solved;
   }
 
@@ -311,6 +312,9 @@ class Wheel {
     problem.solved = before(patch.overlap.extent);
     s.flags[kTime] = problem.solved ? 0 : 2;
     std::vector<std::string> remarks;
+    if (joins_)
+      remarks.push_back(
+          fmt::format("patch {} joins patches of the case before: it goes on from the first one", number));
     solve(problem, remarks);
     if (with_friction) remarks_.insert(remarks_.end(), remarks.begin(), remarks.end());
     add_up(patch, problem, wheel);
@@ -331,11 +335,13 @@ class Wheel {
   void sink() {
     const double load = one_.load, touching = search_overlaps(place(one_, base_, 0), one_.steps).least_gap;
     constexpr double kFirst = 5e-5;  // m
-    double low = touching, high = touching, z = touching + kFirst;
+    const bool near = flag(base_.settings, kTime) == 0 || flag(base_.settings, kEstimate) > 0;
+    double low = touching, high = touching, z = touching + (near && one_.sunk > 0 ? one_.sunk : kFirst);
     double force = 0;
     bool bracketed = false;
     for (int k = 0; k < kMostHeights; ++k) {
       force = press(z, true);
+      one_.sunk = z - touching;
       if (std::abs(force - load) <= base_.settings.tolerance * load) return;
       if (force < load)
         low = std::max(low, z);
@@ -373,6 +379,7 @@ class Wheel {
   Problem& base_;
   PatchProblems& problems_;
   std::vector<Before> before_;
+  bool joins_ = false;  ///< the last patch meets several of the case before
   std::vector<std::string>& remarks_;
   double last_sunk_ = 0, last_force_ = 0;
 };
