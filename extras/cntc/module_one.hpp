@@ -34,6 +34,7 @@ struct WheelRailPatch {
   Marker on_wheel, on_rail;  ///< the reference as seen from the profiles
   Overlap overlap;
   double approach = 0;
+  double along = 0, across = 0;  ///< m, the reference along the track, s + x, and along the rail's profile
   /// On the rail, in the track and the wheelset: about the profiles' origins.
   Vec3 force, moment_on_rail, force_of_wheelset, moment_on_wheel;
 };

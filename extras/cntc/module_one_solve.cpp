@@ -238,10 +238,21 @@ class Wheel {
   void keep_before() {
     for (std::size_t k = 0; k < one_.patches.size(); ++k) {
       Problem& problem = problems_.patch(static_cast<int>(k) + 1);
-      if (problem.solved && flag(base_.settings, kTime) == 0)
+      if (problem.solved && flag(base_.settings, kTime) == 0) {
+        put_on_lattice(one_.patches[k], problem.solved->on.grid);
         before_.push_back({one_.patches[k].overlap.extent, std::move(problem.solved)});
+      }
       problem.solved.reset();
     }
+  }
+
+  /// Elements of steady rolling, centred on their patch, get the nearest places of those that stay on the rail.
+  void put_on_lattice(const WheelRailPatch& patch, PatchGrid& g) const {
+    const PatchPlane& plane = patch.plane;
+    if (!lattice() || plane.origin_x != 0 || plane.origin_s != 0) return;
+    const double x = flag(base_.settings, kTang) == 1 ? patch.along : plane.reference.at.x;
+    g.x0 += std::round(x / g.dx) * g.dx;
+    g.y0 += std::round(patch.across / g.dy) * g.dy;
   }
 
   /// The state before of a patch: that of the one which its stretch of the rail meets.
@@ -275,6 +286,8 @@ class Wheel {
       patch.approach = distance.approach;
       patch.on_wheel = seen_from(pair.wheel_at, patch.plane.reference);
       patch.on_rail = seen_from(pair.rail_at, patch.plane.reference);
+      patch.along = one_.wheelset.at[0] + patch.plane.reference.at.x;
+      patch.across = one_.rail->arc(patch.on_rail.at.y) - one_.rail->zero_arc();
       one_.patches.push_back(std::move(patch));
       force +=
           solve_patch(static_cast<int>(one_.patches.size()), std::move(distance.gap), with_friction, pair.wheel_at);
