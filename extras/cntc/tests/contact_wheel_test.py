@@ -168,6 +168,33 @@ class WheelOnRail(unittest.TestCase):
             self.assertLess(math.hypot(fx, fs) / fn, expected * (1 + 1e-5))
             self.assertGreater(math.hypot(fx, fs) / fn, 0.97 * expected)
 
+    def test_shifts_go_on_from_the_case_before(self):
+        """CONTACT's test m1_catt_shift, cases 1 to 3: a flat wheel on a round rail, yawed and rolled, P = 2, then 0."""
+        c = Wheel(library)
+        c.flag(CONFIG, 1)
+        c.flags(T=1, N=0)
+        c.materials(0.28, 0.28, 200, 200)
+        c.friction(0.4)
+        c.grid(-1, [0.2, 0.2, math.pi / 2, 8, 4])
+        c.wheel("cntc_settrackdimensions", 3, [-1.0] + 10 * [0.0])
+        c.wheel("cntc_setwheelsetdimensions", 3, [0, 0, 100])
+        c.profile_values([(0.1 * k, 100 - math.sqrt(100 ** 2 - (0.1 * k) ** 2)) for k in range(-600, 601)], 0)
+        c.profile_values([(0.5 * k, 0.0) for k in range(-100, 101)], 1)
+        c.wheel("cntc_setwheelsetflexibility", 4, [0, 0, 0, math.radians(5)] + 8 * [0.0])
+        printed = [(-23.19, -26.15, 286.0), (-23.92, -26.29, 288.6), (-24.62, -26.40, 290.8)]
+        for number, (fx, fs, moment) in enumerate(printed):
+            c.flag(TIME, 2 if number == 0 else 0)
+            c.wheel("cntc_setwheelsetposition", 2, [0.2 * number, 0, -0.2201, 0, 0.004, -0.002 * number])
+            way = 4.0 if number == 0 else 0.2
+            c.wheel("cntc_setwheelsetvelocity", 2, [way, 0, 0, 0, 0, -0.00996 * way])
+            self.assertEqual(c.calculate(), 0, c.error())
+            found, place = c.patch(1).forces(), c.location(1)
+            # CONTACT prints the moment about the origin of its elements, here it is about the patch's own.
+            about = found[3] + (0.2 * number + place[0]) * found[2] - place[7] * found[1]
+            self.assertAlmostEqual(found[0], 239.8, delta=1e-3 * 239.8)
+            for value, expected, arm in ((found[1], fx, 1), (found[2], fs, 1), (about, moment, 4)):  # mm, a half axis
+                self.assertAlmostEqual(value, expected, delta=1e-3 * 239.8 * arm, msg=number)
+
     def test_what_is_not_offered_is_refused_in_contacts_names(self):
         def refused(code, words, change):
             c = wheel("left")
