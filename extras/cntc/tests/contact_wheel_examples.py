@@ -18,6 +18,7 @@ from contact_library import Wheel
 
 FORCE, LEAST, PLACE = 0.01, 1e-4, 0.1  # of the normal force, of the wheel's vertical force; mm
 DIGITS = {"CONFIG": 1967, "P": 1970, "B": 1971, "T": 1972, "N": 1973, "F": 1974, "D": 1977, "C": 1978, "I": 1983}
+MODULE = r"\s*(\d)\s+MODULE"
 LOCATIONS = ["XCP(TR)", "YCP(TR)", "ZCP(TR)", "DELTCP(TR)"]
 
 
@@ -29,6 +30,8 @@ class Lines:
         self.at = 0
 
     def next(self):
+        if re.match(MODULE, self.lines[self.at], re.I):
+            raise Unread("a case that ends before this reader expects it")
         self.at += 1
         return self.lines[self.at - 1]
 
@@ -45,7 +48,8 @@ class Lines:
     def module(self):
         """The number of the next case's module; 0 at the end."""
         while self.at < len(self.lines):
-            found = re.match(r"\s*(\d)\s+MODULE", self.next(), re.I)
+            found = re.match(MODULE, self.lines[self.at], re.I)
+            self.at += 1
             if found:
                 return int(found[1])
         return 0
@@ -158,9 +162,10 @@ def rows(lines, k):
 
 
 def printed(path):
-    """Of each case: the sums, and of each patch the numbers by name."""
-    out = []
-    for case in re.split(r"^ *Case +\d+ *$", path.read_text(errors="replace"), flags=re.M)[1:]:
+    """Of each case by its number: the sums, and of each patch the numbers by name."""
+    out = {}
+    cases = re.split(r"^ *Case +(\d+) *$", path.read_text(errors="replace"), flags=re.M)[1:]
+    for number, case in zip(cases[::2], cases[1::2]):
         parts = re.split(r"^ *-+ DATA FOR CONTACT PATCH.*$", case, flags=re.M)
         found = []
         for part in parts:
@@ -169,7 +174,7 @@ def printed(path):
                 if re.match(r" +(FX\(TR\)|XCP\(TR\)|XCP\(W\)|CHI|FN|FN/G|NPOT) ", line):
                     values.update(rows(lines, k))
             found.append(values)
-        out.append(found)
+        out[int(number)] = found
     return out
 
 
@@ -208,6 +213,11 @@ def differences(c, wanted):
 
 def run(library, file, options):
     lines, wanted = Lines(file.read_text(errors="replace")), printed(file.with_suffix(".ref_out"))
+    listed = Lines(file.read_text(errors="replace"))
+    count = sum(1 for _ in iter(listed.module, 0))
+    if count != len(wanted):
+        print(f"{file.stem:22} {count:5} {0:6} {0:5}  {'-':>8} {'-':>8}  printed results are of {len(wanted)} cases")
+        return count, 0, 0
     c = Wheel(library)
     cases = good = off = 0
     reasons, worst = [], {"place": 0.0, "force": 0.0}
@@ -220,7 +230,7 @@ def run(library, file, options):
             code = c.calculate()
             if code < 0:
                 raise Refusal(f"{code}: {c.error()[1].splitlines()[0][:400]}")
-            wrong, most = differences(c, wanted[cases - 1])
+            wrong, most = differences(c, wanted[cases])
         except (Refusal, Unread, IndexError, KeyError) as e:
             reasons.append(str(e))
             continue
@@ -231,7 +241,7 @@ def run(library, file, options):
         if options.verbose:
             print(f"  {file.stem} case {cases}: {', '.join(wrong) or 'equal'}")
             if wrong or options.numbers:
-                for number, patch in enumerate(wanted[cases - 1][1:], 1):
+                for number, patch in enumerate(wanted[cases][1:], 1):
                     for name, value in answers(c, number).items():
                         print(f"      {number} {name:12} {value:14.6g} {patch.get(name, float('nan')):14.6g}")
     print(f"{file.stem:22} {cases:5} {good:6} {off:5}  {worst['place']:8.4f} {100 * worst['force']:8.3f}  "
