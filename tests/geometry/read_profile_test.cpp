@@ -353,10 +353,12 @@ TEST_F(ReadProfile, a_list_in_Windows_1252_is_read_as_other_files_are_and_that_i
 
 TEST_F(ReadProfile, a_Simpack_file_tells_its_unit) {
   std::vector<std::string> notes;
-  const Profile metres = read_profile(
-      ProfileKind::rail,
-      written("spline.begin\nunits.len.f = 1\npoint.begin\n" + crown("", 1e-3) + "point.end\nspline.end\n", "rail.prr"),
-      &notes);
+  const Profile metres =
+      read_profile(ProfileKind::rail,
+                   written("% measured\nspline.begin\nunits.len.f = 1 % of a metre\npoint.begin\n% y z\n" +
+                               crown("", 1e-3) + "point.end\nspline.end\n",
+                           "rail.prr"),
+                   &notes);
   EXPECT_NEAR(metres.height(16 * mm), -2.56 * mm, 1e-6 * mm);
   EXPECT_TRUE(mentions(notes, "units.len.f = 1: lengths were taken as parts of a metre."));
   EXPECT_NE(error_of("spline.begin\nunits.len.f = 1000\npoint.begin\n" + crown("", 1e-3) + "point.end\nspline.end\n",
