@@ -471,6 +471,32 @@ class Drive {
 
 }  // namespace
 
+Solved joined(const Solved& one, const Solved& other) {
+  const PatchGrid &a = one.on.grid, &b = other.on.grid;
+  const std::optional<Offset> apart = offset_of(b, a);
+  if (!apart) throw Refused(kGrid, "patches that join (P = 0) have to have elements of one size, on one lattice");
+  Solved out = one;
+  PatchGrid& g = out.on.grid;
+  const int x = std::min(0, apart->x), y = std::min(0, apart->y);
+  g.x0 += x * g.dx;
+  g.y0 += y * g.dy;
+  g.nx = std::max(a.nx, apart->x + b.nx) - x;
+  g.ny = std::max(a.ny, apart->y + b.ny) - y;
+  out.rolling = Moved(g, a, {x, y}).of(one.rolling);
+  const RollingSolution more = Moved(g, b, {x - apart->x, y - apart->y}).of(other.rolling);
+  TangentialSolution& t = out.rolling.tangential;
+  const TangentialSolution& u = more.tangential;
+  const auto add = [](Plane& to, const Plane& from) {
+    if (to.size() == from.size()) add_scaled(to, 1, from);
+  };
+  add(out.rolling.normal.pressure, more.normal.pressure);
+  add(t.q_x, u.q_x);
+  add(t.q_y, u.q_y);
+  for (std::size_t k = 0; k < t.state.size(); ++k)
+    if (t.state[k] == ContactState::separated) t.state[k] = u.state[k];
+  return out;
+}
+
 void solve(Problem& problem, std::vector<std::string>& remarks) { Drive(problem, remarks).run(); }
 
 }  // namespace railstrata::cntc

@@ -12,4 +12,8 @@ namespace railstrata::cntc {
 /// Throws Refused, with CONTACT's code; then there is no solution, and none to go on from.
 void solve(Problem& problem, std::vector<std::string>& remarks);
 
+/// Two states on elements of the same lattice as one: what the next case goes on from where patches join. Throws
+/// Refused where the elements do not fit.
+Solved joined(const Solved& one, const Solved& other);
+
 }  // namespace railstrata::cntc

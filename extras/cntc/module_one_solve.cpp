@@ -255,12 +255,13 @@ class Wheel {
     g.y0 += std::round(patch.across / g.dy) * g.dy;
   }
 
-  /// The state before of a patch: that of the one which its stretch of the rail meets.
-  std::optional<Solved> before(const Box& extent) {
+  /// The state before of a patch: of those that its stretch of the rail meets.
+  std::optional<Solved> before(const Box& extent) const {
     const auto meets = [&](const Before& b) { return b.extent.y[0] <= extent.y[1] && extent.y[0] <= b.extent.y[1]; };
-    const auto at = std::find_if(before_.begin(), before_.end(), meets);
-    joins_ = std::count_if(before_.begin(), before_.end(), meets) > 1;
-    return at == before_.end() ? std::nullopt : at->solved;
+    std::optional<Solved> out;
+    for (const Before& b : before_)
+      if (meets(b)) out = out ? joined(*out, *b.solved) : b.solved;
+    return out;
   }
 
   /// Where elements keep their places: on the rail in a shift, over the track's origin in transient rolling.
@@ -325,9 +326,6 @@ class Wheel {
     problem.solved = before(patch.overlap.extent);
     s.flags[kTime] = problem.solved ? 0 : 2;
     std::vector<std::string> remarks;
-    if (joins_)
-      remarks.push_back(
-          fmt::format("patch {} joins patches of the case before: it goes on from the first one", number));
     solve(problem, remarks);
     if (with_friction) remarks_.insert(remarks_.end(), remarks.begin(), remarks.end());
     add_up(patch, problem, wheel);
@@ -392,7 +390,6 @@ class Wheel {
   Problem& base_;
   PatchProblems& problems_;
   std::vector<Before> before_;
-  bool joins_ = false;  ///< the last patch meets several of the case before
   std::vector<std::string>& remarks_;
   double last_sunk_ = 0, last_force_ = 0;
 };
