@@ -91,7 +91,7 @@ const Command kPassesCommand{
     "railstrata "
     "passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" --passes 200 --out "
     "results/yields\n  railstrata passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" "
-    "--passes 400 --out results/yields --resume\n\nCtrl-C: the pass under way is finished and kept.\n",
+    "--passes 400 --out results/yields --resume\n\nCtrl-C: the pass under way is given up, those before it are kept.\n",
     declare_passes, command_passes};
 
 }  // namespace railstrata

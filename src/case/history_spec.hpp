@@ -55,6 +55,9 @@ struct CollectiveSpec {
   WearLaw wear_law = WearLaw::usfd;
 };
 
+/// Whether passes are jumped over (steady/pass_jump.hpp).
+enum class PassJump { off, automatic };
+
 /// Passes over a rail that yields (`railstrata passes`); lists begin again after their last value.
 struct PassesSpec {
   std::vector<double> lateral_positions;      ///< m, of pass 1, 2, …, positive to the field side; empty: 0
@@ -62,6 +65,8 @@ struct PassesSpec {
   int lateral_seed = 1;                       ///< of its random numbers
   std::vector<double> traction_coefficients;  ///< of pass 1, 2, …; empty: that of the drive
   std::optional<double> ductility;            ///< net plastic strain that the material bears
+  PassJump jump = PassJump::off;
+  double jump_tolerance = 0.02;  ///< of the rates after a jump
 };
 
 }  // namespace railstrata

@@ -13,6 +13,7 @@ using R = RunSpec;
 using O = OutputSpec;
 
 bool scatters(const CaseSpec& spec, std::size_t) { return spec.passes.lateral_deviation.has_value(); }
+bool jumps(const CaseSpec& spec, std::size_t) { return spec.passes.jump != PassJump::off; }
 
 }  // namespace
 
@@ -130,7 +131,15 @@ OptionTable passes_table() {
        option("traction_coefficients", at<&C::passes, &P::traction_coefficients>,
               "F_T over the static load G in pass 1, 2, …; not given: that of the drive", kNumber, {-10, 10}),
        option("ductility", at<&C::passes, &P::ductility>,
-              "Net plastic strain that the material bears: passes are extrapolated to it", kNumber, above(0, 100))}};
+              "Net plastic strain that the material bears: passes are extrapolated to it", kNumber, above(0, 100)),
+       choice_at<&C::passes, &P::jump>("jump",
+                                       "Jump over passes by extrapolating the state of the rail, as far as the rates "
+                                       "computed after the jump are those expected",
+                                       {{"off", PassJump::off}, {"auto", PassJump::automatic}}),
+       option("jump_tolerance", at<&C::passes, &P::jump_tolerance>,
+              "Of the net strain and of the accumulated strain of a pass after a jump, against those expected", kNumber,
+              above(0, 0.5))
+           .where(jumps)}};
 }
 
 OptionTable output_table() {

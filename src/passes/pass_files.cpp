@@ -28,13 +28,13 @@ const Columns<PassStrain> kPassStrain{{"accumulated_strain", unit::kNone, &PassS
     kCycleStrain{{"cycle_accumulated", unit::kNone, &PassStrain::accumulated},
                  {"cycle_net", unit::kNone, &PassStrain::net}};
 
-/// Those that are in a table.
-std::vector<PassStrain> strains_in(const CsvTable& table, const Columns<PassStrain>& columns) {
+/// Those that are in a table of passes, and those that were jumped over.
+std::vector<PassStrain> strains_in(const CsvTable& table, const Columns<PassStrain>& columns, int cycle = 1) {
   const std::vector<double> accumulated = table.column(columns[0].column_name()),
-                            net = table.column(columns[1].column_name());
+                            net = table.column(columns[1].column_name()), pass = table.column("pass");
   std::vector<PassStrain> out;
   for (std::size_t n = 0; n < net.size(); ++n)
-    if (!std::isnan(net[n])) out.push_back({accumulated[n], net[n]});
+    if (!std::isnan(net[n])) add_strain(static_cast<int>(pass[n]) / cycle, {accumulated[n], net[n]}, out);
   return out;
 }
 
@@ -57,6 +57,9 @@ Columns<std::size_t> state_columns(const SteadyGrid& grid, const PassSeries& ser
     out.push_back({fmt::format("strain_{}", k), unit::kNone, [&, k, active, lines](N n) {
                      return series.state.residual_strain[(k / active * lines + n) * active + k % active];
                    }});
+  if (series.jump.length > 0)
+    append(out, {{"jump_length", unit::kCount, [&](N) { return series.jump.length; }},
+                 {"jump_error", unit::kNone, [&](N) { return series.jump.error; }}});
   return out;
 }
 
@@ -141,9 +144,13 @@ void write_pass_state(const std::filesystem::path& file, const std::vector<std::
 }
 
 PassSeries read_pass_series(const std::filesystem::path& state, const std::filesystem::path& table,
-                            const SteadyGrid& grid) {
+                            const SteadyGrid& grid, int cycle) {
   const CsvTable values = read_csv(state), rows = read_csv(table);
   PassSeries series;
+  series.cycle = cycle;
+  const bool jumps = std::any_of(values.columns.begin(), values.columns.end(),
+                                 [](const CsvColumn& c) { return c.name == "jump_length"; });
+  series.jump.length = jumps ? 1 : 0;
   const std::vector<std::string> names = names_of(state_columns(grid, series));
   bool same = values.rows() == grid.points() && values.columns.size() == names.size();
   for (std::size_t c = 0; same && c < names.size(); ++c) same = values.columns[c].name == names[c];
@@ -151,12 +158,15 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
     throw CaseError("the state is of another grid", "give --cell as in the beginning, or begin anew with --force",
                     state.string());
   const double passes = values.columns[0].values[0];
-  if (!(passes >= 0 && passes <= static_cast<double>(rows.rows())))
+  const std::vector<double> numbers = rows.column("pass");
+  const auto end = std::find(numbers.begin(), numbers.end(), passes);
+  if (passes != 0 && end == numbers.end())
     throw CaseError("fewer passes than the state has seen", "begin anew with --force", table.string());
   series.state.passes = static_cast<int>(passes);
-  series.table = first_rows(rows, stationary_columns(), static_cast<std::size_t>(series.state.passes));
+  const auto seen = passes == 0 ? 0 : end - numbers.begin() + 1;
+  series.table = first_rows(rows, stationary_columns(), static_cast<std::size_t>(seen));
   series.strains = pass_strains(series.table);
-  series.cycles = strains_in(series.table, kCycleStrain);
+  series.cycles = strains_in(series.table, kCycleStrain, cycle);
   const std::size_t active = static_cast<std::size_t>(grid.active_stations());
   series.state.history.resize(grid.points() * kStreamlineHistory);
   series.state.residual_strain.resize(6 * grid.points() * active);
@@ -170,6 +180,7 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
     for (std::size_t k = 0; k < kStreamlineHistory; ++k) series.state.history[n * kStreamlineHistory + k] = take();
     for (std::size_t k = 0; k < 6 * active; ++k)
       series.state.residual_strain[(k / active * grid.points() + n) * active + k % active] = take();
+    if (jumps) series.jump = {static_cast<int>(take()), take()};
   }
   const auto finite = [](const auto& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); });
@@ -241,6 +252,10 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   out["net_strain_per_pass"] = verdict.rate;
   out["trend"] = verdict.trend;
   out["last_pass"] = last_pass_json(series.table);
+  if (series.jump.length > 0)
+    out["jump"] = {{"tolerance", spec.passes.jump_tolerance},
+                   {"passes_computed", series.table.rows()},
+                   {"largest_error", series.jump.error}};
   if (answer.ductility)
     out["ductility"] = ductility_json(*answer.ductility, largest_strain(result), series.cycles, series.cycle);
   Summary summary;

@@ -43,9 +43,10 @@ void write_pass_points(const std::filesystem::path& file, const std::vector<std:
 /// The state, as one table that is whole or not there.
 void write_pass_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                       const SteadyGrid& grid, const PassSeries& series);
-/// Reads both; the table up to the pass of the state. Throws CaseError if they are of another grid.
+/// Reads both; the table up to the pass of the state. cycle: as of PassSeries. Throws CaseError if they are of
+/// another grid.
 PassSeries read_pass_series(const std::filesystem::path& state, const std::filesystem::path& table,
-                            const SteadyGrid& grid);
+                            const SteadyGrid& grid, int cycle = 1);
 
 /// All points, row by row.
 std::vector<PassPoint> section_points(const RailPasses& rail, const PassSeries& series, const PassResult& last);

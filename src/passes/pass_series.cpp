@@ -29,9 +29,33 @@ void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series)
     std::copy(strain.begin(), strain.end(), begun.begin());
     begun[6] = 0;
   }
-  series.strains.push_back(pass.largest);
-  if (whole) series.cycles.push_back(largest);
+  add_strain(pass.pass, pass.largest, series.strains);
+  if (whole) add_strain(pass.pass / series.cycle, largest, series.cycles);
   add_row(stationary_columns(), {pass, whole ? largest : PassStrain{kNotApplicable, kNotApplicable}}, series.table);
+}
+
+void add_strain(int number, const PassStrain& strain, std::vector<PassStrain>& strains) {
+  if (const PassStrain from = strains.empty() ? strain : strains.back(); !strains.empty()) {
+    const double first = static_cast<double>(strains.size());
+    const auto between = [&](double was, double is, double share) {
+      return was > 0 && is > 0 ? was * std::pow(is / was, share) : was;
+    };
+    while (static_cast<int>(strains.size()) + 1 < number) {
+      const double share = std::log(static_cast<double>(strains.size() + 1) / first) / std::log(number / first);
+      strains.push_back({between(from.accumulated, strain.accumulated, share), between(from.net, strain.net, share)});
+    }
+  }
+  strains.push_back(strain);
+}
+
+void jump_over(int rounds, std::vector<double> state, PassSeries& series) {
+  series.state.history = std::move(state);
+  series.state.passes += rounds * series.cycle;
+  for (std::size_t n = 0; n < series.begun.size(); ++n) {
+    const double* history = series.state.history.data() + n * kStreamlineHistory;
+    std::copy_n(history, 6, series.begun[n].begin());
+    series.begun[n][6] = 0;
+  }
 }
 
 PassVerdict verdict_of(const PassSeries& series) {

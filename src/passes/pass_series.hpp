@@ -7,17 +7,19 @@
 #include "passes/pass_text.hpp"
 #include "passes/rail_passes.hpp"
 #include "record/csv.hpp"
+#include "steady/pass_jump.hpp"
 
 namespace railstrata {
 
 /// State of a series of passes.
 struct PassSeries {
   CsvTable table;                   ///< passes.csv
-  std::vector<PassStrain> strains;  ///< the largest of all points, of every pass
+  std::vector<PassStrain> strains;  ///< the largest of all points, of every pass; jumped ones: add_strain
   std::vector<PassStrain> cycles;   ///< the same of every whole cycle
   PassState state;
   int cycle = 1;  ///< passes that are judged as one: passes_per_cycle (passes/pass_plan.hpp)
   std::vector<std::vector<PassStrain>> points;  ///< per point of the section its last cycles, kPointPasses at most
+  JumpMemory jump;                              ///< length 0: none
   std::vector<std::array<double, 7>> begun;  ///< per point plastic strain where the cycle began, Δp since; empty: none
 };
 /// Number of passes that classify() needs at a point.
@@ -26,6 +28,11 @@ inline constexpr std::size_t kPointPasses = 4;
 /// Adds a pass: its `row` and its effect on the points. Of a cycle of several passes Δp is the sum over them and the
 /// net strain that from its beginning to its end.
 void add_pass(const PassRow& row, const PassResult& result, PassSeries& series);
+/// Adds the strain of pass (or cycle) `number`, from 1; those jumped over before it lie on a power of the number
+/// between their neighbours, or are as the one before where either is 0.
+void add_strain(int number, const PassStrain& strain, std::vector<PassStrain>& strains);
+/// Jumps over so many rounds to the history expected after them, where the next round begins.
+void jump_over(int rounds, std::vector<double> history, PassSeries& series);
 /// Verdict from the whole cycles; its rate is per pass.
 PassVerdict verdict_of(const PassSeries& series);
 /// Adds a pass to the last ones of a point.

@@ -44,6 +44,7 @@ class SteadyPasses : public PassJob {
         body_(body_of(rail_)) {
     series_.state = body_.virgin();
     series_.cycle = passes_per_cycle(loaded_.spec.passes);
+    if (loaded_.spec.passes.jump != PassJump::off) series_.jump.length = kShortestJump;
     limits_.control = &control_;
   }
   int passes() const { return series_.state.passes; }
@@ -102,8 +103,7 @@ class SteadyPasses : public PassJob {
   void resume() override {
     report_contact();
     if (!std::filesystem::exists(folder() / kPassState)) return;
-    series_ = read_pass_series(folder() / kPassState, folder() / kPassTable, rail_.grid);
-    series_.cycle = passes_per_cycle(loaded_.spec.passes);
+    series_ = read_pass_series(folder() / kPassState, folder() / kPassTable, rail_.grid, series_.cycle);
     if (series_.state.passes > 0) stand(place_of(series_.state.passes));
   }
 
@@ -138,7 +138,98 @@ class SteadyPasses : public PassJob {
 
   bool finished() const override { return series_.state.passes >= wanted_.passes; }
 
+  /// A pass, or where passes are jumped over a round, or a jump and the rounds behind it: what is given up or taken
+  /// back as a whole.
   bool step() override {
+    const int done = passes() / series_.cycle, left = wanted_.passes / series_.cycle - done;
+    if (series_.jump.length == 0 || passes() % series_.cycle != 0 || left < 1) return one_pass();
+    const int length = std::min(series_.jump.length, left - kRoundsAfterJumps - 1);
+    const Kept kept{series_, last_, last_row_, place_, sound_};
+    const bool ready = done >= kRoundsBeforeJumps && length >= kShortestJump;
+    if (ready ? jump(length) : round().has_value()) {
+      if (!ready && series_.jump.length < kShortestJump) ++series_.jump.length;
+      return true;
+    }
+    take_back(kept);
+    return false;
+  }
+
+  /// What a jump may have to be taken back to.
+  struct Kept {
+    PassSeries series;
+    std::optional<PassResult> last;
+    PassRow row;
+    Place place;
+    bool sound;
+  };
+  void take_back(const Kept& kept) {
+    series_ = kept.series;
+    last_ = kept.last;
+    last_row_ = kept.row;
+    sound_ = kept.sound;
+    if (place_ != kept.place) stand(kept.place);
+  }
+
+  /// All passes of a round and their effect on the state; empty: given up.
+  std::optional<std::vector<double>> round() {
+    std::vector<double> rate = series_.state.history;
+    for (int n = 0; n < series_.cycle; ++n)
+      if (!one_pass()) return {};
+    for (std::size_t n = 0; n < rate.size(); ++n) rate[n] = series_.state.history[n] - rate[n];
+    return rate;
+  }
+  /// The same from another state on, which leaves nothing but a first guess.
+  std::optional<std::vector<double>> change_in_round(const std::vector<double>& history) {
+    const PassState before = series_.state;
+    std::vector<double> rate = history;
+    series_.state.history = history;
+    try {
+      for (int n = 1; n <= series_.cycle; ++n) {
+        drive(before.passes + n);
+        body_.run_pass(strain_, series_.state, limits_);
+      }
+    } catch (const Interrupted&) {
+      return {};
+    }
+    for (std::size_t n = 0; n < rate.size(); ++n) rate[n] = series_.state.history[n] - rate[n];
+    series_.state.history = before.history;
+    series_.state.passes = before.passes;
+    return rate;
+  }
+
+  /// A round, and a jump behind it of as many rounds as wanted or fewer by the tolerance, with the round that tells its
+  /// error.
+  bool jump(int rounds) {
+    const double tolerance = loaded_.spec.passes.jump_tolerance;
+    const std::optional<std::vector<double>> first = round();
+    if (!first) return false;
+    const Kept kept{series_, last_, last_row_, place_, sound_};
+    std::vector<double> start = series_.state.history;
+    for (std::size_t n = 0; n < start.size(); ++n) start[n] -= (*first)[n];
+    while (rounds >= kShortestJump) {
+      std::optional<std::vector<double>> end =
+          state_after(start, *first, rounds, [&](const std::vector<double>& state) { return change_in_round(state); });
+      if (!end) return false;
+      jump_over(rounds - 1, *end, series_);  // the first of them has been computed
+      const std::optional<std::vector<double>> last = round();
+      if (!last) return false;
+      const double error = jump_error(start, *end, *first, *last, rounds);
+      const int next = next_jump(rounds, error, tolerance);
+      const std::string what = passes_text((rounds - 1) * series_.cycle);
+      if (error <= tolerance) {
+        control_.info("jumped over {}; error of the rate {:.2g}", what, error);
+        series_.jump = {std::max(next, 1), std::max(series_.jump.error, error)};
+        return true;
+      }
+      control_.info("a jump over {} is taken back: error of the rate {:.2g}", what, error);
+      take_back(kept);
+      rounds = next;
+    }
+    series_.jump.length = std::max(rounds, 1);
+    return true;
+  }
+
+  bool one_pass() {
     const int pass = series_.state.passes + 1;
     const Place before = place_;
     Field guess = series_.state.residual_strain;

@@ -8,7 +8,6 @@ namespace railstrata {
 
 namespace {
 
-constexpr double kClosed = 0.01;   // net over accumulated of a closed cycle
 constexpr double kSame = 0.02;     // from pass to pass
 constexpr std::size_t kSteps = 3;  // from pass to pass
 

@@ -17,6 +17,8 @@ namespace railstrata {
 
 /// Plastic strain of a pass that counts as none.
 inline constexpr double kNoFlow = 1e-6;
+/// Net strain over Δp below which a cycle is closed.
+inline constexpr double kClosed = 0.01;
 
 /// The trend (PassVerdict) up to which a rate counts as constant.
 inline constexpr double kConstantTrend = 0.05;

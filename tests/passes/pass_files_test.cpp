@@ -65,6 +65,39 @@ TEST_F(PassFiles, StateAndTableAreReadBackToTheSameBits) {
   EXPECT_EQ(back.begun, series.begun);
 }
 
+TEST_F(PassFiles, TheStateOfASeriesWithJumpsIsReadBackAndJumpedPassesLieOnAPower) {
+  const SteadyGrid g = small_grid();
+  PassSeries series = series_of(g);
+  series.jump.length = 7;
+  series.jump.error = 1 / 3.0;
+  std::vector<double> history = series.state.history;
+  for (double& x : history) x += 1e-3 / 3;
+  jump_over(6, history, series);
+  EXPECT_EQ(series.state.passes, 8);
+  EXPECT_EQ(series.begun[2][3], history[2 * kStreamlineHistory + 3]);
+  PassResult pass;
+  pass.accumulated.assign(g.points(), std::sqrt(2e-6) / 9);
+  pass.net.assign(g.points(), std::sqrt(3e-7) / 9);
+  pass.residual_stress.resize(g.points());
+  pass.plastic_strain.resize(g.points());
+  pass.forward = pass.lateral = pass.sinking = {0, 0, 0};
+  series.state.passes = 9;
+  add_pass(pass_row(g, 9, pass), pass, series);
+  ASSERT_EQ(series.strains.size(), 9u);
+  const double power = std::log(1 / 9.0) / std::log(9.0 / 2);
+  EXPECT_NEAR(series.strains[3].net, std::sqrt(3e-7) * std::pow(4.0 / 2, power), 1e-15);
+  write_csv(folder_ / "passes.csv", {}, series.table.columns);
+  write_pass_state(folder_ / "state.csv", {}, g, series);
+  const PassSeries back = read_pass_series(folder_ / "state.csv", folder_ / "passes.csv", g);
+  EXPECT_EQ(back.table.rows(), 3u);
+  EXPECT_TRUE(back.state.history == series.state.history);
+  EXPECT_EQ(back.jump.length, 7);
+  EXPECT_EQ(back.jump.error, 1 / 3.0);
+  ASSERT_EQ(back.strains.size(), 9u);
+  EXPECT_EQ(back.strains[3].net, series.strains[3].net);
+  EXPECT_EQ(back.cycles[5].accumulated, series.cycles[5].accumulated);
+}
+
 /// To and fro by 1e-3 in turn: every pass has a net strain, a cycle of two has none.
 TEST_F(PassFiles, APlanOfSeveralPassesIsJudgedByWholeCycles) {
   const SteadyGrid g = small_grid();
