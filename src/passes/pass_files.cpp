@@ -131,7 +131,8 @@ Columns<StationaryRow> stationary_columns() {
   Columns<R> out = of_part<R>(pass_columns(), [](const R& r) -> const PassRow& { return r.pass; });
   append(out, {{"lateral", unit::kMillimetres, [](const R& r) { return r.pass.place; }},
                {"traction", unit::kNone, [](const R& r) { return r.pass.traction; }},
-               {"force_share", unit::kNone, [](const R& r) { return r.pass.force_share; }}});
+               {"force_share", unit::kNone, [](const R& r) { return r.pass.force_share; }},
+               {"late_flow", unit::kNone, [](const R& r) { return r.pass.late_flow; }}});
   append(out, of_part<R>(kCycleStrain, &R::cycle));
   return out;
 }
@@ -158,12 +159,12 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
     throw CaseError("the state is of another grid", "give --cell as in the beginning, or begin anew with --force",
                     state.string());
   const double passes = values.columns[0].values[0];
-  const std::vector<double> numbers = rows.column("pass");
-  const auto end = std::find(numbers.begin(), numbers.end(), passes);
-  if (passes != 0 && end == numbers.end())
+  const std::vector<double> pass = rows.column("pass");
+  const auto end = std::find(pass.begin(), pass.end(), passes);
+  if (passes != 0 && end == pass.end())
     throw CaseError("fewer passes than the state has seen", "begin anew with --force", table.string());
   series.state.passes = static_cast<int>(passes);
-  const auto seen = passes == 0 ? 0 : end - numbers.begin() + 1;
+  const auto seen = passes == 0 ? 0 : end - pass.begin() + 1;
   series.table = first_rows(rows, stationary_columns(), static_cast<std::size_t>(seen));
   series.strains = pass_strains(series.table);
   series.cycles = strains_in(series.table, kCycleStrain, cycle);
@@ -254,7 +255,7 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   out["last_pass"] = last_pass_json(series.table);
   if (series.jump.length > 0)
     out["jump"] = {{"tolerance", spec.passes.jump_tolerance},
-                   {"passes_computed", series.table.rows()},
+                   {"passes_in_table", series.table.rows()},
                    {"largest_error", series.jump.error}};
   if (answer.ductility)
     out["ductility"] = ductility_json(*answer.ductility, largest_strain(result), series.cycles, series.cycle);

@@ -57,8 +57,21 @@ Footprint footprint_of(const BemPatch& patch) {
   return f;
 }
 
-/// The depths of the rows: as deep as wanted, `apart` thick or a little less, borders at the interfaces.
-std::vector<double> thicknesses(const LayeredHalfSpace& body, double deepest, double apart) {
+/// Rows from a depth on that grow by a quarter each from `first` at the surface to `apart`, and fill `thick`.
+std::vector<double> growing_rows(double top, double thick, double first, double apart) {
+  constexpr double kGrowth = 0.25;
+  std::vector<double> out;
+  double sum = 0;
+  while (sum < thick * (1 - 1e-6)) {
+    out.push_back(std::min(apart, first + kGrowth * (top + sum)));
+    sum += out.back();
+  }
+  for (double& row : out) row *= thick / sum;
+  return out;
+}
+
+/// Thicknesses of the rows: as deep as wanted, `apart` thick or a little less, borders at the interfaces.
+std::vector<double> thicknesses(const LayeredHalfSpace& body, double deepest, double apart, double first) {
   std::vector<double> borders{0};
   for (const LayerExtent& layer : layer_extents(body))
     if (layer.bottom < deepest) borders.push_back(layer.bottom);
@@ -66,6 +79,11 @@ std::vector<double> thicknesses(const LayeredHalfSpace& body, double deepest, do
   std::vector<double> out;
   for (std::size_t n = 1; n < borders.size(); ++n) {
     const double thick = borders[n] - borders[n - 1];
+    if (first > 0 && first < apart) {
+      const std::vector<double> rows = growing_rows(borders[n - 1], thick, first, apart);
+      out.insert(out.end(), rows.begin(), rows.end());
+      continue;
+    }
     const int rows = std::max(1, static_cast<int>(std::ceil(thick / apart - 1e-6)));
     for (int r = 0; r < rows; ++r) out.push_back(thick / rows);
   }
@@ -77,13 +95,17 @@ SteadyGrid plan_grid(const Footprint& f, const PassGridOptions& options, double 
   SteadyGrid g;
   g.dx = a / options.cells;
   if (f.line) {  // fields of a line die away as 1/distance
-    g.nx = 48 * options.cells;
+    const double window = options.window > 0 ? options.window : 6;
+    g.nx = static_cast<int>(std::lround((42 + window) * options.cells));
     g.front = 10 * a;
-    g.active = g.hold = 6 * a;
+    g.active = window * a;
+    g.hold = 6 * a;
     return g;
   }
-  g.nx = 18 * options.cells;
-  g.front = g.active = 4 * a;
+  const double window = options.window > 0 ? options.window : 4;
+  g.nx = static_cast<int>(std::lround((14 + window) * options.cells));
+  g.front = 4 * a;
+  g.active = window * a;
   g.hold = 2 * a;
   g.dy = f.y.half() / options.cells;
   g.ny = 12 * options.cells + 2 * static_cast<int>(std::ceil(farthest / g.dy));
@@ -262,7 +284,8 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
   out.notes = rows.notes();
   out.middle_x = f.x.middle();
   out.grid = plan_grid(f, options, farthest_pass(spec.passes));
-  const std::vector<double> all = thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / options.rows);
+  const std::vector<double> all =
+      thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / options.rows, options.first_row);
   RowsOfContact contact(solutions, f, out.grid);
   const Subsurface interior = rail_interior(result);
   StressHistory section;  // rows alone, for what the process left in them
@@ -368,6 +391,7 @@ PassRow pass_row(const SteadyGrid& g, int pass, const PassResult& result) {
   row.forward = largest_magnitude(result.forward);
   row.lateral = largest_magnitude(result.lateral);
   row.sinking = largest_magnitude(result.sinking);
+  row.late_flow = result.late_flow;
   add_balance(g, result, row);
   return row;
 }

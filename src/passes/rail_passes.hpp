@@ -17,8 +17,11 @@ namespace railstrata {
 
 /// Cells of the grid over the patch: the errors of residual stress are some percent at 6, and fall with their square.
 struct PassGridOptions {
-  int cells = 6;    ///< over each half-axis of the patch
-  double rows = 8;  ///< over the shorter half-axis
+  int cells = 6;         ///< over each half-axis of the patch
+  double rows = 8;       ///< over the shorter half-axis
+  double first_row = 0;  ///< m, at the surface; below it rows grow by a quarter each up to those; 0: as the others
+  double window = 0;     ///< half-lengths behind the load where flow is followed; 0: 4, of a line contact 6
+  bool operator==(const PassGridOptions&) const = default;
 };
 
 /// A rail ready for passes.
@@ -60,6 +63,7 @@ struct PassRow {
   double traction = 0;                   ///< F_T over the normal force
   double force = 0;                      ///< N along x: what the passes put into an endless rail; of a line contact N/m
   double force_share = 0;                ///< the same, over the integral of |S_xx|
+  double late_flow = 0;                  ///< as of PassResult
   double balance = 0;  ///< largest |mean of S_zz, S_yz, S_xz of a row| over the largest mean |S_xx|: equilibrium
 };
 PassRow pass_row(const SteadyGrid& grid, int pass, const PassResult& result);

@@ -39,7 +39,7 @@ auto with_places(const LoadedCase& loaded, Work&& work) {
 class SteadyPasses : public PassJob {
  public:
   SteadyPasses(LoadedCase loaded, const PassOrder& order, Control& control)
-      : PassJob("the case, the --set and the --cell of its beginning", std::move(loaded), order, control),
+      : PassJob("the case, the --set, the --cell and the grid of its beginning", std::move(loaded), order, control),
         rail_(with_places(loaded_, [&] { return rail_of(); })),
         body_(body_of(rail_)) {
     series_.state = body_.virgin();
@@ -63,7 +63,7 @@ class SteadyPasses : public PassJob {
       traction_.push_back(c.F_x / c.F_z);
       solutions.push_back(std::move(solution.result));
     }
-    return rail_passes(loaded_.spec, solutions);
+    return rail_passes(loaded_.spec, solutions, wanted_.grid);
   }
 
   /// Collects failed checks and warnings of the contact that all passes use, each once.
@@ -92,7 +92,10 @@ class SteadyPasses : public PassJob {
   }
 
   std::string identity() const override {
-    return fmt::format("{} {} {} {}", CaseJob::identity(), rail_.grid.nx, rail_.grid.ny, wanted_.cell);
+    std::string all = fmt::format("{} {} {} {}", CaseJob::identity(), rail_.grid.nx, rail_.grid.ny, wanted_.cell);
+    const PassGridOptions& g = wanted_.grid;
+    if (g != PassGridOptions{}) all += fmt::format(" grid {} {} {} {}", g.cells, g.rows, g.first_row, g.window);
+    return all;
   }
 
   void begin() override {
@@ -252,6 +255,13 @@ class SteadyPasses : public PassJob {
     last_row_ = row;
     add_pass(row, *last_, series_);
     report(row, fmt::format("{} iterations", row.iterations));
+    if (constexpr double kMuch = 0.01; row.late_flow > kMuch && !late_) {
+      late_ = true;
+      control_.warn(
+          "pass {}: {:.1f} % of the largest flow comes in the last quarter of the window behind the load: give "
+          "a longer --window",
+          row.pass, 100 * row.late_flow);
+    }
     if (!row.converged) {
       sound_ = false;
       control_.warn("pass {} has not settled: stresses still change by {:.2g} of the shear strength", row.pass,
@@ -310,6 +320,7 @@ class SteadyPasses : public PassJob {
   PassLimits limits_;
   std::optional<PassResult> last_;
   PassRow last_row_;
+  bool late_ = false;  ///< flow goes on at the end of the window, and it has been said
 };
 
 }  // namespace

@@ -58,6 +58,7 @@ struct SteadyBody::Work {
   Field field;                // plastic strain of this pass everywhere, then the strain it causes
   Field guess, residual;      // at active stations
   std::vector<double> after;  // histories behind the load
+  std::vector<double> late;   // p of each point in the last quarter of the stations behind the load
 };
 
 SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowModuli below,
@@ -127,6 +128,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
   const std::size_t line = static_cast<std::size_t>(active);
   std::vector<double> share(static_cast<std::size_t>(g.nx));
   for (int i = 0; i < g.nx; ++i) share[i] = g.share(i);
+  const int late = std::max(0, active - static_cast<int>(std::lround(0.25 * g.active / g.dx)));
   for_each(
       static_cast<std::ptrdiff_t>(g.points()),
       [&](std::ptrdiff_t n) {
@@ -137,6 +139,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
         const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
         const bool yields = std::isfinite(row.law.yield);
         for (int i = 0; i < g.nx; ++i) {
+          if (i == late) work.late[n] = h[6];
           if (yields && i < active) {
             double e[6];
             for (int c = 0; c < 6; ++c)
@@ -146,6 +149,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
           }
           for (int c = 0; c < 6; ++c) work.field[g.index(c, r, i, j)] = share[i] * (h[c] - before[c]);
         }
+        work.late[n] = h[6] - work.late[n];
       },
       true);
 }
@@ -182,6 +186,7 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   work.guess = state.residual_strain;
   work.residual.resize(work.guess.size());
   work.after.resize(state.history.size());
+  work.late.resize(g.points());
   Anderson anderson;
   PassResult out;
   for (;;) {
@@ -201,6 +206,8 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   state.residual_strain = std::move(work.guess);
   ++state.passes;
   conclude(out.before, uniform_strain(state.history), state, out);
+  const double most = *std::max_element(out.accumulated.begin(), out.accumulated.end());
+  if (most > 0) out.late_flow = *std::max_element(work.late.begin(), work.late.end()) / most;
   return out;
 }
 

@@ -47,6 +47,7 @@ struct PassResult {
   int iterations = 0;
   double error = 0;                 ///< largest change of stress of the last iteration over the shear strength
   bool converged = true;            ///< error within the tolerance
+  double late_flow = 0;             ///< largest p of the last quarter behind the load, over the largest Δp
   std::vector<double> accumulated;  ///< plastic strain p of this pass, Δp
   std::vector<double> net;          ///< |E^p after - E^p before|
   std::vector<std::array<double, 6>> residual_stress;  ///< Pa, after the pass, xx, yy, zz, xy, yz, xz

@@ -70,6 +70,41 @@ class Passes(FromOutside):
                      "no passes of this very case")
 
     @slow
+    def test_passes_jumped_over_end_where_computed_ones_do_and_go_on_to_the_same_bits(self):
+        weak = [*strength(350), "--set", 'material.rail.kinematic_hardening=[{modulus = "20 GPa", recall = 50}]',
+                "--no-report"]
+        jumps = [*weak, "--set", 'passes.jump="auto"']
+        all_of_them = self.passes("all", *weak, "--passes", 60)
+        jumped = self.passes("jumped", *jumps, "--passes", 60)
+        computed, of_60 = (json.loads((out / "passes.json").read_text()) for out in (all_of_them, jumped))
+        self.assertLess(of_60["jump"]["passes_in_table"], 60)
+        self.assertEqual(len(rows(jumped / "passes.csv")), of_60["jump"]["passes_in_table"])
+        self.assertLessEqual(of_60["jump"]["largest_error"], of_60["jump"]["tolerance"])
+        self.assertEqual(of_60["class"], computed["class"])
+        for key in ("accumulated_strain", "net_strain", "sigma_x_min_MPa", "sigma_y_min_MPa"):
+            self.assertAlmostEqual(of_60["last_pass"][key] / computed["last_pass"][key], 1, delta=0.03, msg=key)
+        # any number of threads; the beginning, which needs no jump, and then the rest
+        threads = self.folder / "threads"
+        rc, _, err = railstrata("passes", BASE, *COARSE[:2], "-q", *SMOOTH, "--threads", "2", *jumps, "--passes", 60, "--out", threads)
+        self.assertEqual(rc, 0, err)
+        self.same_numbers(jumped, threads)
+        self.passes("parts", *jumps, "--passes", 3)
+        self.same_numbers(jumped, self.passes("parts", *jumps, "--passes", 60, "--resume"))
+        self.refused(2, ["passes", BASE, *COARSE, *jumps, "--set", 'passes.lateral_deviation="2 mm"', "--out",
+                         self.folder / "none"], "never repeat", "lateral_deviation")
+
+    def test_the_grid_has_the_rows_and_the_window_that_are_asked_for(self):
+        few = [*strength(400), "--passes", 1, "--no-report"]
+        usual = json.loads((self.passes("usual", *few) / "passes.json").read_text())["grid"]
+        fine = json.loads((self.passes("fine", *few, "--patch-cells", 4, "--first-row", "0.05 mm", "--window",
+                                       6) / "passes.json").read_text())["grid"]
+        self.assertEqual(usual["stations"], 18 * 6)
+        self.assertEqual(fine["stations"], 20 * 4)
+        self.assertLessEqual(fine["row_m"], 0.05e-3 * (1 + 1e-9))
+        self.assertGreater(fine["rows"], usual["rows"])
+        self.refused(2, ["passes", BASE, *few, "--engine", "fem", "--window", 6, "--out", self.folder / "none"], "stationary method")
+
+    @slow
     def test_wheels_that_wander_and_pull_in_turn_run_where_the_case_says_and_resume_to_the_same_bits(self):
         plan = [*strength(450), "--set", 'passes.lateral_positions=["0 mm", "4 mm"]', "--set",
                 "passes.traction_coefficients=[0.05, -0.05]", "--no-report"]
