@@ -306,7 +306,7 @@ void check_device(const CaseSpec& spec, CaseSource& source) {
 void check_passes(const CaseSpec& spec, CaseSource& source) {
   if (spec.passes.jump != PassJump::off && spec.passes.lateral_deviation)
     source.complain("passes.jump",
-                    "passes.jump = \"auto\": wheels that scatter never repeat, so no round tells the next",
+                    "passes.jump = \"auto\": wheels that scatter never repeat, so no round shows the next",
                     "take out passes.lateral_deviation, or give passes.lateral_positions alone");
   if (!source.sound({"passes.traction_coefficients", "drive.friction_coefficient"})) return;
   for (const double traction : spec.passes.traction_coefficients)

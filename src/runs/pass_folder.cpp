@@ -200,7 +200,7 @@ class SteadyPasses : public PassJob {
     return rate;
   }
 
-  /// A round, and a jump behind it of as many rounds as wanted or fewer by the tolerance, with the round that tells its
+  /// A round, and a jump behind it of as many rounds as wanted or fewer by the tolerance, with the round that shows its
   /// error.
   bool jump(int rounds) {
     const double tolerance = loaded_.spec.passes.jump_tolerance;
