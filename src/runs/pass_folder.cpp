@@ -255,10 +255,10 @@ class SteadyPasses : public PassJob {
     last_row_ = row;
     add_pass(row, *last_, series_);
     report(row, fmt::format("{} iterations", row.iterations));
-    if (constexpr double kMuch = 0.01; row.late_flow > kMuch && !late_) {
+    if (constexpr double kMuch = 1e-3; row.late_flow > kMuch && !late_) {
       late_ = true;
       control_.warn(
-          "pass {}: {:.1f} % of the largest flow comes in the last quarter of the window behind the load: give "
+          "pass {}: {:.2g} % of the largest flow comes in the last quarter of the window behind the load: give "
           "a longer --window",
           row.pass, 100 * row.late_flow);
     }
