@@ -42,7 +42,7 @@ def drawn(chance):
     rail = chance.choice(["CN60", "UIC60", "UIC54", f"arc:R={pick_log(80, 600)} mm"])
     wheel = chance.choice(["LMA", "S1002", "flat", f"arc:R={pick_log(150, 900)} mm"])
     friction = float(pick(0.1, 0.6))
-    settings = {"geometry.rail_profile": rail, "geometry.wheel_profile": wheel,
+    settings = {"geometry.track": "CN", "geometry.rail_profile": rail, "geometry.wheel_profile": wheel,
                 "geometry.wheel_radius": f"{pick(300, 550)} mm", "geometry.lateral_shift": f"{pick(-3, 3)} mm",
                 "geometry.cant": chance.choice(["0.025", "0.05", "0"]), "vehicle.wheel_mass": "1000 kg",
                 "vehicle.wheel_load": f"{pick(30, 140)} kN", "drive.speed": f"{pick(10, 60)} m/s",

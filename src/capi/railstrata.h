@@ -168,8 +168,9 @@ RS_API int rs_points(const rs_contact* contact, int patch, int* nx, int* ny, rs_
 /* Copies a field of the last solution to out[0 .. n-1], n = nx ny. SI. */
 RS_API int rs_field(const rs_contact* contact, int patch, int field, double* out, size_t n, rs_error* error);
 
-/* One of the patches that share the load, 0 (the largest pressure) to rs_forces.patches - 1. Model axes: x along rolling
- * from the middle of the wheel's tape circle, y to the field side, z up, from the origin of the rail's profile. */
+/* One of the patches that share the load, 0 (the largest pressure) to rs_forces.patches - 1. Model axes: x along
+ * rolling from the middle of the wheel's tape circle, y to the field side, z up, from the origin of the rail's profile.
+ */
 typedef struct rs_patch {
   size_t size;                        /* sizeof(rs_patch), to be set by the caller */
   double force[3];                    /* N, on the wheel */
@@ -188,9 +189,9 @@ typedef struct rs_patch {
   int reserved;
 } rs_patch;
 
-/* A patch of the last solution. about: the point [m, model axes] that moments are about; NULL: the origin. Forces of all
- * patches add up to those of rs_forces. Errors: RS_CASE without a solution, of a lifted wheel (it has no patch), for a
- * patch that is not there. */
+/* A patch of the last solution. about: the point [m, model axes] that moments are about; NULL: the origin. Forces of
+ * all patches add up to those of rs_forces. Errors: RS_CASE without a solution, of a lifted wheel (it has no patch),
+ * for a patch that is not there. */
 RS_API int rs_patch_forces(const rs_contact* contact, int patch, const double* about, rs_patch* out, rs_error* error);
 
 /* Stresses [Pa] at n points below (rail) or above (wheel) the patch of the largest pressure. xyz: n times x, y from the

@@ -110,7 +110,8 @@ TEST(CellErrors, AreAbsentWhereNoLawWasMade) {
        {"vehicle.approach=0.09 mm", "bem.leading_edge=whole_cell",
         "geometry.rail_profile=flat; geometry.wheel_profile=flat; geometry.cant=0; geometry.contact=line; "
         "geometry.line_length=10 mm",
-        "geometry.rail_profile=UIC60; geometry.wheel_profile=S1002; geometry.cant=0.05; geometry.gauge_depth=14 mm; "
+        "geometry.track=CN; geometry.rail_profile=UIC60; geometry.wheel_profile=S1002; geometry.cant=0.05; "
+        "geometry.gauge_depth=14 mm; "
         "geometry.lateral_shift=9.6 mm"}) {
     const CaseSpec spec = case_of(settings);
     const BemResult result = solved(spec, 1e-3);

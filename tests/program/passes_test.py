@@ -85,7 +85,8 @@ class Passes(FromOutside):
             self.assertAlmostEqual(of_60["last_pass"][key] / computed["last_pass"][key], 1, delta=0.03, msg=key)
         # any number of threads; the beginning, which needs no jump, and then the rest
         threads = self.folder / "threads"
-        rc, _, err = railstrata("passes", BASE, *COARSE[:2], "-q", *SMOOTH, "--threads", "2", *jumps, "--passes", 60, "--out", threads)
+        rc, _, err = railstrata("passes", BASE, *COARSE[:2], "-q", *SMOOTH, "--threads", "2", *jumps, "--passes", 60,
+                                "--out", threads)
         self.assertEqual(rc, 0, err)
         self.same_numbers(jumped, threads)
         self.passes("parts", *jumps, "--passes", 3)
@@ -102,7 +103,8 @@ class Passes(FromOutside):
         self.assertEqual(fine["stations"], 20 * 4)
         self.assertLessEqual(fine["row_m"], 0.05e-3 * (1 + 1e-9))
         self.assertGreater(fine["rows"], usual["rows"])
-        self.refused(2, ["passes", BASE, *few, "--engine", "fem", "--window", 6, "--out", self.folder / "none"], "stationary method")
+        self.refused(2, ["passes", BASE, *few, "--engine", "fem", "--window", 6, "--out", self.folder / "none"],
+                     "stationary method")
 
     @slow
     def test_wheels_that_wander_and_pull_in_turn_run_where_the_case_says_and_resume_to_the_same_bits(self):
