@@ -121,6 +121,9 @@ def wheelset(c, lines, folder, digit, normal, forces):
         c.wheel("cntc_setwheelsetflexibility", digit, lines.numbers(6)[:6] + lines.numbers(6)[:6])
 
 
+FURTHER = {0: 0, 3: 3, 4: 4, 5: 3}  # numbers of a material (M) beside POISS and GG
+
+
 def set_case(c, lines, folder):
     config, p, b, t, n, f, stress = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
     varies, law, d, influence, m, z, e = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
@@ -141,10 +144,13 @@ def set_case(c, lines, folder):
     if law != 1:
         friction(c, lines, varies, law)
     if influence >= 2:
-        values = lines.numbers(4)[:4]
-        if m not in (0, 4):
+        if m not in FURTHER:
             raise Unread(f"M = {m}")
-        c.set("cntc_setmaterialparameters", m, values + (lines.numbers(4)[:4] if m == 4 else []))
+        c.elastic = lines.numbers(4)[:4]
+        c.set("cntc_setmaterialparameters", m, c.elastic + (lines.numbers(FURTHER[m])[:FURTHER[m]]))
+    elif m != c.material:
+        c.set("cntc_setmaterialparameters", m, c.elastic + [0] * FURTHER[m])
+    c.material = m
     if heat == 3:
         c.set("cntc_settemperaturedata", 3, lines.numbers(4)[:4] + lines.numbers(4)[:4])
     if d >= 2:
