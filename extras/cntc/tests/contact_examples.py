@@ -4,10 +4,12 @@
 usage: contact_examples.py LIBRARY CHECKOUT [NAME...] [--verbose]   CHECKOUT: a clone of github.com/eve70a/CONTACT
 
 Of every case of CHECKOUT/examples/NAME.inp (all of them unless named) FN, FX, FY, MZ, PMAX and the numbers of elements
-in contact, adhesion and slip are held against NAME.ref_out. Prints a table; a case that is refused counts with the
-reason of its first refusal. Exit code 1 where an accepted case differs by more than the printed digits."""
+in contact, adhesion and slip are held against NAME.ref_out; the states of CONTACT's program test_table against
+testbank/test_table_mx11.ref_fx. Prints a table; a case that is refused counts with the reason of its first refusal.
+Exit code 1 where an accepted case differs by more than the printed digits."""
 import argparse
 import collections
+import itertools
 import math
 import pathlib
 import re
@@ -243,6 +245,46 @@ def run(library, file, verbose):
     return cases, good, off
 
 
+SEMI_AXES = {0.2: 4, 0.5: 6, 1: 9, 2: 12, 5: 20}  # a by a/b, mm
+MAGNITUDES = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9, 1.1, 1.4, 1.7, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 9, 10, 12]
+
+
+def states_of_table(c):
+    """The states of CONTACT's src/test_table.f90 in their order, each ready to be solved, with sqrt(a b), mm."""
+    f, load = 0.3, 82000.0
+    c.materials(0.28, 0.28, load, load)
+    c.friction(f)
+    c.call("cntc_setnormalforce", load)
+    c.flags(P=2, T=3)
+    c.call("cntc_setsolverflags", 0, 4, [299, 1, 30, 1], 1, [1e-6])  # MAXGS, MAXIN, MAXNR, MAXOUT, EPS
+    for ratio, a in SEMI_AXES.items():
+        c.hertz(-3, [11, 11, a, a / ratio, 11 / 7])
+        c.calculate()
+        rho, mean = c.hertz_results()[4:]
+        for spin, angle in itertools.product((0, 0.5, 1, 2), range(-90, 91, 30)):
+            along, across = (g(math.radians(angle)) * f * mean / rho for g in (math.cos, math.sin))
+            for size in MAGNITUDES:
+                c.call("cntc_setcreepages", size * along, size * across, f * spin / rho)
+                yield f * load, mean
+
+
+def run_table(library, checkout):
+    """Cases, equal ones and others of test_table; forces over f F_n, moment over f F_n sqrt(a b), share of slip."""
+    text = (checkout / "testbank/test_table_mx11.ref_fx").read_text()
+    rows = [[float(v) for v in re.findall(r"= *(\S+?)(?:,|$)", line)]
+            for line in text.splitlines() if line.startswith("Fx")]
+    c, equal = Contact(library, 4), 0
+    for row, (bound, mean) in zip(rows, states_of_table(c), strict=True):
+        if c.calculate() != 0:
+            continue
+        _, x, y, moment = c.forces()
+        contact, slip = c.counts()
+        found = [x / bound, y / bound, moment / bound / mean, 100 * slip / contact]
+        equal += all(abs(a - b) <= near for a, b, near in zip(found, row, (1.6e-6, 1.6e-6, 1.6e-6, 0.051)))
+    print(f"{'test_table':20} {len(rows):5} {equal:6} {len(rows) - equal:5}")
+    return len(rows) - equal
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("library")
@@ -260,7 +302,8 @@ def main():
             continue
         total = [a + b for a, b in zip(total, run(library, file, options.verbose))]
     print(f"{'all':20} {total[0]:5} {total[1]:6} {total[2]:5}  accepted {total[1] + total[2]} of {total[0]}")
-    return 1 if total[2] else 0
+    off = 0 if options.names else run_table(library, options.checkout)
+    return 1 if total[2] or off else 0
 
 
 if __name__ == "__main__":

@@ -94,6 +94,12 @@ class Contact:
     def hertz(self, ipotcn, values):
         self.set("cntc_sethertzcontact", ipotcn, values)
 
+    def hertz_results(self):
+        """A1, B1, AA, BB, RHO, CP."""
+        out = np.zeros(6)
+        self.call("cntc_gethertzcontact", 6, out)
+        return out
+
     def grid(self, ipotcn, values):
         self.set("cntc_setpotcontact", ipotcn, values)
 

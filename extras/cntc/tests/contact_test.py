@@ -225,9 +225,7 @@ class Examples(unittest.TestCase):
             a = {0.2: 4, 0.5: 6, 1: 9, 2: 12, 5: 20}[ratio]
             c.hertz(-3, [11, 11, a, a / ratio, 11 / 7])
             self.assertEqual(c.calculate(), 0, c.error())  # the ellipse's rho is known by then
-            hertz = np.zeros(6)
-            c.call("cntc_gethertzcontact", 6, hertz)
-            rho, radius = hertz[4:]
+            rho, radius = c.hertz_results()[4:]
             creepage = 0.3 * float(row["magnitude"]) * radius / rho
             c.call("cntc_setcreepages", creepage * math.cos(angle), creepage * math.sin(angle),
                    0.3 * float(row["spin_number"]) / rho)

@@ -13,7 +13,7 @@ import re
 import sys
 
 import contact_library
-from contact_examples import FRICTION, Refusal, Unread, numbers, numbers_or_nan
+from contact_examples import FRICTION, MORE_OF_MATERIAL, Refusal, Unread, numbers, numbers_or_nan
 from contact_library import Wheel
 
 FORCE, LEAST, PLACE = 0.01, 1e-4, 0.1  # of the normal force, of the wheel's vertical force; mm
@@ -121,9 +121,6 @@ def wheelset(c, lines, folder, digit, normal, forces):
         c.wheel("cntc_setwheelsetflexibility", digit, lines.numbers(6)[:6] + lines.numbers(6)[:6])
 
 
-FURTHER = {0: 0, 3: 3, 4: 4, 5: 3}  # numbers of a material (M) beside POISS and GG
-
-
 def set_case(c, lines, folder):
     config, p, b, t, n, f, stress = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
     varies, law, d, influence, m, z, e = (int(v) for v in lines.next().split()[0].zfill(7)[-7:])
@@ -144,12 +141,13 @@ def set_case(c, lines, folder):
     if law != 1:
         friction(c, lines, varies, law)
     if influence >= 2:
-        if m not in FURTHER:
+        if m not in MORE_OF_MATERIAL:
             raise Unread(f"M = {m}")
         c.elastic = lines.numbers(4)[:4]
-        c.set("cntc_setmaterialparameters", m, c.elastic + (lines.numbers(FURTHER[m])[:FURTHER[m]]))
+        more = MORE_OF_MATERIAL[m]
+        c.set("cntc_setmaterialparameters", m, c.elastic + lines.numbers(more)[:more])
     elif m != c.material:
-        c.set("cntc_setmaterialparameters", m, c.elastic + [0] * FURTHER[m])
+        c.set("cntc_setmaterialparameters", m, c.elastic + [0] * MORE_OF_MATERIAL[m])
     c.material = m
     if heat == 3:
         c.set("cntc_settemperaturedata", 3, lines.numbers(4)[:4] + lines.numbers(4)[:4])
