@@ -32,8 +32,8 @@ class Passes(FromOutside):
     def same_numbers(self, *folders):
         """But for titles, which name what --set changes."""
         for name in ["passes.csv", "residual.csv", "profile.csv", "loops.csv", "along.csv", "state.csv", "passes.json"]:
-            numbers = [[line for line in (out / name).read_text().splitlines() if not line.startswith(("#", '  "title"'))]
-                       for out in folders]
+            lines = [(out / name).read_text().splitlines() for out in folders]
+            numbers = [[line for line in of if not line.startswith(("#", '  "title"'))] for of in lines]
             self.assertEqual(*numbers, name)
             self.assertGreater(len(numbers[0]), 1, name)
 
