@@ -36,23 +36,13 @@ Ellipse ellipse_of_elements(const PatchGrid& g, const Plane& pressure) {
   return {mean * stretch, mean / stretch};
 }
 
-/// Between the table's Poisson's ratios 0, 1/4 and 1/2 a parabola of 1/C, as CONTACT has it: for narrow ellipses 1/C is
-/// linear in Poisson's ratio.
 CreepCoefficients creep_coefficients(Ellipse e, double poisson) {
   constexpr double kWidest = 9.9;  // CONTACT's table ends here
   const double ratio = e.a / e.b;
   if (!(ratio >= 1 / kWidest && ratio <= kWidest))
     throw Refused(kOther, fmt::format("M = 3 and 5 have creep coefficients for a/b from {:.3g} to {:g}, not {:.3g}",
                                       1 / kWidest, kWidest, ratio));
-  const double n = 4 * poisson, weight[] = {(n - 1) * (n - 2) / 2, n * (2 - n), n * (n - 1) / 2};
-  CreepCoefficients inverse;
-  for (int k = 0; k < 3; ++k) {
-    const CreepCoefficients c = kalker_coefficients(ratio, 0.25 * k);
-    inverse.c11 += weight[k] / c.c11;
-    inverse.c22 += weight[k] / c.c22;
-    inverse.c23 += weight[k] / c.c23;
-  }
-  return {1 / inverse.c11, 1 / inverse.c22, 1 / inverse.c23};
+  return kalker_coefficients_by_inverse(ratio, poisson);
 }
 
 /// L1, L2, L3 of small creepages [Kalker1982], m/Pa, and with creepage on to the one that makes the same work of all

@@ -87,15 +87,7 @@ CreepCoefficients usetab_coefficients(double a_over_b, double poisson) {
   constexpr double kSlender = 0.101;
   if (a_over_b < kSlender) return across_rolling(a_over_b, poisson);
   if (1 / a_over_b < kSlender) return along_rolling(1 / a_over_b, poisson);
-  const double n = 4 * poisson, weight[] = {(n - 1) * (n - 2) / 2, -n * (n - 2), n * (n - 1) / 2};
-  CreepCoefficients inverse;
-  for (int k = 0; k < 3; ++k) {
-    const CreepCoefficients c = kalker_coefficients(a_over_b, 0.25 * k);
-    inverse.c11 += weight[k] / c.c11;
-    inverse.c22 += weight[k] / c.c22;
-    inverse.c23 += weight[k] / c.c23;
-  }
-  return {1 / inverse.c11, 1 / inverse.c22, 1 / inverse.c23};
+  return kalker_coefficients_by_inverse(a_over_b, poisson);
 }
 
 std::vector<UsetabForce> usetab_forces(double a_over_b, const UsetabAxes& axes, const UsetabOptions& options) {

@@ -106,6 +106,18 @@ CreepCoefficients kalker_coefficients(double a_over_b, double poisson) {
   return weighted(at_nu, {(n - 1) * (n - 2) / 2, -n * (n - 2), n * (n - 1) / 2});
 }
 
+CreepCoefficients kalker_coefficients_by_inverse(double a_over_b, double poisson) {
+  const double n = 4 * poisson, weight[] = {(n - 1) * (n - 2) / 2, -n * (n - 2), n * (n - 1) / 2};
+  CreepCoefficients inverse;
+  for (int k = 0; k < 3; ++k) {
+    const CreepCoefficients c = kalker_coefficients(a_over_b, 0.25 * k);
+    inverse.c11 += weight[k] / c.c11;
+    inverse.c22 += weight[k] / c.c22;
+    inverse.c23 += weight[k] / c.c23;
+  }
+  return {1 / inverse.c11, 1 / inverse.c22, 1 / inverse.c23};
+}
+
 RollingEllipse rolling_ellipse(const HertzContact& contact, double friction, const HalfSpaceMaterial& wheel,
                                const HalfSpaceMaterial& rail) {
   const double soft_wheel = 1 / wheel.shear(), soft_rail = 1 / rail.shear(), shear = 2 / (soft_wheel + soft_rail);

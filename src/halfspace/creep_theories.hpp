@@ -23,6 +23,8 @@ struct CreepCoefficients {
   double c11 = 0, c22 = 0, c23 = 0;
 };
 CreepCoefficients kalker_coefficients(double a_over_b, double poisson);
+/// The same with the parabola over Poisson's ratio of 1/C, as CONTACT has it: for narrow ellipses 1/C is linear in it.
+CreepCoefficients kalker_coefficients_by_inverse(double a_over_b, double poisson);
 
 /// Input of the theories: 2/G = 1/G1 + 1/G2 and nu/G the mean of the bodies' nu/G. [Kalker1990 eq. 1.44]
 struct RollingEllipse {
