@@ -40,7 +40,10 @@ PassGridOptions grid_of(const PassesOptions& options) {
 }
 
 PassOrder order_of(const CommandOptions& options, const LoadedCase& loaded) {
-  return {job_order_of(options, loaded, "-passes", options.passes.resume), options.passes.passes};
+  PassOrder order;
+  static_cast<JobOrder&>(order) = job_order_of(options, loaded, "-passes", options.passes.resume);
+  order.passes = options.passes.passes;
+  return order;
 }
 
 ExitCode command_rolled_passes(const CommandOptions& options) {
