@@ -93,7 +93,10 @@ std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement,
        ++k) {
     const Place* deepest = nullptr;
     for (const Place& p : places)
-      if (p.patch == k && (!deepest || p.contact.axle_height > deepest->contact.axle_height)) deepest = &p;
+      if (p.patch == k && (!deepest || p.contact.rail_s == placement.contact.rail_s ||
+                           (deepest->contact.rail_s != placement.contact.rail_s &&
+                            p.contact.axle_height > deepest->contact.axle_height)))
+        deepest = &p;
     Member m{.placement = placement, .room = {}, .beside_low = {}, .beside_high = {}};
     m.placement.contact = deepest->contact;
     m.estimate = hertz_estimate(spec, m.contact());

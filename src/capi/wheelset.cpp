@@ -33,7 +33,7 @@ void Stiffening::add(double a, double q) {
 
 namespace {
 
-constexpr int kMostSolutions = 60;
+constexpr int kMostSolutions = 60, kFreeSolutions = 5;
 
 /// A cold call of the interface inside: its code becomes the exception that it came from.
 void raise(int code, const rs_error& error) {
@@ -54,11 +54,11 @@ RailMotion rail_of(const rs_wheelset_state& s, int side) {
 }
 
 /// Looks where the wheel touches and leaves it in the contact, whose solutions then need not look again.
-void place(Wheel& w) {
+void place(Wheel& w, const HeldPlace& held) {
   rs_contact& c = *w.contact;
   Placement& p = c.placement;
   p.track = track_under(p.wheel, p.rail, w.at_rest, w.motion, w.rail);
-  answer([&] { p.contact = place_wheel(p.wheel, p.rail, p.track); });
+  answer([&] { p.contact = place_wheel(p.wheel, p.rail, p.track, held); });
   GeometrySpec& g = c.loaded.spec.geometry;
   g.lateral_shift = p.track.lateral_shift;
   g.yaw = p.track.yaw;
@@ -66,7 +66,9 @@ void place(Wheel& w) {
   g.cant = p.track.cant;
 }
 
-void place(rs_wheelset& set, const rs_wheelset_state& state, double roll) {
+/// hold: each wheel keeps to the place where it touches now, if another is lower by less than a micrometre.
+void place(rs_wheelset& set, const rs_wheelset_state& state, double roll, bool hold = false) {
+  constexpr double kHeldWithin = 1e-6;  // m
   for (int side : {RS_LEFT, RS_RIGHT}) {
     Wheel& w = set.wheels[static_cast<std::size_t>(side)];
     w.motion = motion_of(state);
@@ -76,7 +78,7 @@ void place(rs_wheelset& set, const rs_wheelset_state& state, double roll) {
       w.motion = mirrored(w.motion);
       w.rail = mirrored(w.rail);
     }
-    place(w);
+    place(w, hold ? HeldPlace{w.touching().rail_s, kHeldWithin} : HeldPlace{});
   }
   set.roll = roll;
 }
@@ -189,11 +191,11 @@ std::array<double, 2> wanted_forces(const rs_wheelset& set, double load, double 
 }
 
 /// The roll at which both wheels have their approaches, and the height.
-double tilt(rs_wheelset& set, const rs_wheelset_state& state, const std::array<double, 2>& approach) {
+double tilt(rs_wheelset& set, const rs_wheelset_state& state, const std::array<double, 2>& approach, bool hold) {
   constexpr double kClose = 1e-10;  // m
   double height[2];
   const auto apart = [&](double roll) {
-    place(set, state, roll);
+    place(set, state, roll, hold);
     for (std::size_t k : {0, 1}) {
       const Wheel& w = set.wheels[k];
       height[k] =
@@ -204,6 +206,7 @@ double tilt(rs_wheelset& set, const rs_wheelset_state& state, const std::array<d
   double roll = set.roll, error = apart(roll), slope = -2 * std::max(tape_circle_distance(set.wheels[0].at_rest), 1e-3);
   for (int i = 0; i < kMostSolutions; ++i) {
     if (std::abs(error) <= kClose) return 0.5 * (height[0] + height[1]);
+    hold = hold || i == kFreeSolutions;
     const double next = roll - error / slope, after = apart(next);
     if (std::abs(next - roll) > 0 && (after - error) / (next - roll) < 0.1 * slope)
       slope = (after - error) / (next - roll);
@@ -213,7 +216,8 @@ double tilt(rs_wheelset& set, const rs_wheelset_state& state, const std::array<d
   throw NumericalError("the roll at which both wheels touch was not found");
 }
 
-/// Height and roll under a load and a roll moment.
+/// Height and roll under a load and a roll moment. Where the wheels touch changes with the roll; after some solutions
+/// they keep to a place, for no roll may balance the moment where a wheel changes between two.
 double lean(rs_wheelset& set, const rs_wheelset_state& state) {
   place(set, state, set.roll);
   begin_stiffening(set);
@@ -221,7 +225,7 @@ double lean(rs_wheelset& set, const rs_wheelset_state& state) {
   while (set.solutions < kMostSolutions) {
     const std::array<double, 2> approach{set.stiffening[0].approach_at(wanted[0]),
                                          set.stiffening[1].approach_at(wanted[1])};
-    const double z = tilt(set, state, approach);
+    const double z = tilt(set, state, approach, set.solutions > kFreeSolutions);
     press(set, approach);
     wanted = wanted_forces(set, state.load, state.roll_moment);
     const double missed =

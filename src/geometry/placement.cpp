@@ -233,21 +233,23 @@ double refine(const Gap& gap, double lo, double centre, double hi) {
   return gap.value(found) < start - 1e-16 ? found : centre;
 }
 
-/// Rail arc length of the first contact: the lowest gap; of equal ones that nearest the tape circle.
-double first_contact(const Gap& gap, const GapSamples& samples) {
+/// Rail arc length of the first contact: the lowest gap; of equal ones that nearest the tape circle, or nearest `held`.
+double first_contact(const Gap& gap, const GapSamples& samples, const HeldPlace& held) {
   const double lowest = *std::min_element(samples.gap.begin(), samples.gap.end());
+  const double candidate = kCandidate + held.within;
   double best_s = 0, best_gap = std::numeric_limits<double>::infinity();
+  const auto off = [&](double s) { return held.within > 0 ? std::abs(s - held.rail_s) : std::abs(gap.wheel_y(s)); };
   const auto consider = [&](double s) {
     const double g = gap.value(s);
-    const bool equal = std::abs(g - best_gap) <= kEqual;
-    if (equal ? std::abs(gap.wheel_y(s)) < std::abs(gap.wheel_y(best_s)) : g < best_gap) {
+    const bool equal = std::abs(g - best_gap) <= kEqual + held.within;
+    if (equal ? off(s) < off(best_s) : g < best_gap) {
       best_s = s;
       best_gap = g;
     }
   };
   const std::size_t last = samples.s.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
-    if (samples.gap[i] > lowest + kCandidate) continue;
+    if (samples.gap[i] > lowest + candidate) continue;
     const double before = samples.gap[i == 0 ? 0 : i - 1], after = samples.gap[i == last ? last : i + 1];
     if (samples.gap[i] > before || samples.gap[i] > after) continue;
     if (i == 0 || i == last)
@@ -348,7 +350,7 @@ double yaw_creepage(const RigidContact& contact) {
   return 0.0 - (contact.roll == 0 ? std::tan(contact.yaw) / std::cos(contact.angle) : lateral_motion(contact));
 }
 
-RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
+RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const HeldPlace& held) {
   const double offset_y = lateral_offset(wheel, rail, track);
   const Gap gap(wheel, rail, track, offset_y);
   const auto searched = std::make_shared<const GapSamples>(sample_overlap(gap, rail));
@@ -357,7 +359,7 @@ RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackG
     throw CaseError(fmt::format("{}: the wheel misses the rail; its tape circle stands {:.1f} mm from the rail's axis",
                                 pair_name(wheel, rail), 1e3 * offset_y),
                     "check lateral_shift, gauge and back_to_back");
-  const double s = first_contact(gap, samples);
+  const double s = first_contact(gap, samples, held);
   if (s - samples.s.front() < kSearchStep || samples.s.back() - s < kSearchStep)
     throw CaseError(fmt::format("{}: the contact lies at the end of a profile, at wheel y = {:.2f} mm",
                                 pair_name(wheel, rail), 1e3 * gap.wheel_y(s)),

@@ -74,6 +74,12 @@ Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point);
 /// the gauge side. Throws CaseError if its profile ends above that.
 double gauge_face_y(const Profile& rail, const TrackGeometry& track);
 
+/// A place on the rail that a search keeps to: of gaps that are equal within so much the nearest one is taken. A wheel
+/// that may touch in two places then does not change between them while its load or roll is sought.
+struct HeldPlace {
+  double rail_s = 0, within = 0;  ///< m; within 0: none is held
+};
+
 /// Lowers the wheel vertically until it touches: the smallest vertical gap over the rail's whole running surface, found
 /// to 1e-9 m where the contact is a single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. The
 /// wheel is turned by the yaw psi about the vertical through the middle of its tape circle; the contact, at the angle
@@ -84,7 +90,8 @@ double gauge_face_y(const Profile& rail, const TrackGeometry& track);
 /// has neither flange nor gauge face: with one in the pair the tape circle stands over the rail's axis, moved by
 /// lateral_shift. Throws CaseError if the wheel misses the rail, touches at the end of a profile, or the rail's profile
 /// ends above the gauge depth.
-RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track);
+RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                         const HeldPlace& held = {});
 
 /// Where the wheel touches if it is lowered further, through the rail: the lowest places of the vertical gap besides
 /// `first` (of place_wheel) whose gap is at most `descent` [m], nearest first. Each is a contact of the lowered wheel:

@@ -152,6 +152,23 @@ TEST(Wheelset, StatesOfARunAllHaveAnAnswer) {
   RecordProperty("solutions", solutions);
 }
 
+// S1002 on UIC60 near the middle of the track: 0.8 urad of roll move the place of the first contact by 10 mm.
+TEST(Wheelset, AWheelThatChangesItsPlaceBearsItsLoad) {
+  Set set(
+      "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\nwheel_radius = \"460 mm\"\n"
+      "[drive]\nfriction_coefficient = 0.35\n");
+  ASSERT_NE(set.handle, nullptr) << set.error.message;
+  rs_wheelset_state state = loaded(2.2376e-4, 1.19695e-4);
+  state.load = 220e3;
+  state.speed = 22;
+  state.y_rate = 2.62344e-3;
+  state.yaw_rate = -4.318513e-3;
+  state.pitch_rate = -4.940123e-3;
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  EXPECT_NEAR(set.forces.force[2], 220e3, 22);
+  EXPECT_NEAR(set.forces.moment[0], 0, 22);
+}
+
 /// Rates of force and moment, by y and yaw and by their rates, at rest in the middle of the track.
 struct Linear {
   double force[4], moment[4];
