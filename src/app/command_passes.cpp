@@ -30,15 +30,6 @@ void require_stationary(const PassesOptions& options) {
                     "take it out, or add --engine fem");
 }
 
-PassGridOptions grid_of(const PassesOptions& options) {
-  PassGridOptions grid;
-  if (options.patch_cells > 0) grid.cells = options.patch_cells;
-  if (options.patch_rows > 0) grid.rows = options.patch_rows;
-  if (!options.first_row.empty()) grid.first_row = length_of("--first-row", options.first_row);
-  grid.window = options.window;
-  return grid;
-}
-
 PassOrder order_of(const CommandOptions& options, const LoadedCase& loaded) {
   PassOrder order;
   static_cast<JobOrder&>(order) = job_order_of(options, loaded, "-passes", options.passes.resume);
@@ -54,11 +45,6 @@ ExitCode command_rolled_passes(const CommandOptions& options) {
   own.overrides.emplace_back("run.plasticity=true");
   own.overrides.emplace_back("run.rolling=true");
   LoadedCase loaded = load_case_of(own, CaseUse::yielding);
-  if (grid_of(options.passes) != PassGridOptions{})
-    throw CaseError("--patch-cells, --patch-rows, --first-row, --window: the grid of the stationary method",
-                    "take them out, and give mesh.element_size, or --engine bem");
-  if (loaded.spec.passes.jump != PassJump::off)
-    throw CaseError("passes.jump = \"auto\": rolled passes are not jumped over", "take it out, or add --engine bem");
   require_finite_elements(loaded);
   PassOrder order = order_of(options, loaded);
   order.roll_length = roll_length(options.passes);
@@ -72,7 +58,6 @@ ExitCode command_passes(const CommandOptions& options) {
   LoadedCase loaded = load_half_space_case_of(options, CaseUse::yielding);
   PassOrder order = order_of(options, loaded);
   order.cell = cell_size(options.cell);
-  order.grid = grid_of(options.passes);
   return code_of(passes_in_folder(std::move(loaded), order, control_by_signals()).end);
 }
 
@@ -88,17 +73,6 @@ void declare_passes(CLI::App& sub, CommandOptions& options) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   sub.add_flag("--resume", options.passes.resume, "Go on with the passes of the folder: the same bits as in one go");
-  sub.add_option("--patch-cells", options.passes.patch_cells,
-                 "bem: cells of the grid of plastic strain over each half-axis of the patch (default: 6)")
-      ->check(CLI::Range(2, 64));
-  sub.add_option("--patch-rows", options.passes.patch_rows, "bem: its rows over the shorter half-axis (default: 8)")
-      ->check(CLI::Range(2.0, 128.0));
-  sub.add_option(
-      "--first-row", options.passes.first_row,
-      "bem: thickness of its row at the surface; those below grow by a quarter each (default: as the others)");
-  sub.add_option("--window", options.passes.window,
-                 "bem: half-lengths of the patch behind the load where flow is followed (default: 4; line contact: 6)")
-      ->check(CLI::Range(2.0, 100.0));
   add_no_report(sub, options);
   sub.add_option("--checkpoint-every", options.passes.checkpoint_every,
                  "fem: save the pass under way this often (default: \"10 min\"; 0: only when stopped)");

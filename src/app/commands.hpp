@@ -71,10 +71,6 @@ struct PassesOptions {
   std::string engine = "bem";               ///< --engine
   int passes = 20;                          ///< --passes, since the first one
   bool resume = false;                      ///< --resume
-  int patch_cells = 0;                      ///< --patch-cells, 0: chosen; bem
-  double patch_rows = 0;                    ///< --patch-rows, 0: chosen; bem
-  std::string first_row;                    ///< --first-row: a length; empty: as the others; bem
-  double window = 0;                        ///< --window, half-lengths, 0: chosen; bem
   std::string checkpoint_every = "10 min";  ///< --checkpoint-every: a wall time; fem
   std::string roll_length;                  ///< --roll-length: a length; empty: chosen; fem
   std::string wheels = "new";               ///< --wheels; fem

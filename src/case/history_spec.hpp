@@ -67,6 +67,12 @@ struct PassesSpec {
   std::optional<double> ductility;            ///< net plastic strain that the material bears
   PassJump jump = PassJump::off;
   double jump_tolerance = 0.02;  ///< of the rates after a jump
+  // Grid of plastic strain (steady/steady_grid.hpp): errors of residual stress are some percent at 6 cells, and fall
+  // with their square.
+  int patch_cells = 6;              ///< over each half-axis of the patch
+  double patch_rows = 8;            ///< over its shorter half-axis
+  std::optional<double> first_row;  ///< m, at the surface; below it rows grow by a quarter each; not given: as those
+  std::optional<double> window;     ///< half-lengths behind the load where flow is followed; not given: by the contact
 };
 
 }  // namespace railstrata

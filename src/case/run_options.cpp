@@ -139,7 +139,16 @@ OptionTable passes_table() {
        option("jump_tolerance", at<&C::passes, &P::jump_tolerance>,
               "Of the net strain and of the accumulated strain of a pass after a jump, against those expected", kNumber,
               above(0, 0.5))
-           .where(jumps)}};
+           .where(jumps),
+       option("patch_cells", at<&C::passes, &P::patch_cells>,
+              "Cells of the grid of plastic strain over each half-axis of the patch", kNumber, {2, 64}),
+       option("patch_rows", at<&C::passes, &P::patch_rows>, "Its rows over the shorter half-axis", kNumber, {2, 128}),
+       option("first_row", at<&C::passes, &P::first_row>,
+              "Thickness of its row at the surface; those below grow by a quarter each; not given: as the others",
+              kLength, above(0, 0.1)),
+       option("window", at<&C::passes, &P::window>,
+              "Half-lengths of the patch behind the load where flow is followed; not given: 4, of a line contact 6",
+              kNumber, {2, 100})}};
 }
 
 OptionTable output_table() {

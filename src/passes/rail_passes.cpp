@@ -90,25 +90,25 @@ std::vector<double> thicknesses(const LayeredHalfSpace& body, double deepest, do
   return out;
 }
 
-SteadyGrid plan_grid(const Footprint& f, const PassGridOptions& options, double farthest) {
+SteadyGrid plan_grid(const Footprint& f, const PassesSpec& passes) {
   const double a = f.x.half();
   SteadyGrid g;
-  g.dx = a / options.cells;
+  g.dx = a / passes.patch_cells;
   if (f.line) {  // fields of a line die away as 1/distance
-    const double window = options.window > 0 ? options.window : 6;
-    g.nx = static_cast<int>(std::lround((42 + window) * options.cells));
+    const double window = passes.window.value_or(6);
+    g.nx = static_cast<int>(std::lround((42 + window) * passes.patch_cells));
     g.front = 10 * a;
     g.active = window * a;
     g.hold = 6 * a;
     return g;
   }
-  const double window = options.window > 0 ? options.window : 4;
-  g.nx = static_cast<int>(std::lround((14 + window) * options.cells));
+  const double window = passes.window.value_or(4);
+  g.nx = static_cast<int>(std::lround((14 + window) * passes.patch_cells));
   g.front = 4 * a;
   g.active = window * a;
   g.hold = 2 * a;
-  g.dy = f.y.half() / options.cells;
-  g.ny = 12 * options.cells + 2 * static_cast<int>(std::ceil(farthest / g.dy));
+  g.dy = f.y.half() / passes.patch_cells;
+  g.ny = 12 * passes.patch_cells + 2 * static_cast<int>(std::ceil(farthest_pass(passes) / g.dy));
   g.y0 = f.y.middle() - 0.5 * (g.ny - 1) * g.dy;
   return g;
 }
@@ -275,7 +275,7 @@ class RowsOfContact {
 
 }  // namespace
 
-RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, const PassGridOptions& options) {
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions) {
   const BemResult& result = solutions.front();
   const Rows rows(spec, result.rail);
   const Footprint f = footprint_of(result);
@@ -283,9 +283,9 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
   RailPasses out;
   out.notes = rows.notes();
   out.middle_x = f.x.middle();
-  out.grid = plan_grid(f, options, farthest_pass(spec.passes));
-  const std::vector<double> all =
-      thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / options.rows, options.first_row);
+  out.grid = plan_grid(f, spec.passes);
+  const std::vector<double> all = thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / spec.passes.patch_rows,
+                                              spec.passes.first_row.value_or(0));
   RowsOfContact contact(solutions, f, out.grid);
   const Subsurface interior = rail_interior(result);
   StressHistory section;  // rows alone, for what the process left in them

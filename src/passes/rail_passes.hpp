@@ -15,15 +15,6 @@
 
 namespace railstrata {
 
-/// Cells of the grid over the patch: the errors of residual stress are some percent at 6, and fall with their square.
-struct PassGridOptions {
-  int cells = 6;         ///< over each half-axis of the patch
-  double rows = 8;       ///< over the shorter half-axis
-  double first_row = 0;  ///< m, at the surface; below it rows grow by a quarter each up to those; 0: as the others
-  double window = 0;     ///< half-lengths behind the load where flow is followed; 0: 4, of a line contact 6
-  bool operator==(const PassGridOptions&) const = default;
-};
-
 /// A rail ready for passes.
 struct RailPasses {
   SteadyGrid grid;        ///< x from the middle of the patch, y in the contact frame
@@ -38,8 +29,7 @@ struct RailPasses {
 
 /// solutions: of cases_of_tractions (passes/pass_plan.hpp), the grid is that of the first one's patch, as wide as the
 /// wheels wander. Throws CaseError: no strength of rail or layers, several patches, wheels that wander too far.
-RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions,
-                       const PassGridOptions& options = {});
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions);
 
 /// The body of it, and the strain of the contact of a solution, so many columns to the side.
 SteadyBody body_of(const RailPasses& passes);

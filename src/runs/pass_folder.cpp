@@ -63,7 +63,7 @@ class SteadyPasses : public PassJob {
       traction_.push_back(c.F_x / c.F_z);
       solutions.push_back(std::move(solution.result));
     }
-    return rail_passes(loaded_.spec, solutions, wanted_.grid);
+    return rail_passes(loaded_.spec, solutions);
   }
 
   /// Collects failed checks and warnings of the contact that all passes use, each once.
@@ -92,10 +92,7 @@ class SteadyPasses : public PassJob {
   }
 
   std::string identity() const override {
-    std::string all = fmt::format("{} {} {} {}", CaseJob::identity(), rail_.grid.nx, rail_.grid.ny, wanted_.cell);
-    const PassGridOptions& g = wanted_.grid;
-    if (g != PassGridOptions{}) all += fmt::format(" grid {} {} {} {}", g.cells, g.rows, g.first_row, g.window);
-    return all;
+    return fmt::format("{} {} {} {}", CaseJob::identity(), rail_.grid.nx, rail_.grid.ny, wanted_.cell);
   }
 
   void begin() override {
@@ -259,7 +256,7 @@ class SteadyPasses : public PassJob {
       late_ = true;
       control_.warn(
           "pass {}: {:.2g} % of the largest flow comes in the last quarter of the window behind the load: give "
-          "a longer --window",
+          "a longer passes.window",
           row.pass, 100 * row.late_flow);
     }
     if (!row.converged) {

@@ -4,14 +4,12 @@
 #include "bem/cell_range.hpp"
 #include "case/case_file.hpp"
 #include "jobs/job.hpp"
-#include "passes/rail_passes.hpp"
 
 namespace railstrata {
 
 struct PassOrder : JobOrder {
   int passes = 20;              ///< since the first one
   double cell = kDefaultCell;   ///< m, of the half-spaces; stationary method
-  PassGridOptions grid;         ///< stationary method
   double roll_length = 0;       ///< m, 0: chosen; finite elements
   double checkpoint_every = 0;  ///< s of wall time, 0: never; finite elements
 };

@@ -98,14 +98,17 @@ class Passes(FromOutside):
     def test_the_grid_has_the_rows_and_the_window_that_are_asked_for(self):
         few = [*strength(400), "--passes", 1, "--no-report"]
         usual = json.loads((self.passes("usual", *few) / "passes.json").read_text())["grid"]
-        fine = json.loads((self.passes("fine", *few, "--patch-cells", 4, "--first-row", "0.05 mm", "--window",
-                                       6) / "passes.json").read_text())["grid"]
+        keys = ("patch_cells=4", 'first_row="0.05 mm"', "window=6")
+        grid = [word for key in keys for word in ("--set", f"passes.{key}")]
+        fine = json.loads((self.passes("fine", *few, *grid) / "passes.json").read_text())["grid"]
         self.assertEqual(usual["stations"], 18 * 6)
         self.assertEqual(fine["stations"], 20 * 4)
         self.assertLessEqual(fine["row_m"], 0.05e-3 * (1 + 1e-9))
         self.assertGreater(fine["rows"], usual["rows"])
-        self.refused(2, ["passes", BASE, *few, "--engine", "fem", "--window", 6, "--out", self.folder / "none"],
-                     "stationary method")
+        self.refused(2, ["passes", BASE, *few, "--engine", "fem", "--set", "passes.window=6", "--out",
+                         self.folder / "none"], "passes.window", "stationary method")
+        self.refused(2, ["passes", BASE, *few, "--set", "passes.patch_cells=1", "--out", self.folder / "none"],
+                     "passes.patch_cells", "2")
 
     @slow
     def test_wheels_that_wander_and_pull_in_turn_run_where_the_case_says_and_resume_to_the_same_bits(self):
