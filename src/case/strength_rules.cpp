@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "case/case_spec.hpp"
@@ -55,6 +57,7 @@ class StrengthRules {
     check_pair();
     check_against_tensile();
     check_against_hardness();
+    check_strain_life();
   }
 
   /// Tables of a layer go down to its bottom.
@@ -134,6 +137,21 @@ class StrengthRules {
                fmt::format(": softens by saturation x rate = {}, faster than the material unloads, 3 G = {}",
                            pressure_text(-h.saturation * h.rate), pressure_text(3 * shear)),
                "lower the rate");
+  }
+
+  /// One number of a strain-life curve and an estimate of the others would be no curve.
+  void check_strain_life() const {
+    const FatigueSpec& f = s_.fatigue;
+    const std::pair<const char*, bool> given[] = {
+        {"fatigue_strength_coefficient", f.strength_coefficient.has_value()},
+        {"fatigue_strength_exponent", f.strength_exponent.has_value()},
+        {"fatigue_ductility_coefficient", f.ductility_coefficient.has_value()},
+        {"fatigue_ductility_exponent", f.ductility_exponent.has_value()}};
+    const auto* const some = std::find_if(std::begin(given), std::end(given), [](const auto& k) { return k.second; });
+    const auto* const none = std::find_if(std::begin(given), std::end(given), [](const auto& k) { return !k.second; });
+    if (some != std::end(given) && none != std::end(given))
+      complain(some->first, fmt::format(": the strain-life curve needs {} too", none->first),
+               "give all four numbers of the curve, or none: then it is estimated from the tensile strength");
   }
 
   void check_elastic() const {

@@ -46,6 +46,11 @@ struct FatigueSpec {
   std::optional<double> dang_van;         ///< weight of the hydrostatic stress
   std::optional<double> fatemi_socie;     ///< k of the term k sigma_n / yield strength
   std::optional<double> jiang_sehitoglu;  ///< J
+  // Of the strain-life curve (damage/strain_life.hpp): all four or none.
+  std::optional<double> strength_coefficient;   ///< s_f, Pa
+  std::optional<double> strength_exponent;      ///< b, negative
+  std::optional<double> ductility_coefficient;  ///< e_f
+  std::optional<double> ductility_exponent;     ///< c, negative
 };
 
 struct HeatSpec {

@@ -11,6 +11,7 @@
 #include "core/faults.hpp"
 #include "material/elastic.hpp"
 #include "material/hardening_sets.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 namespace {
@@ -173,6 +174,13 @@ double MaterialStrength::yield(double depth) const {
   return std::isnan(vickers) ? kUnknown : yield_from_vickers(vickers, s_.yield_to_tensile);
 }
 
+double MaterialStrength::tensile() const {
+  if (s_.tensile_strength) return *s_.tensile_strength;
+  if (grade_ && grade_->tensile.known()) return grade_->tensile.low;
+  const double vickers = hardness(0);
+  return std::isnan(vickers) ? kUnknown : tensile_from_vickers(vickers);
+}
+
 double MaterialStrength::end() const {
   const std::vector<DepthPoint>& table = !s_.strength_table.empty() ? s_.strength_table : s_.hardness_table;
   return table.empty() ? std::numeric_limits<double>::infinity() : table.back().depth;
@@ -187,6 +195,24 @@ std::string MaterialStrength::note() const {
     return fmt::format("yield strength of {}: estimated from hardness as {:g} x 3.2 MPa x HV", name_,
                        s_.yield_to_tensile);
   return {};
+}
+
+std::optional<StrainLifeOfMaterial> strain_life_of(const MaterialSpec& material, const std::string& name,
+                                                   const std::string& key) {
+  if (const FatigueSpec& f = material.strength.fatigue; f.strength_coefficient) {
+    const StrainLife given{*f.strength_coefficient, f.strength_exponent.value(), f.ductility_coefficient.value(),
+                           f.ductility_exponent.value()};
+    return StrainLifeOfMaterial{given, given, {}};
+  }
+  const double tensile = MaterialStrength(material.strength, name, key).tensile();
+  if (std::isnan(tensile)) return std::nullopt;
+  const std::optional<StrainLife> law = uniform_material_law(tensile, material.young);
+  if (!law) return std::nullopt;
+  return StrainLifeOfMaterial{
+      *law, median_strain_life(tensile),
+      fmt::format("strain-life curve of {}: two estimates from a tensile strength of {:.0f} MPa "
+                  "({}.fatigue_strength_coefficient and its neighbours: that of a test)",
+                  name, kToMega * tensile, key)};
 }
 
 bool says_strength(const StrengthSpec& s) {

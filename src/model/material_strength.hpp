@@ -6,6 +6,7 @@
 
 #include "case/layer_spec.hpp"
 #include "damage/grades.hpp"
+#include "damage/strain_life.hpp"
 #include "material/material_path.hpp"
 
 namespace railstrata {
@@ -19,6 +20,12 @@ double at_depth(const std::vector<StressPoint>& rows, double depth, double Stres
 /// there; nothing if the case does not give it.
 StressPoint process_stress(const StrengthSpec& strength, double depth, const std::string& key);
 
+/// The strain-life curve of a material: given, with `other` the same, or the two estimates from its tensile strength.
+struct StrainLifeOfMaterial {
+  StrainLife life, other;
+  std::string note;  ///< what it rests on; empty if it was given
+};
+
 /// Depths count from the top of the material: of rail and wheel the running surface, of a layer its own top.
 class MaterialStrength {
  public:
@@ -30,6 +37,9 @@ class MaterialStrength {
   double yield(double depth) const;
   /// Vickers; NaN where the case does not give it.
   double hardness(double depth) const;
+  /// Pa, at the top: given, a grade's, else an estimate from hardness, in this order; NaN where the case does not give
+  /// it.
+  double tensile() const;
   /// m, the depth where the strength's table ends; infinite without one.
   double end() const;
   /// Source of an estimated strength; empty if it was given or is unknown.
@@ -40,6 +50,10 @@ class MaterialStrength {
   std::string name_, key_;
   std::optional<Grade> grade_;
 };
+
+/// Nothing where the case gives neither a curve nor a tensile strength that the estimates hold for.
+std::optional<StrainLifeOfMaterial> strain_life_of(const MaterialSpec& material, const std::string& name,
+                                                   const std::string& key);
 
 /// Whether a case gives a material's strength.
 bool says_strength(const StrengthSpec& strength);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "damage/low_cycle.hpp"
@@ -30,7 +31,15 @@ std::string roughly(double passes) {
 }
 
 std::string life_text(const PassProgress& s) {
-  if (!s.ductility) return "passes.ductility would give its life by Coffin and Manson";
+  if (s.strain_life && (!s.ductility || s.strain_life->note.empty())) {
+    const double amplitude = s.last.largest.accumulated / 4;  // damage/low_cycle.hpp
+    const auto [fewest, most] = std::minmax({cycles_of_plastic_strain(s.strain_life->life, amplitude),
+                                             cycles_of_plastic_strain(s.strain_life->other, amplitude)});
+    const std::string range = fewest == most ? "" : roughly(fewest) + " to ";
+    return fmt::format("{}{} passes until a crack by Coffin and Manson, {}", range, roughly(most),
+                       s.strain_life->note.empty() ? "by the strain-life curve of the case" : s.strain_life->note);
+  }
+  if (!s.ductility) return "a grade, a tensile_strength or passes.ductility would give its life by Coffin and Manson";
   const LowCycleLife life = low_cycle_life(s.last.largest.accumulated, *s.ductility);
   return fmt::format("{} to {} passes until a crack by Coffin and Manson, ε_f = passes.ductility = {}",
                      roughly(life.fewest), roughly(life.most), *s.ductility);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "material/plastic.hpp"
+#include "model/material_strength.hpp"
 #include "passes/rail_passes.hpp"
 
 namespace railstrata {
@@ -15,6 +16,7 @@ struct PassProgress {
   bool ever_yielded = false;
   int first_quiet = 0;                ///< the pass from which on nothing flowed
   std::optional<double> ductility{};  ///< passes.ductility of the case, equivalent strain
+  std::optional<StrainLifeOfMaterial> strain_life{};
 };
 
 /// One sentence: "Ratchets: 3.1e-04 net strain per pass at 2.1 mm depth, the same from pass to pass."; a second one

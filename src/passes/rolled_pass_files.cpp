@@ -175,6 +175,7 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   out["engine"] = "fem";
   PassProgress progress = progress_of(verdict, series.strains, pass.row);
   progress.ductility = spec.passes.ductility;
+  progress.strain_life = strain_life_of(spec.rail_material, "rail", "material.rail");
   const std::string doubt = unevenness_text(pass.uneven);
   out["verdict"] = describe(progress) + (doubt.empty() ? "" : fmt::format(" Not to be relied on: {}.", doubt));
   out["doubts"] = doubt.empty() ? nlohmann::ordered_json::array() : nlohmann::ordered_json::array({doubt});

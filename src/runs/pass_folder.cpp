@@ -297,6 +297,7 @@ class SteadyPasses : public PassJob {
     const std::size_t governing = way.points.front().point / static_cast<std::size_t>(rail_.grid.ny);
     PassProgress progress = progress_of(verdict_of(series_), series_.strains, last_row_);
     progress.ductility = loaded_.spec.passes.ductility;
+    progress.strain_life = strain_life_of(loaded_.spec.rail_material, "rail", "material.rail");
     answer_.verdict = verdict_ = describe(progress);
     answer_.law = describe_law(rail_.rows[governing].law);
     answer_.ductility = loaded_.spec.passes.ductility;

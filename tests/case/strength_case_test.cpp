@@ -143,6 +143,12 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
        "hardness_table = [[\"0 mm\", \"400 HV\"], [\"10 mm\", \"200 HV\"]]\n",
        "a.toml:3:18: material.rail.hardness_table = 200 HV at a depth of 10 mm: does not fit to yield_strength = 0.9 "
        "GPa"},
+      {"[material.rail]\nfatigue_strength_coefficient = \"1320 MPa\"\nfatigue_strength_exponent = -0.09\n"
+       "fatigue_ductility_exponent = -0.6\n",
+       "a.toml:2:32: material.rail.fatigue_strength_coefficient: the strain-life curve needs "
+       "fatigue_ductility_coefficient too"},
+      {"[material.rail]\nfatigue_strength_exponent = 0.09\n",
+       "a.toml:2:29: material.rail.fatigue_strength_exponent = 0.09: must be between -0.5 and -0.01"},
       {"[material.rail]\nhardness = \"-300 HV\"\n",
        "a.toml:2:12: material.rail.hardness = \"-300 HV\": must be between 50 HV and 2000 HV"},
       {"[material.rail]\nyield_strength = \"500 GPa\"\n",

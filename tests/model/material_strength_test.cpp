@@ -81,5 +81,34 @@ TEST(PlasticLaw, EstimatedIsOfTheTensileStrengthElseOfTheHardness) {
   EXPECT_NEAR(law_of(m)->at(0).plastic.yield, of_tensile.at(0).plastic.yield, 1) << "3.2 MPa times HV";
 }
 
+std::optional<StrainLifeOfMaterial> life_of(const StrengthSpec& s) {
+  MaterialSpec m;
+  m.strength = s;
+  return strain_life_of(m, "rail", "material.rail");
+}
+
+TEST(StrainLifeOfMaterial, IsGivenElseEstimatedFromTheTensileStrengthOfTheMaterialItsGradeOrItsHardness) {
+  StrengthSpec s;
+  EXPECT_FALSE(life_of(s)) << "nothing known";
+  s.hardness = 275;  // 880 MPa
+  EXPECT_NEAR(life_of(s)->life.strength, 1.5 * 880e6, 1);
+  s.grade = "R350HT";
+  EXPECT_EQ(life_of(s)->life.strength, 1.5 * 1175e6);
+  s.tensile_strength = 1200e6;
+  EXPECT_EQ(life_of(s)->life.strength, 1.5 * 1200e6);
+  EXPECT_EQ(life_of(s)->other.ductility, 0.45) << "the second estimate";
+  EXPECT_NE(life_of(s)->note.find("two estimates from a tensile strength of 1200 MPa"), std::string::npos);
+  s.fatigue.strength_coefficient = 1500e6;
+  s.fatigue.strength_exponent = -0.1;
+  s.fatigue.ductility_coefficient = 0.3;
+  s.fatigue.ductility_exponent = -0.55;
+  EXPECT_EQ(life_of(s)->life.ductility, 0.3);
+  EXPECT_EQ(life_of(s)->other.ductility, 0.3) << "given: no range";
+  EXPECT_EQ(life_of(s)->note, "");
+  StrengthSpec martensite;
+  martensite.tensile_strength = 2400e6;
+  EXPECT_FALSE(life_of(martensite)) << "beyond the uniform material law";
+}
+
 }  // namespace
 }  // namespace railstrata

@@ -26,7 +26,7 @@ TEST(PassText, EachClassIsOneSentenceWithItsNumberAndPlace) {
   EXPECT_EQ(describe(standing(PassClass::elastic_shakedown)), "Shakes down: from pass 5 on nothing flows.");
   EXPECT_EQ(describe(standing(PassClass::plastic_shakedown)),
             "Closed cycles (plastic shakedown): 2.8e-3 plastic strain in every pass, 3.1e-4 of it stays: low-cycle "
-            "fatigue, passes.ductility would give its life by Coffin and Manson.");
+            "fatigue, a grade, a tensile_strength or passes.ductility would give its life by Coffin and Manson.");
   EXPECT_EQ(describe(standing(PassClass::transient)),
             "Still settling: 3.1e-4 net strain in pass 12 at 2.1 mm depth, falling as the pass to the power of -0.50; "
             "more passes will show.");
@@ -44,6 +44,20 @@ TEST(PassText, ClosedCyclesHaveALifeByCoffinAndManson) {
   s.ductility = 0.1;  // (2 N) = 100^2 and 100^(1/0.7)
   EXPECT_NE(describe(s).find("360 to 5000 passes until a crack"), std::string::npos) << describe(s);
   EXPECT_EQ(low_cycle_life(0.5, 0.1).most, 0) << "the first reversal is too much";
+}
+
+// Amplitude 1e-3 of e_f = 0.1: 2 N = 100^(1/0.5) by one curve, 100^(1/0.7) by the other.
+TEST(PassText, ACurveThatIsGivenGoesBeforeDuctilityAndAnEstimateAfterIt) {
+  PassProgress s = standing(PassClass::plastic_shakedown);
+  s.last.largest.accumulated = 4e-3;
+  s.strain_life = StrainLifeOfMaterial{{1e9, -0.1, 0.1, -0.5}, {1e9, -0.1, 0.1, -0.7}, "estimates"};
+  EXPECT_NE(describe(s).find("360 to 5000 passes until a crack by Coffin and Manson, estimates"), std::string::npos)
+      << describe(s);
+  s.ductility = 0.05;
+  EXPECT_NE(describe(s).find("passes.ductility = 0.05"), std::string::npos) << describe(s);
+  s.strain_life->other = s.strain_life->life;
+  s.strain_life->note = "";
+  EXPECT_NE(describe(s).find("fatigue, 5000 passes until a crack"), std::string::npos) << describe(s);
 }
 
 TEST(PassText, LargeStrainFollowsTheClass) {
