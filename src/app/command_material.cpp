@@ -147,10 +147,12 @@ ExitCode drive(const CommandOptions& options, const LoadedCase& loaded) {
 ExitCode calibrate(const CommandOptions& options, const LoadedCase& loaded) {
   const MaterialOptions& o = options.material;
   const ChosenMaterial which = choose_material(loaded, o.of);
-  MaterialTests tests{o.calibrate, o.cyclic_curve, o.monotonic, o.backstresses};
-  for (fs::path* file : {&tests.loop, &tests.amplitudes, &tests.monotonic})
+  MaterialTests tests{o.calibrate, o.cyclic_curve, o.monotonic, o.shear_yield, o.backstresses};
+  for (fs::path* file : {&tests.loop, &tests.amplitudes, &tests.monotonic, &tests.shear_yield})
     if (!file->empty()) *file = shipped_unless_there(*file);
-  const fs::path source = tests.loop.empty() ? tests.amplitudes : tests.loop;
+  const fs::path source = !tests.shear_yield.empty() ? tests.shear_yield
+                          : tests.loop.empty()       ? tests.amplitudes
+                                                     : tests.loop;
   const std::string head = "# Fitted by RailStrata";
   const fs::path out = output_of(options, source.stem().string() + "-fit", ".toml", head);
   answer_interrupt_with("\nstopped: nothing was written\n");
@@ -185,13 +187,16 @@ ExitCode calibrate(const CommandOptions& options, const LoadedCase& loaded) {
 
 ExitCode command_material(const CommandOptions& options) {
   const MaterialOptions& o = options.material;
-  const bool path = !o.strain.empty() || !o.stress.empty(), fit = !o.calibrate.empty() || !o.cyclic_curve.empty();
+  const bool path = !o.strain.empty() || !o.stress.empty(),
+             fit = !o.calibrate.empty() || !o.cyclic_curve.empty() || !o.shear_yield.empty();
   if (path == fit)
     throw CaseError(
         path ? "a path to drive and a test to fit are given" : "neither a path nor a test is given",
-        "give one of --strain PATH.csv, --stress PATH.csv, --calibrate LOOP.csv and --cyclic-curve CURVE.csv");
-  if (path && !o.monotonic.empty())
-    throw CaseError("--monotonic belongs to a fit", "give --calibrate LOOP.csv or --cyclic-curve CURVE.csv with it");
+        "give one of --strain PATH.csv, --stress PATH.csv, --calibrate LOOP.csv, --cyclic-curve CURVE.csv and "
+        "--shear-yield POINTS.csv");
+  if ((path || !o.shear_yield.empty()) && !o.monotonic.empty())
+    throw CaseError("--monotonic belongs to a fit to cycles",
+                    "give --calibrate LOOP.csv or --cyclic-curve CURVE.csv with it");
   // A case's notes concern its contact, which is not computed here.
   const LoadedCase loaded = load_case(card_of(options), options.overrides);
   return path ? drive(options, loaded) : calibrate(options, loaded);
@@ -215,6 +220,11 @@ void declare_material(CLI::App& sub, CommandOptions& options) {
   sub.add_option("--cyclic-curve", m.cyclic_curve,
                  "Fit it to amplitudes of stabilised cycles: CSV with strain_amplitude, stress_amplitude_MPa")
       ->excludes(loop);
+  sub.add_option("--shear-yield", m.shear_yield,
+                 "Fit isotropic hardening to yield stresses of sheared steel: CSV with pss (plastic shear strain), "
+                 "sys_MPa (shear yield stress)")
+      ->excludes(loop)
+      ->excludes("--cyclic-curve");
   sub.add_option("--monotonic", m.monotonic,
                  "With a fit: a tensile curve, for the isotropic part: CSV with strain, stress_MPa");
   sub.add_option("--backstresses", m.backstresses,

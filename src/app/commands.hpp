@@ -61,6 +61,7 @@ struct ShakedownOptions {
 struct MaterialOptions {
   std::filesystem::path strain, stress;                      ///< --strain, --stress: a path
   std::filesystem::path calibrate, cyclic_curve, monotonic;  ///< --calibrate, --cyclic-curve, --monotonic: tests
+  std::filesystem::path shear_yield;                         ///< --shear-yield: points of strained steel
   int increments = 100;                                      ///< --increments
   int cycles = 1;                                            ///< --cycles
   int backstresses = 0;                                      ///< --backstresses; 0: as many as lower the error

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
+#include "case/option_slots.hpp"
 #include "case/unit_table.hpp"
 #include "core/faults.hpp"
 
@@ -135,6 +137,27 @@ std::vector<std::string> notes_of(const UnitTable& table, const std::filesystem:
 }
 
 }  // namespace
+
+std::vector<CurvePoint> read_shear_yield(const std::string& text, const std::filesystem::path& file) {
+  const std::array<Option, 2> options{Option{"pss", nullptr, "", dimension::kNumber, {0, 50}},
+                                      Option{"sys", nullptr, "", dimension::kPressure, above(0, 2e10)}};
+  UnitTableForm form{{{&options[0], "plastic_shear_strain"}, {&options[1], "shear_yield_stress"}},
+                     {},
+                     "a table of points",
+                     "pss, sys_MPa"};
+  form.others = true;
+  const UnitTable table = read_unit_table(text, file, form);
+  if (table.columns.size() < options.size())
+    refuse_in_table(file, table.line, "the table needs two columns, pss and sys",
+                    fmt::format("give both, e.g. \"{}\"", form.example));
+  const std::size_t strain = table.columns[0] == &options[0] ? 0 : 1;
+  std::vector<CurvePoint> out;
+  for (const UnitTable::Row& row : table.rows) {
+    const double pss = row.cells[strain].number.value(), sys = row.cells[1 - strain].number.value();
+    out.push_back({pss / std::numbers::sqrt3, std::numbers::sqrt3 * sys});
+  }
+  return out;
+}
 
 std::vector<CurvePoint> read_test_curve(const std::string& text, const std::filesystem::path& file, TestCurve kind,
                                         double young, std::vector<std::string>* notes) {

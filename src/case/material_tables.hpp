@@ -36,6 +36,10 @@ MaterialPathTable material_path_of(const std::vector<PathColumn>& columns, Presc
 
 enum class TestCurve { curve, amplitudes };
 
+/// Shear yield stresses of strained steel, columns sys and pss (plastic shear strain), as of uniaxial tension: √3 sys
+/// over pss/√3.
+std::vector<CurvePoint> read_shear_yield(const std::string& text, const std::filesystem::path& file);
+
 /// Plastic strain is the total one less the stress over `young` [Pa]. Columns of other words are not read; `notes`
 /// lists them, and reports columns taken as amplitudes although their names do not show it.
 std::vector<CurvePoint> read_test_curve(const std::string& text, const std::filesystem::path& file, TestCurve kind,

@@ -316,6 +316,37 @@ HardeningFit with_isotropic_part(HardeningFit stabilised, const std::vector<Curv
   return stabilised;
 }
 
+HardeningFit fit_yield_stresses(const std::vector<CurvePoint>& points) {
+  std::vector<CurvePoint> strained = points;
+  std::erase_if(strained, [](const CurvePoint& p) { return !(p.plastic_strain > 0); });
+  std::set<double> strains;
+  for (const CurvePoint& point : points) strains.insert(point.plastic_strain);
+  if (points.size() < 4 || strains.size() < 3) throw std::invalid_argument("fewer points than numbers sought");
+  const auto count = static_cast<double>(points.size());
+  const RateBounds bounds = rate_bounds(strained);
+  HardeningFit out;
+  out.error = kInfinity;
+  for (double b = bounds.low; b < bounds.high; b *= 1.02) {
+    double mean_share = 0, mean_stress = 0, product = 0, square = 0;
+    for (const CurvePoint& point : points) {
+      mean_share += std::exp(-b * point.plastic_strain) / count;
+      mean_stress += point.stress / count;
+    }
+    for (const CurvePoint& point : points) {
+      const double share = std::exp(-b * point.plastic_strain) - mean_share;
+      product += share * (point.stress - mean_stress);
+      square += share * share;
+    }
+    const double saturation = -product / square;
+    const PlasticParameters<double> tried{0, mean_stress - saturation * (1 - mean_share), saturation, b, {}, {}};
+    if (!(tried.yield > 0) || !(tried.yield + tried.saturation > 0)) continue;
+    if (const Errors e = errors(tried, points); e.root_mean_square < out.error)
+      out = {tried, 0, e.root_mean_square, e.largest};
+  }
+  if (!(out.error < kInfinity)) throw std::invalid_argument("no yield stress above zero fits the points");
+  return out;
+}
+
 double amplitude_of(const PlasticParameters<double>& p, double plastic_amplitude) {
   double out = p.yield + p.saturation;
   for (int k = 0; k < kMostBackstresses; ++k)

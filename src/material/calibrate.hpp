@@ -51,6 +51,11 @@ struct RateBounds {
 RateBounds rate_bounds(const std::vector<CurvePoint>& monotonic);
 HardeningFit with_isotropic_part(HardeningFit stabilised, const std::vector<CurvePoint>& monotonic);
 
+/// σ_y0, Q and b of yield stresses of steel that was strained before, σ = σ_y0 + Q (1 − e^{−b ε_p}), no backstress: of
+/// a given b linear in σ_y0 + Q and Q, plain least squares; b from the grid of rate_bounds. Strains >= 0, stresses
+/// > 0; throws std::invalid_argument unless four points have three strains and the law keeps a yield stress.
+HardeningFit fit_yield_stresses(const std::vector<CurvePoint>& points);
+
 // Curves of a law, for pictures: uniaxial stress [Pa].
 double amplitude_of(const PlasticParameters<double>& p, double plastic_amplitude);
 double loop_stress(const PlasticParameters<double>& p, double plastic_amplitude, double plastic_strain);

@@ -134,7 +134,25 @@ MaterialFit fit_curves(MaterialCurves curves) {
   return out;
 }
 
+namespace {
+
+MaterialFit fit_shear_yield(const std::filesystem::path& file) {
+  MaterialFit out;
+  out.of_shear_yield = true;
+  out.monotonic = read_shear_yield(file_text(file), file);
+  out.whole = out.stabilised = at_place(file.string(), [&] { return fit_yield_stresses(out.monotonic); });
+  note_rate_at_edge(out.whole.law, out.monotonic, file.string(), out.notes);
+  if (longest(out.monotonic) > kNoClaim)
+    out.notes.push_back(fmt::format(
+        "{}: plastic strain reaches {:.0f} %: the card has the strength of sheared steel, no law of small strains",
+        file.string(), kToPercent * longest(out.monotonic)));
+  return out;
+}
+
+}  // namespace
+
 MaterialFit fit_material(const MaterialTests& tests, double young) {
+  if (!tests.shear_yield.empty()) return fit_shear_yield(tests.shear_yield);
   MaterialCurves curves;
   curves.of_loop = !tests.loop.empty();
   curves.backstresses = tests.backstresses;
@@ -158,6 +176,8 @@ std::vector<std::string> fit_remarks(const MaterialFit& fit, const std::string& 
   if (!monotonic.empty())
     out.push_back(fmt::format("and to {}: error {:.2f} %, {:.2f} % at most", monotonic, kToPercent * fit.whole.error,
                               kToPercent * fit.whole.largest_error));
+  else if (fit.of_shear_yield)
+    out.emplace_back("isotropic hardening alone, of shear yield stresses times the root of 3");
   else
     out.emplace_back("yield_strength is that of the stabilised cycle: a monotonic curve (--monotonic) gives Q and b");
   return out;
@@ -206,16 +226,17 @@ std::string fit_picture(const std::string& title, const MaterialFit& fit, const 
                      {measured("test", fit.cyclic), fitted(-fit.amplitude, fit.amplitude, [&](double e) {
                         return loop_stress(law, fit.amplitude, e);
                       })}});
-  else
+  else if (!fit.of_shear_yield)
     plots.push_back({"plastic strain amplitude [%]",
                      "stress amplitude [MPa]",
                      {measured("test", fit.cyclic),
                       fitted(0, longest(fit.cyclic), [&](double e) { return amplitude_of(law, e); })}});
   if (!fit.monotonic.empty())
-    plots.push_back({"plastic strain [%]",
-                     "stress of monotonic tension [MPa]",
-                     {measured("test", fit.monotonic),
-                      fitted(0, longest(fit.monotonic), [&](double e) { return monotonic_stress(law, e); })}});
+    plots.push_back(
+        {"plastic strain [%]",
+         fit.of_shear_yield ? "yield stress, root of 3 times that in shear [MPa]" : "stress of monotonic tension [MPa]",
+         {measured("test", fit.monotonic),
+          fitted(0, longest(fit.monotonic), [&](double e) { return monotonic_stress(law, e); })}});
   return plots_svg(title, plots, remarks);
 }
 

@@ -13,13 +13,14 @@ namespace railstrata {
 /// names empty: not given.
 struct MaterialTests {
   std::filesystem::path loop, amplitudes, monotonic;
-  int backstresses = 0;  ///< 0: as many as lower the error
+  std::filesystem::path shear_yield;  ///< shear yield stress over plastic shear strain, alone
+  int backstresses = 0;               ///< 0: as many as lower the error
 };
 
 struct MaterialFit {
   HardeningFit stabilised;  ///< of the loop or the amplitudes
   HardeningFit whole;       ///< with the monotonic curve; else the same
-  bool of_loop = false;
+  bool of_loop = false, of_shear_yield = false;
   double amplitude = 0;                       ///< of the loop
   std::vector<CurvePoint> cyclic, monotonic;  ///< what was measured
   std::vector<std::string> notes;             ///< doubts about the tests and the fit

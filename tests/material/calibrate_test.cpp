@@ -138,5 +138,19 @@ TEST(HardeningSets, EverySetSaysHowSureItIsAndAnUnknownNameTheNearest) {
   }
 }
 
+// Points of the law itself; the grid of b is 2 % wide.
+TEST(YieldStresses, OfALawGiveItsNumbersBack) {
+  std::vector<CurvePoint> points;
+  for (const double p : {0.0, 0.05, 0.1, 0.3, 0.6, 1.0, 2.0})
+    points.push_back({p, 420e6 + 480e6 * (1 - std::exp(-3 * p))});
+  const HardeningFit fit = fit_yield_stresses(points);
+  EXPECT_NEAR(fit.law.rate, 3, 0.03);
+  EXPECT_NEAR(fit.law.yield, 420e6, 2e6);
+  EXPECT_NEAR(fit.law.yield + fit.law.saturation, 900e6, 2e6);
+  EXPECT_LT(fit.error, 2e-3);
+  points.resize(3);
+  EXPECT_THROW(fit_yield_stresses(points), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace railstrata

@@ -108,6 +108,15 @@ class Material(FromOutside):
         self.assertLess(fit["error"], 0.005)
         self.assertIn("error", out.read_text(encoding="utf-8"))
 
+    def test_yield_stresses_of_sheared_steel_give_the_law_behind_the_file_back(self):
+        text, err = self.drive(SHIPPED / "r260.toml", "--shear-yield", SHIPPED / "shear_yield.csv", "--json", "--out",
+                               self.folder / "sheared.toml")
+        fit = json.loads(text)
+        self.assertAlmostEqual(fit["yield_strength_Pa"], 420e6, delta=2e6)
+        self.assertAlmostEqual(fit["yield_strength_Pa"] + fit["saturation_Pa"], 900e6, delta=2e6)
+        self.assertAlmostEqual(fit["rate"], 3, delta=0.03)
+        self.assertIn("231 %", err)
+
     def test_ready_sets_say_that_they_are_estimated(self):
         _, err = self.drive(SHIPPED / "r260.toml", "--stress", SHIPPED / "ratchetting.csv", "--out",
                             self.folder / "a.csv")
@@ -140,8 +149,14 @@ class Material(FromOutside):
                 (["--strain", good, "--increments", "0"], "--increments"),
                 (["--calibrate", good], "path.csv:1: error: the table has no column of stress"),
                 (["--calibrate", self.write("g.csv", "strain,stress_MPa\n0,0\n0.001,200\n")],
-                 "a loop needs ten points")):
-            out = [] if "--out" in words else ["--out", self.folder / ("o.toml" if "--calibrate" in words else "o.csv")]
+                 "a loop needs ten points"),
+                (["--shear-yield", self.write("h.csv", "pss,sys_MPa\n0,240\n0.1,-3\n")], "h.csv:3: error: sys = -3 MPa"),
+                (["--shear-yield", self.write("i.csv", "pss,tau\n0,240\n")],
+                 "i.csv:1: error: the table needs two columns, pss and sys"),
+                (["--shear-yield", self.write("j.csv", "pss,sys_MPa\n0,240\n0.1,250\n1,300\n")],
+                 "fewer points than numbers sought")):
+            fit = "--calibrate" in words or "--shear-yield" in words
+            out = [] if "--out" in words else ["--out", self.folder / ("o.toml" if fit else "o.csv")]
             _, err = self.drive(card, *words, *out, expected=2)
             self.assertIn(answer, err)
             self.assertIn("remedy", err)
