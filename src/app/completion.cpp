@@ -146,7 +146,7 @@ bool takes_file(const OptionHelp& option) {
     return std::find(option.names.begin(), option.names.end(), name) != option.names.end();
   };
   return is("--out") || is("--strain") || is("--stress") || is("--calibrate") || is("--cyclic-curve") ||
-         is("--monotonic") || option.value == "FOLDER";
+         is("--monotonic") || is("--shear-yield") || option.value == "FOLDER";
 }
 
 std::string option_functions(const std::vector<CommandHelp>& commands) {
