@@ -1,10 +1,19 @@
 #pragma once
 // How the half-space engine solves a case.
+#include <functional>
+
 #include "bem/cell_range.hpp"
 #include "bem/influence_cache.hpp"
 #include "bem/rolling_contact.hpp"
 
 namespace railstrata {
+
+/// Where the rail's surface stands by what these tractions do not cause (plastic strain), in the cells of a grid.
+struct RailSurface {
+  Plane sinking;      ///< m, opens the gap
+  PlanePair stretch;  ///< its displacement over a step ahead (one cell) less that of the cell, along x and y, per m:
+                      ///< slip of the rail's surface
+};
 
 /// A solution of a similar case and its grid, to start the next one from: wheels of a vehicle move little from one time
 /// step to the next. Of one patch with one load.
@@ -22,6 +31,7 @@ struct BemOptions {
   InfluenceCache* cache = nullptr;    ///< for sweeps; may be null
   BemNeighbour* neighbour = nullptr;  ///< may be null. Becomes this solution where one patch bears the load, else
                                       ///< empty. Numbers then depend on it, within the tolerances of the solver
+  std::function<RailSurface(const PatchGrid&)> rail_surface = {};  ///< empty: as its profile has it
 };
 
 }  // namespace railstrata

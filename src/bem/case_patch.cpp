@@ -45,8 +45,13 @@ std::string describe(const NormalTarget& target) {
                      : fmt::format("approach of {:.3g} mm", 1e3 * *target.approach);
 }
 
-void gap_and_influence(const Placement& placement, InfluenceCache& cache, CasePatch& patch) {
+void gap_and_influence(const Placement& placement, const BemOptions& options, InfluenceCache& cache, CasePatch& patch) {
   patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, patch.grid);
+  if (options.rail_surface) {
+    patch.surface = options.rail_surface(patch.grid);
+    for (std::size_t k = 0; k < patch.profile.gap.size(); ++k)
+      if (patch.profile.gap[k] < ProfileGap::kNoSurface) patch.profile.gap[k] += patch.surface.sinking[k];
+  }
   patch.influence = cache.get(patch.wheel, patch.rail, patch.grid, patch.contact.third_body.flexibility());
 }
 
@@ -55,7 +60,7 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
   const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
   for (int grown = 0;; ++grown) {
     PatchGrid& g = patch.grid;
-    gap_and_influence(placement, cache, patch);
+    gap_and_influence(placement, options, cache, patch);
     keep_to_room(g, room, patch.profile.gap);
     patch.frictionless = solve_normal(*patch.influence, g, patch.profile.gap, target, options.rolling.normal);
     const Touches edge = touches(g, patch.frictionless.pressure);
@@ -210,6 +215,10 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   contact.leading_edge = spec.bem.leading_edge;
   contact.spin = spec.drive.spin.value_or(geometric_spin(spec, placement.contact));
   contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, wheel_spin(placement.contact));
+  if (const PlanePair& stretch = patch.surface.stretch; !stretch.x.empty()) {
+    add_scaled(contact.extra_slip.x, 1, stretch.x);
+    contact.extra_slip.y = stretch.y;
+  }
   if (spec.bem.spin_angle == SpinAngle::local && !patch.grid.line)
     contact.local_spin = local_spin(patch.grid, patch.profile, placement.contact);
   contact.falling = falling_friction(spec);
@@ -236,7 +245,7 @@ CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Place
   CasePatch patch = bodies_of(spec);
   patch.grid = grid;
   InfluenceCache own;
-  gap_and_influence(placement, options.cache ? *options.cache : own, patch);
+  gap_and_influence(placement, options, options.cache ? *options.cache : own, patch);
   set_problem(spec, placement, target, patch);
   return patch;
 }

@@ -21,7 +21,8 @@ struct PatchRoom {
 
 struct CasePatch {
   PatchGrid grid;
-  ProfileGap profile;
+  ProfileGap profile;   ///< its gap with the sinking of the rail's surface
+  RailSurface surface;  ///< empty planes: as the profile has it
   std::shared_ptr<const InfluenceOperator> influence;
   RollingContact contact;  ///< gap, load, friction, spin and rigid slip of the geometry; creepages and forces are left
                            ///< to the caller (drive_contact)

@@ -58,13 +58,17 @@ struct CollectiveSpec {
 /// Whether passes are jumped over (steady/pass_jump.hpp).
 enum class PassJump { off, automatic };
 
+/// What bears a pass of the stationary method (passes/following_contact.hpp).
+enum class PassPressure { elastic, following };
+
 /// Passes over a rail that yields (`railstrata passes`); lists begin again after their last value.
 struct PassesSpec {
   std::vector<double> lateral_positions;      ///< m, of pass 1, 2, …, positive to the field side; empty: 0
   std::optional<double> lateral_deviation;    ///< m, of a normal distribution about them, cut at three of it
   int lateral_seed = 1;                       ///< of its random numbers
   std::vector<double> traction_coefficients;  ///< of pass 1, 2, …; empty: that of the drive
-  std::optional<double> ductility;            ///< net plastic strain that the material bears
+  PassPressure pressure = PassPressure::following;
+  std::optional<double> ductility;  ///< net plastic strain that the material bears
   PassJump jump = PassJump::off;
   double jump_tolerance = 0.02;  ///< of the rates after a jump
   // Grid of plastic strain (steady/steady_grid.hpp): errors of residual stress are some percent at 6 cells, and fall

@@ -130,6 +130,11 @@ OptionTable passes_table() {
            .where(scatters),
        option("traction_coefficients", at<&C::passes, &P::traction_coefficients>,
               "F_T over the static load G in pass 1, 2, …; not given: that of the drive", kNumber, {-10, 10}),
+       choice_at<&C::passes, &P::pressure>(
+           "pressure",
+           "Stationary method: pressure and friction on the surface as the passes shape it, or those of the elastic "
+           "bodies in every pass",
+           {{"following", PassPressure::following}, {"elastic", PassPressure::elastic}}),
        option("ductility", at<&C::passes, &P::ductility>,
               "Net plastic strain that the material bears: passes are extrapolated to it", kNumber, above(0, 100)),
        choice_at<&C::passes, &P::jump>("jump",

@@ -40,6 +40,9 @@ std::vector<PassStrain> strains_in(const CsvTable& table, const Columns<PassStra
 
 constexpr std::size_t kBegun = 7;  // numbers of PassSeries::begun
 
+/// Columns that PassState::rise takes, point after point of the section.
+std::size_t rise_columns(const SteadyGrid& grid) { return (3 * grid.plane() + grid.points() - 1) / grid.points(); }
+
 /// state.csv, of the points of the section.
 Columns<std::size_t> state_columns(const SteadyGrid& grid, const PassSeries& series) {
   using N = std::size_t;
@@ -56,6 +59,11 @@ Columns<std::size_t> state_columns(const SteadyGrid& grid, const PassSeries& ser
   for (N k = 0; k < 6 * active; ++k)
     out.push_back({fmt::format("strain_{}", k), unit::kNone, [&, k, active, lines](N n) {
                      return series.state.residual_strain[(k / active * lines + n) * active + k % active];
+                   }});
+  for (N k = 0; k < rise_columns(grid); ++k)
+    out.push_back({fmt::format("rise_{}", k), unit::kNone, [&, k, lines](N n) {
+                     const N at = k * lines + n;
+                     return at < series.state.rise.size() ? series.state.rise[at] : 0.0;
                    }});
   if (series.jump.length > 0)
     append(out, {{"jump_length", unit::kCount, [&](N) { return series.jump.length; }},
@@ -131,6 +139,9 @@ Columns<StationaryRow> stationary_columns() {
   Columns<R> out = of_part<R>(pass_columns(), [](const R& r) -> const PassRow& { return r.pass; });
   append(out, {{"lateral", unit::kMillimetres, [](const R& r) { return r.pass.place; }},
                {"traction", unit::kNone, [](const R& r) { return r.pass.traction; }},
+               {"creepage", unit::kNone, [](const R& r) { return r.pass.creepage; }},
+               {"p_max", unit::kMPa, [](const R& r) { return r.pass.largest_pressure; }},
+               {"rounds", unit::kCount, [](const R& r) { return r.pass.rounds; }},
                {"force_share", unit::kNone, [](const R& r) { return r.pass.force_share; }},
                {"late_flow", unit::kNone, [](const R& r) { return r.pass.late_flow; }}});
   append(out, of_part<R>(kCycleStrain, &R::cycle));
@@ -171,6 +182,7 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
   const std::size_t active = static_cast<std::size_t>(grid.active_stations());
   series.state.history.resize(grid.points() * kStreamlineHistory);
   series.state.residual_strain.resize(6 * grid.points() * active);
+  series.state.rise.resize(3 * grid.plane());
   series.points.resize(grid.points());
   series.begun.resize(grid.points());
   for (std::size_t n = 0; n < grid.points(); ++n) {
@@ -181,12 +193,16 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
     for (std::size_t k = 0; k < kStreamlineHistory; ++k) series.state.history[n * kStreamlineHistory + k] = take();
     for (std::size_t k = 0; k < 6 * active; ++k)
       series.state.residual_strain[(k / active * grid.points() + n) * active + k % active] = take();
+    for (std::size_t k = 0; k < rise_columns(grid); ++k) {
+      const double value = take();
+      if (const std::size_t at = k * grid.points() + n; at < series.state.rise.size()) series.state.rise[at] = value;
+    }
     if (jumps) series.jump = {static_cast<int>(take()), take()};
   }
   const auto finite = [](const auto& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); });
   };
-  if (!finite(series.state.history) || !finite(series.state.residual_strain))
+  if (!finite(series.state.history) || !finite(series.state.residual_strain) || !finite(series.state.rise))
     throw CaseError("a value is not a finite number", "begin anew with --force", state.string());
   return series;
 }
@@ -266,7 +282,9 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   out["zones"] = zones_json(spec, zones_of(rail));
   out["loops"] = loops_json(loops_of(rail, way));
   out["grid"] = grid_json(rail.grid);
-  out["assumptions"] = {"pressure and friction are those of the elastic bodies",
+  const bool follows = spec.passes.pressure == PassPressure::following;
+  out["assumptions"] = {follows ? "half-spaces: the rail's surface moves by elastic and plastic strain as theirs does"
+                                : "pressure and friction are those of the elastic bodies",
                         "straight endless rail, layers without sideways ends on a half-space", "small strains",
                         "one patch, the same in every pass", "the wheel stays elastic"};
   out["notes"] = rail.notes;

@@ -172,25 +172,25 @@ class Rows {
 /// Stress of the contact at the active stations, row by row from the surface down.
 class ContactStress {
  public:
-  ContactStress(const BemResult& result, const Footprint& f, const SteadyGrid& grid)
-      : f_(f), grid_(grid), stress_(interior(result, f, grid)) {}
+  ContactStress(const BemResult& result, double middle_x, const SteadyGrid& grid)
+      : middle_x_(middle_x), grid_(grid), stress_(interior(result, middle_x, grid)) {}
 
   std::vector<Sym3> row(double depth) {
     std::vector<Vec3> points;
     for (int i = 0; i < grid_.active_stations(); ++i)
       for (int j = 0; j < grid_.ny; ++j)
-        points.push_back({f_.x.middle() + grid_.x(i), f_.line ? 0 : grid_.y(j), depth});
+        points.push_back({middle_x_ + grid_.x(i), grid_.ny > 1 ? grid_.y(j) : 0, depth});
     return stress_(points, false);
   }
 
  private:
-  static StressOfHalfSpace interior(const BemResult& result, const Footprint& f, const SteadyGrid& g) {
+  static StressOfHalfSpace interior(const BemResult& result, double middle_x, const SteadyGrid& g) {
     std::vector<double> interfaces;
     for (const LayerExtent& layer : layer_extents(result.rail)) interfaces.push_back(layer.bottom);
-    return {rail_interior(result), interfaces, std::max(g.front, g.active) + std::abs(f.x.middle()) + g.dx,
-            f.line ? 0 : 0.5 * g.ny * g.dy + std::abs(f.y.middle())};
+    return {rail_interior(result), interfaces, std::max(g.front, g.active) + std::abs(middle_x) + g.dx,
+            g.ny > 1 ? 0.5 * g.ny * g.dy + std::abs(g.y(0) + 0.5 * (g.ny - 1) * g.dy) : 0};
   }
-  const Footprint& f_;
+  double middle_x_;
   const SteadyGrid& grid_;
   StressOfHalfSpace stress_;
 };
@@ -237,11 +237,24 @@ void require_known(const CaseSpec& spec, const std::vector<BemResult>& solutions
         "bring passes.lateral_positions nearer together, or lower passes.lateral_deviation");
 }
 
+/// Stresses at the active stations, a vector a row, as a field of a grid with these rows or fewer.
+Field as_field(const SteadyGrid& g, const std::vector<std::vector<Sym3>>& rows) {
+  Field out(g.size(), 0.0);
+  for (int r = 0; r < g.rows(); ++r)
+    for (int i = 0; i < g.active_stations(); ++i)
+      for (int j = 0; j < g.ny; ++j) {
+        const Sym3& s = rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(i * g.ny + j)];
+        const std::array<double, 6> six{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
+        for (int c = 0; c < 6; ++c) out[g.index(c, r, i, j)] = six[c];
+      }
+  return out;
+}
+
 /// Stresses of the contact row by row, of the solutions as many as there are; `rail` is cut to the rows that matter.
 class RowsOfContact {
  public:
   RowsOfContact(const std::vector<BemResult>& solutions, const Footprint& f, const SteadyGrid& grid) {
-    for (const BemResult& result : solutions) contacts_.emplace_back(result, f, grid);
+    for (const BemResult& result : solutions) contacts_.emplace_back(result, f.x.middle(), grid);
     stresses_.resize(solutions.size());
   }
   /// The next row; the largest von Mises stress in it.
@@ -254,17 +267,8 @@ class RowsOfContact {
     return most;
   }
   std::vector<Field> fields(const SteadyGrid& g) const {
-    std::vector<Field> out(stresses_.size());
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      out[k].assign(g.size(), 0.0);
-      for (int r = 0; r < g.rows(); ++r)
-        for (int i = 0; i < g.active_stations(); ++i)
-          for (int j = 0; j < g.ny; ++j) {
-            const Sym3& s = stresses_[k][static_cast<std::size_t>(r)][static_cast<std::size_t>(i * g.ny + j)];
-            const std::array<double, 6> six{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
-            for (int c = 0; c < 6; ++c) out[k][g.index(c, r, i, j)] = six[c];
-          }
-    }
+    std::vector<Field> out;
+    for (const auto& rows : stresses_) out.push_back(as_field(g, rows));
     return out;
   }
 
@@ -322,9 +326,16 @@ int columns_to(const SteadyGrid& g, double lateral) {
   return g.ny > 1 ? static_cast<int>(std::lround(lateral / g.dy)) : 0;
 }
 
-Field contact_strain(const RailPasses& passes, const SteadyBody& body, std::size_t solution, int columns) {
+Field contact_stress(const RailPasses& passes, const BemResult& contact) {
   const SteadyGrid& g = passes.grid;
-  const Field& stress = passes.contact_stress.at(solution);
+  ContactStress stress(contact, passes.middle_x, g);
+  std::vector<std::vector<Sym3>> rows;
+  for (int r = 0; r < g.rows(); ++r) rows.push_back(stress.row(g.depth(r)));
+  return as_field(g, rows);
+}
+
+Field contact_strain(const RailPasses& passes, const SteadyBody& body, const Field& stress, int columns) {
+  const SteadyGrid& g = passes.grid;
   Field strain(g.size());
   for (int r = 0; r < g.rows(); ++r)
     for (int i = 0; i < g.active_stations(); ++i)

@@ -31,9 +31,12 @@ struct RailPasses {
 /// wheels wander. Throws CaseError: no strength of rail or layers, several patches, wheels that wander too far.
 RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions);
 
-/// The body of it, and the strain of the contact of a solution, so many columns to the side.
+/// Stress in the rail under another contact of the same wheel, Pa, as contact_stress.
+Field contact_stress(const RailPasses& passes, const BemResult& contact);
+
+/// The body of it, and the strain of a stress of the contact, so many columns to the side.
 SteadyBody body_of(const RailPasses& passes);
-Field contact_strain(const RailPasses& passes, const SteadyBody& body, std::size_t solution = 0, int columns = 0);
+Field contact_strain(const RailPasses& passes, const SteadyBody& body, const Field& contact_stress, int columns = 0);
 /// The column nearest to a place across.
 int columns_to(const SteadyGrid& grid, double lateral);
 
@@ -53,6 +56,9 @@ struct PassRow {
   double traction = 0;                   ///< F_T over the normal force
   double force = 0;                      ///< N along x: what the passes put into an endless rail; of a line contact N/m
   double force_share = 0;                ///< the same, over the integral of |S_xx|
+  double largest_pressure = 0;           ///< Pa
+  double creepage = 0;                   ///< of the wheel along the rail
+  int rounds = 0;                        ///< of contact and yielding; 0: pressure of the elastic bodies
   double late_flow = 0;                  ///< as of PassResult
   double balance = 0;  ///< largest |mean of S_zz, S_yz, S_xz of a row| over the largest mean |S_xx|: equilibrium
 };

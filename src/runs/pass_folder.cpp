@@ -7,6 +7,7 @@
 #include "core/faults.hpp"
 #include "core/stop_request.hpp"
 #include "judge/check_limits.hpp"
+#include "passes/following_contact.hpp"
 #include "passes/pass_plan.hpp"
 #include "passes/pass_text.hpp"
 #include "passes/pass_way.hpp"
@@ -54,15 +55,19 @@ class SteadyPasses : public PassJob {
     BemOptions bem;
     bem.cell = wanted_.cell;
     const StopRequest wish(&control_.stop);
+    const std::vector<CaseSpec> specs = cases_of_tractions(loaded_.spec);
+    std::vector<Placement> placements;
     std::vector<BemResult> solutions;
-    for (const CaseSpec& spec : cases_of_tractions(loaded_.spec)) {
-      HalfSpaceSolution solution = solve_half_space_contact(spec, place(spec, loaded_.folder()), bem);
+    for (const CaseSpec& spec : specs) {
+      placements.push_back(place(spec, loaded_.folder()));
+      HalfSpaceSolution solution = solve_half_space_contact(spec, placements.back(), bem);
       doubt(solution.summary);
       if (solutions.empty()) judge_elastic(solution);
       const ContactSummary& c = solution.summary.contact;
-      traction_.push_back(c.F_x / c.F_z);
+      contacts_.push_back({c.F_x / c.F_z, solution.result.patch.largest_pressure, solution.result.rigid_slip.x});
       solutions.push_back(std::move(solution.result));
     }
+    if (loaded_.spec.passes.pressure == PassPressure::following) following_.emplace(specs, placements, bem);
     return rail_passes(loaded_.spec, solutions);
   }
 
@@ -124,7 +129,7 @@ class SteadyPasses : public PassJob {
     return {columns_to(rail_.grid, plan.lateral), plan.traction};
   }
   void stand(Place place) {
-    strain_ = contact_strain(rail_, body_, place.solution, place.column);
+    strain_ = contact_strain(rail_, body_, rail_.contact_stress.at(place.solution), place.column);
     place_ = place;
   }
 
@@ -136,6 +141,21 @@ class SteadyPasses : public PassJob {
     stand(next);
   }
 
+  /// The next pass, where drive() has put it.
+  FollowedPass roll() {
+    if (following_) {
+      FollowedPass pass = following_->run_pass(rail_, body_, place_.solution, place_.column, series_.state, limits_);
+      strain_ = std::move(pass.contact_strain);
+      return pass;
+    }
+    const Contact& contact = contacts_[place_.solution];
+    FollowedPass pass;
+    pass.result = body_.run_pass(strain_, series_.state, limits_);
+    pass.largest_pressure = contact.largest_pressure;
+    pass.creepage = contact.creepage;
+    return pass;
+  }
+
   bool finished() const override { return series_.state.passes >= wanted_.passes; }
 
   /// A pass, or where passes are jumped over a round, or a jump and the rounds behind it: what is given up or taken
@@ -144,7 +164,7 @@ class SteadyPasses : public PassJob {
     const int done = passes() / series_.cycle, left = wanted_.passes / series_.cycle - done;
     if (series_.jump.length == 0 || passes() % series_.cycle != 0 || left < 1) return one_pass();
     const int length = std::min(series_.jump.length, left - kRoundsAfterJumps - 1);
-    const Kept kept{series_, last_, last_row_, place_, sound_};
+    const Kept kept = keep_all();
     const bool ready = done >= kRoundsBeforeJumps && length >= kShortestJump;
     if (ready ? jump(length) : round().has_value()) {
       if (!ready && series_.jump.length < kShortestJump) ++series_.jump.length;
@@ -160,14 +180,17 @@ class SteadyPasses : public PassJob {
     std::optional<PassResult> last;
     PassRow row;
     Place place;
+    Field strain;
     bool sound;
   };
+  Kept keep_all() const { return {series_, last_, last_row_, place_, strain_, sound_}; }
   void take_back(const Kept& kept) {
     series_ = kept.series;
     last_ = kept.last;
     last_row_ = kept.row;
     sound_ = kept.sound;
-    if (place_ != kept.place) stand(kept.place);
+    place_ = kept.place;
+    strain_ = kept.strain;
   }
 
   /// All passes of a round and their effect on the state; empty: given up.
@@ -186,7 +209,7 @@ class SteadyPasses : public PassJob {
     try {
       for (int n = 1; n <= series_.cycle; ++n) {
         drive(before.passes + n);
-        body_.run_pass(strain_, series_.state, limits_);
+        roll();
       }
     } catch (const Interrupted&) {
       return {};
@@ -203,7 +226,7 @@ class SteadyPasses : public PassJob {
     const double tolerance = loaded_.spec.passes.jump_tolerance;
     const std::optional<std::vector<double>> first = round();
     if (!first) return false;
-    const Kept kept{series_, last_, last_row_, place_, sound_};
+    const Kept kept = keep_all();
     std::vector<double> start = series_.state.history;
     for (std::size_t n = 0; n < start.size(); ++n) start[n] -= (*first)[n];
     while (rounds >= kShortestJump) {
@@ -231,27 +254,35 @@ class SteadyPasses : public PassJob {
 
   bool one_pass() {
     const int pass = series_.state.passes + 1;
-    const Place before = place_;
-    Field guess = series_.state.residual_strain;
+    const Kept kept = keep_all();
     report(pass, 0);
     drive(pass);
     try {
-      last_ = body_.run_pass(strain_, series_.state, limits_);
+      FollowedPass rolled = roll();
+      last_ = std::move(rolled.result);
+      keep(pass_row(rail_.grid, pass, *last_), rolled);
     } catch (const Interrupted&) {
-      series_.state.residual_strain = std::move(guess);
-      if (last_ && before != place_) stand(before);
+      take_back(kept);
       return false;
     }
-    keep(pass_row(rail_.grid, pass, *last_));
     return true;
   }
 
-  void keep(PassRow row) {
+  void keep(PassRow row, const FollowedPass& pass) {
     row.place = place_.column * rail_.grid.dy;
-    row.traction = traction_[place_.solution];
+    row.traction = contacts_[place_.solution].traction;
+    row.largest_pressure = pass.largest_pressure;
+    row.creepage = pass.creepage;
+    row.rounds = pass.rounds;
     last_row_ = row;
     add_pass(row, *last_, series_);
-    report(row, fmt::format("{} iterations", row.iterations));
+    report(row, fmt::format("pressure up to {:.0f} MPa; {} iterations{}", 1e-6 * row.largest_pressure, row.iterations,
+                            row.rounds > 0 ? fmt::format(", {} rounds of the contact", row.rounds) : ""));
+    if (!pass.converged) {
+      sound_ = false;
+      control_.warn("pass {}: contact and yielding have not settled: pressure still changes by {:.2g} of its largest",
+                    row.pass, pass.change);
+    }
     if (constexpr double kMuch = 1e-3; row.late_flow > kMuch && !late_) {
       late_ = true;
       control_.warn(
@@ -308,9 +339,13 @@ class SteadyPasses : public PassJob {
   }
 
   PassAnswer answer_;
-  std::vector<double> traction_;     ///< of each solution
+  struct Contact {
+    double traction = 0, largest_pressure = 0, creepage = 0;
+  };
+  std::vector<Contact> contacts_;    ///< of each solution, elastic
   std::vector<std::string> doubts_;  ///< of the contact
-  RailPasses rail_;                  ///< fills the three before
+  std::optional<FollowingContact> following_;
+  RailPasses rail_;  ///< fills those before
   SteadyBody body_;
   Field strain_;  ///< of the contact at place_
   Place place_;

@@ -132,6 +132,13 @@ void put_strain(const Node& upper, const Node& lower, Direction n, double h, con
   strain(5, r) = n.c * nz - n.s * mz;
 }
 
+/// Displacement of the surface from that of its node.
+void put_surface(const Node& top, Direction n, const Spectrum& surface) {
+  surface(0, 0) = n.c * top[0] - n.s * top[2];
+  surface(1, 0) = n.s * top[0] + n.c * top[2];
+  surface(2, 0) = Complex{0, 1} * top[1];
+}
+
 }  // namespace
 
 PlasticStrainResponse::PlasticStrainResponse(SteadyGrid grid, std::vector<RowModuli> rows, RowModuli below)
@@ -148,7 +155,7 @@ PlasticStrainResponse::PlasticStrainResponse(SteadyGrid grid, std::vector<RowMod
   for_each(grid_.nx / 2 + 1, [&](std::ptrdiff_t kx) {
     for (int ky = 0; ky < width_; ++ky) factorize(static_cast<int>(kx), ky);
   });
-  const int planes = 6 * grid_.rows();
+  const int planes = 6 * grid_.rows() + 3;  // strains, displacements of the surface
   spectrum_.resize(static_cast<std::size_t>(planes) * static_cast<std::size_t>(grid_.nx) *
                    static_cast<std::size_t>(width_));
 }
@@ -190,16 +197,18 @@ void PlasticStrainResponse::factorize(int kx, int ky) {
   wave[0].m_inverse = 1 / m_under;
 }
 
-void PlasticStrainResponse::solve(int kx, int ky) const {
+void PlasticStrainResponse::solve(int kx, int ky, bool with_surface) const {
   const int rows = grid_.rows();
   const std::size_t plane = static_cast<std::size_t>(grid_.nx) * static_cast<std::size_t>(width_);
   const Spectrum spectrum{spectrum_.data() + static_cast<std::size_t>(kx) * width_ + ky, plane, rows};
+  const Spectrum surface{&spectrum(6, 0), plane, 1};
   // x falls from station to station
   const double x = -wave_number(kx, grid_.nx, grid_.dx), y = grid_.ny > 1 ? wave_number(ky, grid_.ny, grid_.dy) : 0;
   const double k = std::hypot(x, y);
   if (std::isnan(k)) {
     for (int c = 0; c < 6; ++c)
       for (int r = 0; r < rows; ++r) spectrum(c, r) = 0;
+    for (int c = 0; c < 3; ++c) surface(c, 0) = 0;
     return;
   }
   const Direction along{k, k > 0 ? x / k : 1, k > 0 ? y / k : 0};
@@ -219,19 +228,21 @@ void PlasticStrainResponse::solve(int kx, int ky) const {
   for (int r = 0; r < rows; ++r)
     put_strain(u[static_cast<std::size_t>(r)], u[static_cast<std::size_t>(r + 1)], along, grid_.thickness[r], spectrum,
                r);
+  if (with_surface) put_surface(u.front(), along, surface);
 }
 
-void PlasticStrainResponse::apply(Field& field) const {
+void PlasticStrainResponse::apply(Field& field, Field* surface) const {
   if (field.size() != grid_.size()) throw std::invalid_argument("PlasticStrainResponse: a field of another grid");
   const int planes = 6 * grid_.rows();
   const std::size_t real = grid_.plane(), complex = static_cast<std::size_t>(grid_.nx) * width_;
   for_each(planes, [&](std::ptrdiff_t p) { fft_->forward(field.data() + p * real, spectrum_.data() + p * complex); });
   for_each(grid_.nx, [&](std::ptrdiff_t kx) {
-    for (int ky = 0; ky < width_; ++ky) solve(static_cast<int>(kx), ky);
+    for (int ky = 0; ky < width_; ++ky) solve(static_cast<int>(kx), ky, surface != nullptr);
   });
+  if (surface) surface->resize(3 * real);
   const double scale = 1 / static_cast<double>(real);
-  for_each(planes, [&](std::ptrdiff_t p) {
-    double* out = field.data() + p * real;
+  for_each(surface ? planes + 3 : planes, [&](std::ptrdiff_t p) {
+    double* out = p < planes ? field.data() + p * real : surface->data() + (p - planes) * real;
     fft_->backward(spectrum_.data() + p * complex, out);
     for (std::size_t n = 0; n < real; ++n) out[n] *= scale;
   });

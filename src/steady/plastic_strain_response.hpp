@@ -36,12 +36,14 @@ class PlasticStrainResponse {
 
   /// strain (SteadyGrid::size(), tensor shears) of the plastic strain given in the same order, whose trace is zero.
   /// `field` holds the plastic strain and then the strain. The same bits for any number of threads; one call at a time.
-  void apply(Field& field) const;
+  /// surface, if not null: displacement of the surface along x, y and z (down), m, a plane each; along y and z from
+  /// rest far below, periodic as the rest, each value the mean around its station and column as the strains are.
+  void apply(Field& field, Field* surface = nullptr) const;
 
  private:
   struct Wave;
   void factorize(int kx, int ky);
-  void solve(int kx, int ky) const;
+  void solve(int kx, int ky, bool with_surface) const;
 
   SteadyGrid grid_;
   std::vector<RowModuli> moduli_;

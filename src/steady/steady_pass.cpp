@@ -86,13 +86,31 @@ void move_guess(const SteadyGrid& g, int columns, PassState& state) {
         std::copy_n(from, line, moved.begin() + static_cast<std::ptrdiff_t>((c * g.points() + g.point(r, j)) * line));
       }
   state.residual_strain = std::move(moved);
+  Field rise(state.rise.size());
+  for (std::size_t row = 0; row < rise.size(); row += static_cast<std::size_t>(g.ny))
+    for (int j = std::max(0, columns); j < std::min(g.ny, g.ny + columns); ++j)
+      rise[row + static_cast<std::size_t>(j)] = state.rise[row + static_cast<std::size_t>(j - columns)];
+  state.rise = std::move(rise);
 }
 
 PassState SteadyBody::virgin() const {
   PassState state;
   state.history.assign(grid().points() * kStreamlineHistory, 0.0);
   state.residual_strain.assign(6 * grid().points() * static_cast<std::size_t>(grid().active_stations()), 0.0);
+  state.rise.assign(3 * grid().plane(), 0.0);
   return state;
+}
+
+void SteadyBody::add_section(const Field& section, Field& surface) const {
+  const std::size_t plane = grid().plane(), ny = static_cast<std::size_t>(grid().ny);
+  for (std::size_t n = 0; n < surface.size(); ++n) surface[n] += section[n / plane * ny + n % ny];
+}
+
+Field SteadyBody::surface_expected(const PassState& state) const {
+  Field section, surface = state.rise;
+  uniform_strain(state.history, &section);
+  add_section(section, surface);
+  return surface;
 }
 
 std::array<double, 6> SteadyBody::strain_of(int row, const std::array<double, 6>& s) const {
@@ -111,14 +129,14 @@ std::array<double, 6> SteadyBody::stress_of(int row, const std::array<double, 6>
   return s;
 }
 
-Field SteadyBody::uniform_strain(const std::vector<double>& history) const {
+Field SteadyBody::uniform_strain(const std::vector<double>& history, Field* surface) const {
   assert(history.size() == section_.grid().points() * kStreamlineHistory);
   const SteadyGrid& g = section_.grid();
   Field section(g.size());
   for (int c = 0; c < 6; ++c)
     for (std::size_t n = 0; n < g.points(); ++n)
       section[c * g.points() + n] = history[n * kStreamlineHistory + static_cast<std::size_t>(c)];
-  section_.apply(section);
+  section_.apply(section, surface);
   return section;
 }
 
@@ -181,7 +199,8 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   assert(contact_strain.size() == grid().size() && state.residual_strain.size() == grid().size());
   const SteadyGrid& g = grid();
   Work work;
-  work.before = uniform_strain(state.history);
+  Field surface_before;
+  work.before = uniform_strain(state.history, &surface_before);
   work.field.resize(g.size());
   work.guess = state.residual_strain;
   work.residual.resize(work.guess.size());
@@ -192,7 +211,7 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   for (;;) {
     if (asked_to_stop(limits.control)) throw Interrupted("stopped in a pass");
     follow(contact_strain, state, work);
-    response_.apply(work.field);
+    response_.apply(work.field, &out.surface);
     out.error = compare(work);
     ++out.iterations;
     if (!std::isfinite(out.error))
@@ -201,6 +220,8 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
     if (out.converged || out.iterations >= limits.iterations) break;
     anderson.step(work.guess, work.residual);
   }
+  state.rise = out.surface;
+  add_section(surface_before, out.surface);
   out.before = std::move(state.history);
   state.history = std::move(work.after);
   state.residual_strain = std::move(work.guess);

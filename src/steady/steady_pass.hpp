@@ -37,6 +37,7 @@ struct PassState {
   int passes = 0;
   std::vector<double> history;  ///< per point of the section (SteadyGrid::point) kStreamlineHistory numbers
   Field residual_strain;        ///< e_residual of the last pass at the active stations, the next one's first guess
+  Field rise;  ///< m, displacement of the surface that the last pass has added, as of PassResult::surface
 };
 
 /// Moves the first guess along with a load that runs so many columns to the side of the last one.
@@ -56,6 +57,8 @@ struct PassResult {
                                          ///< since the first pass; forward: along the travel of the load
   std::vector<double> sinking;           ///< m, per column, downward
   std::vector<double> before;            ///< history ahead of the load, as of PassState
+  Field surface;  ///< m, displacement of the surface by plastic strain since the first pass, at stations and columns,
+                  ///< as of PlasticStrainResponse::apply
 };
 
 /// A point of the section at a station of its streamline.
@@ -81,6 +84,8 @@ class SteadyBody {
   const SteadyGrid& grid() const { return response_.grid(); }
   const std::vector<SteadyRow>& rows() const { return rows_; }
   PassState virgin() const;
+  /// Displacement of the surface (as of PassResult) by what the state holds and a pass as the last one.
+  Field surface_expected(const PassState& state) const;
 
   /// The next pass under the strain of a contact (SteadyGrid::size(); tensor shears). The state advances; where the
   /// pass has not converged too, as the result states. Throws NumericalError at a strain that is no number;
@@ -100,7 +105,8 @@ class SteadyBody {
   struct Work;
   void follow(const Field& contact_strain, const PassState& state, Work& work) const;
   double compare(Work& work) const;
-  Field uniform_strain(const std::vector<double>& history) const;
+  void add_section(const Field& section, Field& surface) const;
+  Field uniform_strain(const std::vector<double>& history, Field* surface = nullptr) const;
   void conclude(const std::vector<double>& before, const Field& strain, const PassState& state, PassResult& out) const;
 
   PlasticStrainResponse response_;

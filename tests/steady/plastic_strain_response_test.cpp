@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/parallel.hpp"
 
@@ -94,6 +96,85 @@ TEST(PlasticStrainResponse, UniformPlasticStrainOfALayerLeavesItsClosedFormStres
   for (int c = 0; c < 6; ++c) {
     EXPECT_NEAR(field[g.index(c, 1, 3, 2)], expected[c], 1e-15);
     EXPECT_NEAR(field[g.index(c, 4, 3, 2)], 0, 1e-15);
+  }
+}
+
+/// Displacement of a half-plane's surface at 0 by plastic strain in a rectangle: u_i = integral of E^p : S_i, S_i the
+/// stress of a unit line load along i at that place (Flamant). Normal: E^p_tt = -E^p_zz = 1; shear: E^p_tz = 1.
+struct OfRectangle {
+  double t0, t1, z0, z1;
+  double sum(double shift, double (*corner)(double, double)) const {
+    const auto at = [&](double t, double z) { return corner(t + shift, z) / std::numbers::pi; };
+    return at(t1, z1) - at(t0, z1) - at(t1, z0) + at(t0, z0);
+  }
+  /// Beside it all its images in a period; less the same at the origin.
+  double periodic(double place, double period, double (*corner)(double, double)) const {
+    double out = 0;
+    for (int m = -4000; m <= 4000; ++m) out += sum(m * period - place, corner) - sum(m * period, corner);
+    return out;
+  }
+};
+double normal_down(double t, double z) { return t * std::log(t * t + z * z); }
+double normal_along(double t, double z) { return -z * std::log(t * t + z * z); }
+double shear_down(double t, double z) { return 2 * (z - t * std::atan2(z, t)); }
+double shear_along(double t, double z) { return 2 * (t - z * std::atan(t / z)); }
+
+/// Largest deviation of the surface from the closed form over its largest, along x (with one column) or along y (with
+/// one station): along and down, by normal and by shear strain.
+std::array<double, 4> surface_deviation(int cells, int rows, bool across) {
+  const double period = across ? 6 : 8;
+  SteadyGrid g = grid(across ? 1 : cells, across ? cells : 1, rows);
+  if (!across) g.dx = period / cells;
+  const RowModuli m = moduli(210e9, .3);
+  const PlasticStrainResponse response(g, std::vector<RowModuli>(static_cast<std::size_t>(rows), m), m);
+  const auto place = [&](int n) { return across ? g.y(n) : g.x(n); };
+  const auto index = [&](int c, int r, int n) { return g.index(c, r, across ? 0 : n, across ? n : 0); };
+  const OfRectangle rectangle{-0.5, 1, 0.5, 1};
+  std::array<double, 4> out{};
+  for (const bool shear : {false, true}) {
+    Field field(g.size()), surface;
+    for (int r = rows / 3; r < 2 * rows / 3; ++r)
+      for (int n = 0; n < cells; ++n) {
+        // the cell's share of the rectangle
+        const double h = period / cells,
+                     inside = std::clamp(
+                         (std::min(place(n) + 0.5 * h, rectangle.t1) - std::max(place(n) - 0.5 * h, rectangle.t0)) / h,
+                         0., 1.);
+        if (shear) {
+          field[index(across ? 4 : 5, r, n)] = inside;
+        } else {
+          field[index(across ? 1 : 0, r, n)] = inside;
+          field[index(2, r, n)] = -inside;
+        }
+      }
+    response.apply(field, &surface);
+    for (const bool down : {false, true}) {
+      const auto corner = shear ? (down ? shear_down : shear_along) : (down ? normal_down : normal_along);
+      const std::size_t plane = down ? 2 : (across ? 1 : 0);
+      const auto found = [&](int n) { return surface[plane * g.plane() + static_cast<std::size_t>(n)]; };
+      double mean = 0, worst = 0, largest = 0;
+      std::vector<double> exact;
+      for (int n = 0; n < cells; ++n) {
+        exact.push_back(rectangle.periodic(place(n), period, corner));
+        mean += (exact.back() - found(n)) / cells;
+      }
+      for (int n = 0; n < cells; ++n) {
+        worst = std::max(worst, std::abs(exact[n] - mean - found(n)));
+        largest = std::max(largest, std::abs(exact[n] - exact[0]));
+      }
+      out[2 * shear + down] = worst / largest;
+    }
+  }
+  return out;
+}
+
+TEST(PlasticStrainResponse, SurfaceOfAHalfPlaneFollowsAYieldedStripWithTheSecondPowerOfTheCells) {
+  for (const bool across : {false, true}) {
+    const auto coarse = surface_deviation(48, 9, across), fine = surface_deviation(96, 18, across);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_LT(fine[k], 0.02) << across << k;
+      EXPECT_GT(std::log2(coarse[k] / fine[k]), 1.75) << across << k;
+    }
   }
 }
 
