@@ -64,8 +64,7 @@ ExitCode command_passes(const CommandOptions& options) {
 void declare_passes(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-passes");
-  sub.add_option("--engine", options.passes.engine,
-                 "bem: stationary method, pressure and friction of the half-spaces; fem: every pass is rolled")
+  sub.add_option("--engine", options.passes.engine, "bem: stationary method on half-spaces; fem: every pass is rolled")
       ->check(CLI::IsMember(engine_words()))
       ->capture_default_str();
   add_cell(sub, options);

@@ -67,7 +67,7 @@ struct PassesSpec {
   std::optional<double> lateral_deviation;    ///< m, of a normal distribution about them, cut at three of it
   int lateral_seed = 1;                       ///< of its random numbers
   std::vector<double> traction_coefficients;  ///< of pass 1, 2, …; empty: that of the drive
-  PassPressure pressure = PassPressure::following;
+  PassPressure pressure = PassPressure::elastic;
   std::optional<double> ductility;  ///< net plastic strain that the material bears
   PassJump jump = PassJump::off;
   double jump_tolerance = 0.02;  ///< of the rates after a jump

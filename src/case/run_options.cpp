@@ -134,7 +134,7 @@ OptionTable passes_table() {
            "pressure",
            "Stationary method: pressure and friction on the surface as the passes shape it, or those of the elastic "
            "bodies in every pass",
-           {{"following", PassPressure::following}, {"elastic", PassPressure::elastic}}),
+           {{"elastic", PassPressure::elastic}, {"following", PassPressure::following}}),
        option("ductility", at<&C::passes, &P::ductility>,
               "Net plastic strain that the material bears: passes are extrapolated to it", kNumber, above(0, 100)),
        choice_at<&C::passes, &P::jump>("jump",

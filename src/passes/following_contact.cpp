@@ -11,6 +11,9 @@
 namespace railstrata {
 namespace {
 
+constexpr double kShare =
+    0.5;  // of a round's new displacement that is taken: sinking lowers the pressure that caused it
+
 /// Weights of the numbers of a period at a place, in steps from the first one: the interpolation of its waves.
 std::vector<double> weights_at(int n, double place) {
   std::vector<double> out(static_cast<std::size_t>(n), 1.0);
@@ -95,7 +98,7 @@ FollowedPass FollowingContact::run_pass(const RailPasses& rail, const SteadyBody
     out.result = body.run_pass(out.contact_strain, next, limits);
     begun.residual_strain = next.residual_strain;  // the next round's first guess
     Field residual(surface.size());
-    for (std::size_t n = 0; n < surface.size(); ++n) residual[n] = out.result.surface[n] - surface[n];
+    for (std::size_t n = 0; n < surface.size(); ++n) residual[n] = kShare * (out.result.surface[n] - surface[n]);
     anderson.step(surface, residual);
     BemResult moved = solve(rail, surface, traction, columns, neighbour);
     out.change = largest_change(moved, contact);

@@ -2,8 +2,7 @@
 // Passes of a wheel over a rail that yields, from a half-space solution: the rail's rows, their laws and the strain of
 // the contact on the grid of the stationary method (steady/steady_pass.hpp).
 //
-// Assumptions of the half-space remain: pressure and friction of the elastic bodies, the same in every pass; layers
-// without lateral ends; one patch, which rolls along a straight rail.
+// Assumptions of the half-space remain: layers without lateral ends; one patch, which rolls along a straight rail.
 #include <array>
 #include <string>
 #include <vector>

@@ -6,13 +6,14 @@
 //
 //   E(x, y, z) = e_contact(x, y, z) + e_residual(x, y, z) + e_before(y, z)
 //
-// e_contact: elastic, of the tractions of the contact, which the yielding is taken not to change. e_before: what the
+// e_contact: elastic, of the tractions of the contact, which are given (passes/following_contact.hpp finds those that
+// go along with the yielding; PassResult::surface is what it needs). e_before: what the
 // plastic strain of earlier passes, uniform along x, leaves in equilibrium. e_residual: the elastic answer to what this
 // pass adds to it (plastic_strain_response.hpp). The law (material/plastic.hpp) takes E along every streamline and
 // gives plastic strain, plastic strain gives e_residual: a fixed point, found with Anderson's acceleration.
 //
-// Assumptions: pressure and friction are those of the elastic bodies; a straight rail, layers without sideways ends on
-// a half-space; small strains; the rail is endless and does not grow longer.
+// Assumptions: a straight rail, layers without sideways ends on a half-space; small strains; the rail is endless and
+// does not grow longer.
 #include <array>
 #include <vector>
 

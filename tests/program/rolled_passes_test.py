@@ -102,7 +102,7 @@ class RolledPasses(FromOutside):
         rolled = self.passes("rolled", *strong)
         steady = self.folder / "steady"
         rc, _, err = railstrata("passes", self.case(TINY), "--cell", "1 mm", "-q", "--threads", 1, "--out", steady,
-                                *strong)
+                                "--set", 'passes.pressure="elastic"', *strong)
         self.assertEqual(rc, 0, err)
         classes = [json.loads((out / "passes.json").read_text())["class"] for out in (rolled, steady)]
         self.assertEqual(*classes)
