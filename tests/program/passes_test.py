@@ -71,6 +71,21 @@ class Passes(FromOutside):
                      "no passes of this very case")
 
     @slow
+    def test_pressure_that_follows_falls_as_the_rail_beds_in_and_resumes_to_the_same_bits(self):
+        weak = [*strength(400), "--no-report"]
+        follows = [*weak, "--set", 'passes.pressure="following"']
+        elastic = rows(self.passes("elastic", *weak, "--passes", 1) / "passes.csv")[0]
+        whole = self.passes("whole", *follows, "--passes", 2)
+        first, second = rows(whole / "passes.csv")
+        self.assertEqual(elastic["rounds"], "0")
+        self.assertGreater(int(first["rounds"]), 1)
+        self.assertLess(float(first["p_max_MPa"]), 0.97 * float(elastic["p_max_MPa"]))
+        self.assertLess(float(second["p_max_MPa"]), float(first["p_max_MPa"]))
+        self.assertLess(float(first["net_strain"]), float(elastic["net_strain"]))
+        self.passes("parts", *follows, "--passes", 1)
+        self.same_numbers(whole, self.passes("parts", *follows, "--passes", 2, "--resume"))
+
+    @slow
     def test_passes_jumped_over_end_where_computed_ones_do_and_go_on_to_the_same_bits(self):
         weak = [*strength(350), "--set", 'material.rail.kinematic_hardening=[{modulus = "20 GPa", recall = 50}]',
                 "--no-report"]
