@@ -62,7 +62,7 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
     PatchGrid& g = patch.grid;
     gap_and_influence(placement, options, cache, patch);
     keep_to_room(g, room, patch.profile.gap);
-    patch.frictionless = solve_normal(*patch.influence, g, patch.profile.gap, target, options.rolling.normal);
+    patch.frictionless = solve_normal(*patch.influence, g, gap_after(patch, 0), target, options.rolling.normal);
     const Touches edge = touches(g, patch.frictionless.pressure);
     if (!edge.x && !edge.y) {
       if (grown > 0)
@@ -174,6 +174,8 @@ CasePatch bodies_of(const CaseSpec& spec) {
   patch.wheel = layered_body(spec, BodyId::wheel);
   patch.rail = layered_body(spec, BodyId::rail);
   patch.contact.third_body = third_body(spec);
+  patch.rail_heights = {spec.irregularities, BodyId::rail, spec.geometry.wheel_radius};
+  patch.wheel_heights = {spec.irregularities, BodyId::wheel, spec.geometry.wheel_radius};
   return patch;
 }
 
@@ -207,9 +209,23 @@ void fill_heat(const CaseSpec& spec, CasePatch& patch, const HertzContact& estim
 
 }  // namespace
 
+Plane gap_after(const CasePatch& patch, double distance) {
+  Plane gap = patch.profile.gap;
+  if (patch.rail_heights.none() && patch.wheel_heights.none()) return gap;
+  const PatchGrid& g = patch.grid;
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) {
+      const std::size_t k = g.index(i, j);
+      if (gap[k] == ProfileGap::kNoSurface) continue;
+      gap[k] -=
+          patch.rail_heights.at(distance + g.x(i), g.y(j)).z + patch.wheel_heights.at(distance + g.x(i), g.y(j)).z;
+    }
+  return gap;
+}
+
 void set_problem(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, CasePatch& patch) {
   RollingContact& contact = patch.contact;
-  contact.gap = patch.profile.gap;
+  contact.gap = gap_after(patch, 0);
   contact.target = target;
   contact.friction = spec.drive.friction_coefficient;
   contact.leading_edge = spec.bem.leading_edge;

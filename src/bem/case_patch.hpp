@@ -7,6 +7,7 @@
 
 #include "bem/bem_options.hpp"
 #include "bem/profile_gap.hpp"
+#include "geometry/height_field.hpp"
 #include "halfspace/layered.hpp"
 #include "model/model.hpp"
 
@@ -28,8 +29,13 @@ struct CasePatch {
                            ///< to the caller (drive_contact)
   NormalSolution frictionless;  ///< under its target, as the grid was fitted to it
   LayeredHalfSpace wheel, rail;
+  HeightField rail_heights, wheel_heights;
   std::vector<std::string> notes;
 };
+
+/// The gap where the wheel has rolled by `distance` [m] from the first contact, without slip: that of the profiles less
+/// the heights of both bodies, cell by cell.
+Plane gap_after(const CasePatch& patch, double distance);
 
 /// The potential contact area to begin with: a little larger than the ellipse of Hertz.
 PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options);

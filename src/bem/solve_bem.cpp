@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bem/several_patches.hpp"
+#include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -343,8 +344,10 @@ BemResult bem_result(const CaseSpec& spec, const Placement& placement, const Pat
 
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
+  if (spec.run.rolling) require_same_along(spec, "steady rolling of half-spaces");
   SharedLoad shared =
       spec.vehicle.approach ? press_to_approach(spec, placement, options) : bear_weight(spec, placement, options);
+  if (shared.patches.size() > 1) require_same_along(spec, "contact at several places of one wheel");
   BemResult r = result_of(spec, placement, shared.patches);
   if (options.neighbour) {
     *options.neighbour = {};

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bem/several_patches.hpp"
+#include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -56,6 +57,11 @@ class Course {
                         "transient.kind is followed in one plane: take it out");
     state_.steps = step_count(history_, spec, options.cell);
     require_a_cell();
+    if (!rough()) return;
+    require_fine_enough(spec, options.cell, "cells", "--cell");
+    require_flat_start();
+    while (!holds_way()) grow(options);
+    rolling_ = patch_.contact;
   }
 
   TransientState run(const TransientObserver& observer) {
@@ -80,6 +86,44 @@ class Course {
         fmt::format("{:.3g} mm of rolling are less than half a cell of {:.3g} mm, and steps are whole cells",
                     1e3 * history_.end(), 1e3 * cell),
         "give a longer transient.distance, or smaller cells with --cell");
+  }
+
+  bool rough() const { return !(patch_.rail_heights.none() && patch_.wheel_heights.none()); }
+
+  /// What rolls steadily from the start on finds no height there.
+  void require_flat_start() const {
+    if (spec_.transient.start != TransientStart::steady) return;
+    const Plane smooth = patch_.profile.gap, gap = gap_after(patch_, 0);
+    if (gap != smooth)
+      throw CaseError("start = \"steady\" on an [[irregularity]]: nothing rolls steadily there",
+                      "begin before it, or give start = \"rest\"", "transient.start");
+  }
+
+  /// Whether the frictionless patch stays inside the grid all along the way.
+  bool holds_way() const {
+    NormalSolution last;
+    for (int step = 0; step <= state_.steps; ++step) {
+      const double at = place_at_end(step);
+      last = solve_normal(*patch_.influence, patch_.grid, gap_after(patch_, at),
+                          {.load = normal_load(history_.at(at).load, 0, placement_.contact), .approach = {}},
+                          options_.normal, last.pressure);
+      if (reaches_edge(patch_.grid, last.pressure)) return false;
+    }
+    return true;
+  }
+
+  void grow(const BemOptions& options) {
+    const PatchGrid& g = patch_.grid;
+    constexpr double kGrowth = 1.4;
+    const auto more = [&](int cells) { return static_cast<int>(kGrowth * (cells / 2)) + 1; };
+    const int half_x = more(g.nx), half_y = more(g.ny);
+    if (2 * half_x * g.dx > options.largest_patch || (!g.line && 2 * half_y * g.dy > options.largest_patch))
+      throw CaseError(fmt::format("on its way over the [[irregularity]] the load flattens the whole potential contact "
+                                  "area of {:.0f} mm",
+                                  1e3 * options.largest_patch),
+                      "check the load and the heights; half-space theory no longer applies", "irregularity");
+    patch_ = case_patch_on(g.line ? line_grid(half_x, g.dx, g.dy) : centred_grid(half_x, half_y, g.dx, g.dy), spec_,
+                           placement_, options, patch_.contact.target);
   }
 
   bool report(const TransientObserver& observer) {
@@ -157,6 +201,7 @@ class Course {
     c.y = {middle.y.creepage, there.y.force};
     c.spin = middle.spin;
     c.target.load = there.load;
+    if (rough()) c.gap = gap_after(patch_, to);
     roll_on_one_cell(*patch_.influence, patch_.grid, last, c);
   }
 

@@ -11,6 +11,7 @@
 #include "case/case_tree.hpp"
 #include "case/engine_scope.hpp"
 #include "case/history_table.hpp"
+#include "case/irregularity_rules.hpp"
 #include "case/load_rows.hpp"
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
@@ -87,10 +88,9 @@ void read_history(LoadedCase& loaded, CaseSource& source) {
 
 constexpr const char* kLoadFile = "collective.file";
 
-/// The rows of collective.file take the place of its name.
-void read_load_file(LoadedCase& loaded, CaseSource& source) {
-  std::string& name = loaded.spec.collective.file;
-  const std::string key = kLoadFile;
+/// The rows of the table that `name` names take its place: read(text, file) gives a note or an empty text.
+template <class Read>
+void read_table_file(const std::string& key, std::string& name, LoadedCase& loaded, CaseSource& source, Read&& read) {
   if (name.empty() && !source.has(key)) return;
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
     source.complain(key, fmt::format("{} = {}: {}", key, toml_quoted(name), what), remedy);
@@ -100,8 +100,8 @@ void read_load_file(LoadedCase& loaded, CaseSource& source) {
   std::error_code error;
   const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
   try {
-    const std::string note = read_load_table(
-        read_text_file(file, "name a CSV file, relative to the case file", &loaded.notes), file, loaded.spec);
+    const std::string note =
+        read(read_text_file(file, "name a CSV file, relative to the case file", &loaded.notes), file);
     if (!note.empty()) loaded.notes.push_back(note);
     loaded.inputs.push_back(file);
   } catch (const CaseError& e) {
@@ -109,6 +109,16 @@ void read_load_file(LoadedCase& loaded, CaseSource& source) {
       refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
   }
   name.clear();
+}
+
+void read_height_files(LoadedCase& loaded, CaseSource& source) {
+  CaseSpec& spec = loaded.spec;
+  for (std::size_t i = 0; i < spec.irregularities.size(); ++i)
+    read_table_file(fmt::format("irregularity.{}.file", i), spec.irregularities[i].file, loaded, source,
+                    [&](const std::string& text, const std::filesystem::path& file) {
+                      read_heights(text, file, spec, i);
+                      return std::string();
+                    });
 }
 
 /// The rows of a collective stand in the case or in a file.
@@ -120,7 +130,9 @@ void read_loads(LoadedCase& loaded, CaseSource& source) {
     spec.collective.file.clear();
     return;
   }
-  read_load_file(loaded, source);
+  read_table_file(
+      kLoadFile, spec.collective.file, loaded, source,
+      [&](const std::string& text, const std::filesystem::path& file) { return read_load_table(text, file, spec); });
 }
 
 /// Only blanks and comments.
@@ -146,6 +158,7 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   resolve_profile(ProfileKind::wheel, "wheel_profile", loaded.spec.geometry.wheel_profile, loaded, source);
   read_history(loaded, source);
   read_loads(loaded, source);
+  read_height_files(loaded, source);
   check_case_rules(loaded.spec, source);
   source.finish();
   for (const BeyondEngine& b : beyond_finite_elements(loaded.spec))

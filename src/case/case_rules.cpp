@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/irregularity_rules.hpp"
 #include "case/line_rules.hpp"
 #include "case/load_rows.hpp"
 #include "case/strength_rules.hpp"
@@ -340,6 +341,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_plasticity(spec, source);
   check_device(spec, source);
   check_passes(spec, source);
+  check_irregularities(spec, source);
   check_loads(spec, source);
 }
 

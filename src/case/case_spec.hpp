@@ -9,6 +9,7 @@
 #include "case/history_spec.hpp"
 #include "case/layer_spec.hpp"
 #include "case/run_spec.hpp"
+#include "geometry/irregularity.hpp"
 
 namespace railstrata {
 
@@ -17,6 +18,7 @@ struct CaseSpec {
   GeometrySpec geometry;
   MaterialSpec rail_material, wheel_material;
   std::vector<LayerSpec> layers;
+  std::vector<Irregularity> irregularities;
   VehicleSpec vehicle;
   DriveSpec drive;
   FrictionSpec friction;

@@ -5,7 +5,10 @@
 #include <cmath>
 
 #include "case/case_spec.hpp"
+#include "case/irregularity_rules.hpp"
+#include "case/units.hpp"
 #include "core/faults.hpp"
+#include "geometry/height_field.hpp"
 
 namespace railstrata {
 namespace {
@@ -30,6 +33,38 @@ void refuse_on_ring(const CaseSpec& spec, std::vector<BeyondEngine>& out) {
          "give time_step_method = \"auto\"");
 }
 
+/// Heights along rail and wheel: what is written while the wheel passes them, and where they may lie.
+void refuse_irregularities(const CaseSpec& spec, std::vector<BeyondEngine>& out) {
+  if (spec.irregularities.empty()) return;
+  const auto refuse = [&](bool asked, const std::string& key, const std::string& why, const char* remedy) {
+    if (asked)
+      out.push_back({key, fmt::format("{} with [[irregularity]] is not in this engine: {}", key, why), remedy});
+  };
+  refuse(spec.geometry.rail_radius.has_value(), "geometry.rail_radius", "the heights are those of a straight rail",
+         kWithHalfSpaces);
+  refuse(spec.run.device != ComputeDevice::cpu, "run.device", "a device meets surfaces without heights",
+         "give run.device = \"cpu\"");
+  refuse(spec.run.rolling && spec.run.window > 0, "run.window",
+         "the mean over a stretch of the way is no state of a rail that varies along it",
+         "give run.window = \"0 mm\": states at the positions themselves");
+  for (std::size_t i = 0; i < spec.irregularities.size(); ++i) {
+    const Irregularity& is = spec.irregularities[i];
+    const std::string key = fmt::format("irregularity.{}", i);
+    refuse(is.kind == IrregularityKind::dip, key,
+           "the forces of a dip are made by the track's springs and masses, and the foot of this rail is held",
+           "give kind = \"indentation\" for a short one, or solve the case with `railstrata bem`, under a given load");
+    const double wave = shortest_wave(is, spec.geometry.wheel_radius);
+    refuse(wave < kLeastOfWave * spec.mesh.element_size, key,
+           fmt::format("a wave of {} has fewer than {:g} elements", format_quantity(wave, dimension::kLength),
+                       kLeastOfWave),
+           "give a smaller mesh.element_size, or a longer wave");
+    refuse(spec.run.rolling && is.on == BodyId::rail && extent_of(is).from < spec.run.run_up, key,
+           fmt::format("it begins before the end of run.run_up ({})",
+                       format_quantity(spec.run.run_up, dimension::kLength)),
+           "put it farther on (at, from), or shorten run.run_up");
+  }
+}
+
 }  // namespace
 
 std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
@@ -48,6 +83,7 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
          "one drive leads to the wanted positions, with inertia");
   beyond(g.in_line(), "geometry.contact", "a line contact", "bodies have ends across, and patches too");
   refuse_on_ring(spec, out);
+  refuse_irregularities(spec, out);
   beyond(g.roll != 0, "geometry.roll", "a roll of the wheelset", "the wheel is meshed upright");
   if (!spec.run.rolling) return out;
   if (spec.friction.law != FrictionForm::coulomb && !(spec.friction.memory_distance > 0))

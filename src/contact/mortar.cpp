@@ -49,12 +49,39 @@ Vec3 MortarContact::rail_point(const Field& u, int c, int j, double wy, double w
         wheel_,
         wheel_point(rail_, rail_sin_, rail_cos_, SurfaceField{u, rail_}, {0, 0, 0, rail_psi_}, rail_turned_,
                     Hit{.column = c, .station = j, .weight_y = wy, .weight_t = wx, .offset = {}, .inside = true}));
-  return in_wheel_axes(wheel_, mortar_law::rail_point(rail_, SurfaceField{u, rail_}, c, j, wy, wx));
+  const Vec3 p = mortar_law::rail_point(rail_, SurfaceField{u, rail_}, c, j, wy, wx);
+  if (rail_.heights.none()) return in_wheel_axes(wheel_, p);
+  const double z = rail_height(c, j, wy, wx).z;
+  const Vec2 n = (1 - wy) * rail_.outward[c] + wy * rail_.outward[c + 1];
+  return in_wheel_axes(wheel_, p + Vec3{0, z * n.y, z * n.z});
+}
+
+// Of a material point: it stays where the rail is meshed.
+SurfaceHeight MortarContact::rail_height(int c, int j, double wy, double wx) const {
+  const auto& at = rail_.stations.at;
+  const double next = wx > 0 ? at[j + 1] : at[j], y = (1 - wy) * rail_.node[c].y + wy * rail_.node[c + 1].y;
+  return rail_.heights.at(rail_.origin.x + (1 - wx) * at[j] + wx * next - wheel_.origin.x,
+                          rail_.origin.y + y - rail_.first_contact_y);
+}
+
+// The wheel's surface lies higher by what its arc has there.
+void MortarContact::raise_wheel(const AxlePose& pose, Hit& h) const {
+  const auto& at = wheel_.stations.at;
+  const int next = h.station + 1 < wheel_.stations.nodes() ? h.station + 1 : 0;
+  const double end = next ? at[next] : at[0] + kPeriod, theta = at[h.station] + h.weight_t * (end - at[h.station]);
+  const Vec2 a = wheel_.node[h.column], b = wheel_.node[h.column + 1], n = wheel_.outward[h.column];
+  const double y = wheel_.origin.y + (1 - h.weight_y) * a.y + h.weight_y * b.y;
+  const double z = wheel_.heights.at(wheel_.radius * theta, y - wheel_.first_contact_y).z;
+  const Rotation<double> turn = turn_of(theta - pose.psi);
+  h.offset += z * Vec3{-n.z * turn.s, n.y, n.z * turn.c};
 }
 
 Vec3 MortarContact::rail_normal(int c, int j) const {
   const double along = rail_.rises ? rail_.radius * (rail_.contact_at + rail_psi_ - rail_.stations.at[j]) : 0.0;
-  return rail_.rail_normal(c, along);
+  const Vec3 normal = rail_.rail_normal(c, along);
+  if (rail_.heights.none()) return normal;
+  const Vec3 tilted = normal - Vec3{rail_height(c, j, 0, 0).along, 0, 0};
+  return (1 / std::sqrt(dot(tilted, tilted))) * tilted;
 }
 
 void MortarContact::turn_to(const AxlePose& pose) {
@@ -65,7 +92,9 @@ void MortarContact::turn_to(const AxlePose& pose) {
 
 MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose, Vec3 p, Tangential correction,
                                            const Hit& guess) const {
-  return mortar_law::opposite(wheel_, sin_t_, cos_t_, SurfaceField{u, wheel_}, pose, turned_, p, correction, guess);
+  Hit h = mortar_law::opposite(wheel_, sin_t_, cos_t_, SurfaceField{u, wheel_}, pose, turned_, p, correction, guess);
+  if (!wheel_.heights.none()) raise_wheel(pose, h);
+  return h;
 }
 
 Vec3 MortarContact::gauss_point(const Field& u_rail, const Facet& facet, int g) const {

@@ -10,7 +10,8 @@
 // so a uniform pressure passes through non-matching meshes exactly, momentum is conserved, and the rail's side stays
 // diagonal. Integrals use 2 x 2 Gauss points on the rail's facets. Gaps are those of the exact profiles and of the
 // exact circle of revolution, displaced by the interpolated nodal displacements: the facets of a polygonal wheel do not
-// knock.
+// knock. Heights along either surface (geometry/height_field.hpp) are added at every Gauss point, along the normal of
+// the profile; a row's normal is tilted by the slope of the rail's height at its node.
 //
 // A yawed wheel is met in its own axes: rail points, normals and the axle's travel are turned back about the vertical
 // through the axle's start, and all that follows is that of a straight wheel. A rail that is a ring has its points and
@@ -87,6 +88,8 @@ class MortarContact {
 
   Vec3 rail_point(const Field& u, int column, int station, double weight_y, double weight_x) const;
   Vec3 rail_normal(int column, int station) const;
+  SurfaceHeight rail_height(int column, int station, double weight_y, double weight_x) const;
+  void raise_wheel(const AxlePose& pose, Hit& hit) const;
   void turn_to(const AxlePose& pose);
   Vec3 gauss_point(const Field& u_rail, const Facet& facet, int g) const;
   Hit opposite(const Field& u_wheel, const AxlePose& pose, Vec3 point, Tangential correction,

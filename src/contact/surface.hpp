@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/rotation.hpp"
+#include "geometry/height_field.hpp"
 #include "mesh/layout.hpp"
 #include "mesh/swept.hpp"
 
@@ -38,6 +39,8 @@ struct ContactSurface {
   std::vector<double> width;      ///< arc length of the facets, columns - 1
   std::ptrdiff_t first_line = 0;  ///< layout line of node 0, component 0
   int stride = 0;                 ///< between components; nodes are 3 strides apart
+  HeightField heights;            ///< along the surface, out of the body; the mesh has none of it
+  double first_contact_y = 0;     ///< m, model frame: from where on the heights count y
   /// Index of component x of a node in the body's fields; y and z follow one and two strides on.
   std::ptrdiff_t index(int column, int station) const {
     assert(column >= 0 && column < columns);

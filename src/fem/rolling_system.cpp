@@ -196,6 +196,11 @@ RollingSystem::RollingSystem(const Model& m)
     end_loads = end_loads_of(rail());
   }
   surfaces = {rail_surface_of(m, rail()), wheel_surface_of(m, wheel())};
+  for (const BodyId id : kBodies) {
+    ContactSurface& surface = surfaces[index_of(id)];
+    surface.heights = {m.spec.irregularities, id, m.spec.geometry.wheel_radius};
+    surface.first_contact_y = m.placement.contact.point.y;
+  }
   if (const std::vector<TablePoint>& across = m.spec.friction.lateral_table; !across.empty())
     for (int c = 0; c < rail_surface().columns; ++c)
       options.contact.coefficient_across.push_back(

@@ -7,23 +7,13 @@
 #include <numeric>
 
 #include "case/case_spec.hpp"
+#include "core/counted_random.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kMostDeviations = 3;
 constexpr int kScatteredCycle = 10;
-
-/// Finalizer of splitmix64.
-std::uint64_t mixed(std::uint64_t v) {
-  v += 0x9e3779b97f4a7c15U;
-  v = (v ^ (v >> 30)) * 0xbf58476d1ce4e5b9U;
-  v = (v ^ (v >> 27)) * 0x94d049bb133111ebU;
-  return v ^ (v >> 31);
-}
-
-/// Above 0 and up to 1.
-double uniform_number(std::uint64_t v) { return (static_cast<double>(mixed(v) >> 11) + 1) * 0x1p-53; }
 
 /// The draws of one pass, until one lies within the cut.
 double cut_normal_number(int seed, int pass) {

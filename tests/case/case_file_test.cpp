@@ -159,16 +159,19 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   CaseSpec spec = one_of_each();
   spec.layers.resize(2);
   spec.layers[1].on = BodyId::wheel;
+  spec.irregularities[0].at = spec.irregularities[0].depth = 1e-3;
+  spec.irregularities[0].length = 20e-3;
   spec.friction = {.law = FrictionForm::coulomb,
                    .kinetic_coefficient = 0.1,
                    .half_velocity = 0.7};  // for the law that `disturb` gives
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options)
       if (!option.derivation && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)) &&
-          option.key != "plasticity" &&  // not with all that `disturb` gives: plasticity_case_test.cpp
-          option.key != "device" &&      // likewise: device_case_test.cpp
-          option.key != "grade" &&       // one of a few names: strength_case_test.cpp
-          table.name != "transient" &&   // its keys exclude each other: transient_case_file_test.cpp
+          option.key != "plasticity" &&    // not with all that `disturb` gives: plasticity_case_test.cpp
+          option.key != "device" &&        // likewise: device_case_test.cpp
+          option.key != "grade" &&         // one of a few names: strength_case_test.cpp
+          table.name != "irregularity" &&  // likewise: irregularity_case_file_test.cpp
+          table.name != "transient" &&     // its keys exclude each other: transient_case_file_test.cpp
           option.key != "contact" && option.key != "line_length")  // and these others: line_case_file_test.cpp
         disturb(option, spec, 0);
   const std::string text = resolved_case(spec);
@@ -212,7 +215,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "hub_radius, hub_width, bore_radius"},
       {"[meshes]\n",
        "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: "
-       "case, geometry, material.rail, material.wheel, layer, vehicle, drive, friction, third_body, mesh, "
+       "case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, drive, friction, third_body, "
+       "mesh, "
        "contact, run, bem, transient, load, collective, passes, output"},
       {"[mesh]\nelement_size = \"1 MPa\"\n",
        "a.toml:2:16: mesh.element_size = \"1 MPa\": \"MPa\" is not the unit of a length\n    2 | element_size = \"1 "
@@ -389,7 +393,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "keys"},
       {"[material]\nyoung = \"210 GPa\"\n",
        "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: "
-       "tables: case, geometry, material.rail, material.wheel, layer, vehicle, drive, friction, third_body, mesh, "
+       "tables: case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, drive, friction, "
+       "third_body, mesh, "
        "contact, run, bem, transient, load, collective, passes, output"},
   };
   for (const Bad& bad : all) {

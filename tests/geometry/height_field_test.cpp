@@ -1,0 +1,153 @@
+// Heights along rail and wheel: closed forms of the shapes, their slopes by differences, sums, and the wheel's turn.
+#include "geometry/height_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace railstrata {
+namespace {
+
+using Kind = IrregularityKind;
+constexpr double kRadius = 0.43;
+
+Irregularity shape(Kind kind, BodyId on = BodyId::rail) {
+  Irregularity is;
+  is.kind = kind;
+  is.on = on;
+  is.at = 0.1;
+  return is;
+}
+
+HeightField field_of(const Irregularity& is) { return {{is}, is.on, kRadius}; }
+
+Irregularity hollow() {
+  Irregularity is = shape(Kind::indentation);
+  is.length = 20e-3;
+  is.depth = 0.2e-3;
+  return is;
+}
+Irregularity waves() {
+  Irregularity is = shape(Kind::corrugation);
+  is.wavelength = 40e-3;
+  is.depth = 20e-6;
+  is.from = 0.0;
+  is.to = 0.5;
+  return is;
+}
+Irregularity dip(RampShape form) {
+  Irregularity is = shape(Kind::dip);
+  is.angle = 10e-3;
+  is.shape = form;
+  return is;
+}
+Irregularity chord() {
+  Irregularity is = shape(Kind::flat, BodyId::wheel);
+  is.length = 60e-3;
+  return is;
+}
+Irregularity oval() {
+  Irregularity is = shape(Kind::out_of_round, BodyId::wheel);
+  is.depth = 0.3e-3;
+  is.order = 6;
+  return is;
+}
+Irregularity rough(int seed) {
+  Irregularity is = shape(Kind::roughness);
+  is.rms = 3e-6;
+  is.shortest = 10e-3;
+  is.longest = 100e-3;
+  is.seed = seed;
+  return is;
+}
+Irregularity points() {
+  Irregularity is = shape(Kind::file);
+  for (int i = 0; i <= 40; ++i)
+    for (const double y : {-5e-3, 5e-3}) {
+      is.x.push_back(1e-3 * i);
+      is.y.push_back(y);
+      is.z.push_back((y > 0 ? 2e-5 : 1e-5) * std::sin(1e-3 * i / 6e-3));
+    }
+  return is;
+}
+
+TEST(HeightField, ShapesHaveTheirClosedForms) {
+  EXPECT_NEAR(field_of(hollow()).at(0.1, 0).z, -0.2e-3, 1e-12);
+  EXPECT_NEAR(field_of(hollow()).at(0.105, 7e-3).z, -0.1e-3, 1e-12);
+  EXPECT_EQ(field_of(hollow()).at(0.1101, 0).z, 0);
+  EXPECT_NEAR(field_of(waves()).at(0.3, 0).z, 10e-6, 1e-15) << "a crest";
+  EXPECT_NEAR(field_of(waves()).at(0.02, 0).z, 5e-6, 1e-15) << "half eased in, a crest again";
+  EXPECT_NEAR(field_of(dip(RampShape::parabola)).at(0.1, 0).z, -2.5e-3, 1e-12);
+  EXPECT_NEAR(field_of(dip(RampShape::parabola)).at(0.6, 0).z, -0.625e-3, 1e-12);
+  EXPECT_NEAR(field_of(dip(RampShape::line)).at(0.6, 0).z, -2.5e-3, 1e-12);
+  EXPECT_NEAR(field_of(chord()).at(0.1, 0).z, -60e-3 * 60e-3 / (8 * kRadius), 1e-12);
+  EXPECT_NEAR(field_of(oval()).at(0.1 + std::numbers::pi * kRadius / 6, 0).z, -0.15e-3, 1e-12);
+}
+
+// A difference over 2e-7 m errs by its square over 6 times the third derivative: below 1e-9 of the steepest here.
+TEST(HeightField, SlopesAreTheDerivativesOfTheHeights) {
+  constexpr double kStep = 1e-7;
+  for (const Irregularity& is :
+       {hollow(), waves(), dip(RampShape::parabola), dip(RampShape::line), chord(), oval(), rough(1), points()}) {
+    const HeightField field = field_of(is);
+    double most = 0;
+    for (int i = 0; i < 400; ++i) {
+      const double x = 0.0701 + 0.183e-3 * i, y = 2e-3;
+      const double slope = (field.at(x + kStep, y).z - field.at(x - kStep, y).z) / (2 * kStep);
+      EXPECT_NEAR(field.at(x, y).along, slope, 2e-7) << static_cast<int>(is.kind) << " at " << x;
+      most = std::max(most, std::abs(slope));
+    }
+    EXPECT_LE(most, 1.001 * steepest_slope(is, kRadius)) << static_cast<int>(is.kind);
+    EXPECT_GE(most, 0.3 * steepest_slope(is, kRadius)) << static_cast<int>(is.kind);
+  }
+}
+
+TEST(HeightField, AcrossItFallsOffAsACosine) {
+  Irregularity is = hollow();
+  is.width = 30e-3;
+  is.offset = 2e-3;
+  const HeightField field = field_of(is);
+  EXPECT_NEAR(field.at(0.1, 2e-3).z, -0.2e-3, 1e-12);
+  EXPECT_NEAR(field.at(0.1, 9.5e-3).z, -0.1e-3, 1e-12);
+  EXPECT_EQ(field.at(0.1, 17.1e-3).z, 0);
+}
+
+TEST(HeightField, AddsUpThoseOfOneBody) {
+  const HeightField field({hollow(), waves(), oval()}, BodyId::rail, kRadius);
+  EXPECT_NEAR(field.at(0.1, 0).z, -0.2e-3 + 10e-6, 1e-12);
+  EXPECT_TRUE(HeightField({oval()}, BodyId::rail, kRadius).none());
+}
+
+TEST(HeightField, OnTheWheelComesAgainAfterATurn) {
+  const double turn = 2 * std::numbers::pi * kRadius;
+  for (const int n : {-1, 1, 3})
+    EXPECT_NEAR(field_of(chord()).at(0.11 + n * turn, 0).z, field_of(chord()).at(0.11, 0).z, 1e-12);
+}
+
+// The mean square over 400 of the longest waves is good to a few per cent; with 200 waves of a density k^-2.
+TEST(HeightField, RoughnessHasItsRootMeanSquareAndOneSurfaceForASeed) {
+  const HeightField field = field_of(rough(1)), same = field_of(rough(1)), other = field_of(rough(2));
+  double square = 0;
+  constexpr int kSamples = 40000;
+  for (int i = 0; i < kSamples; ++i) square += std::pow(field.at(1e-3 * i, 0).z, 2);
+  EXPECT_NEAR(std::sqrt(square / kSamples), 3e-6, 0.05 * 3e-6);
+  EXPECT_EQ(field.at(0.2, 0).z, same.at(0.2, 0).z);
+  EXPECT_NE(field.at(0.2, 0).z, other.at(0.2, 0).z);
+}
+
+// Cubics through a sine of 37.7 mm at 1 mm: the error is of third order at the ends, 1e-3 of the amplitude.
+TEST(HeightField, AFileIsInterpolatedAndItsEndsGoOn) {
+  const HeightField field = field_of(points());
+  EXPECT_NEAR(field.at(0.1 + 9.5e-3, 5e-3).z, 2e-5 * std::sin(9.5 / 6), 2e-8);
+  EXPECT_NEAR(field.at(0.1 + 9.5e-3, 0).z, 1.5e-5 * std::sin(9.5 / 6), 2e-8);
+  EXPECT_EQ(field.at(0.3, 5e-3).z, field.at(0.14, 5e-3).z);
+  Irregularity smooth = points();
+  smooth.smoothing = 6e-3;
+  // the mean of cos(k x) with weights 1 + cos(2 pi x/L): sin(u)/u / (1 - (u/pi)^2), u = k L/2
+  const double u = 0.5, factor = std::sin(u) / u / (1 - u * u / (std::numbers::pi * std::numbers::pi));
+  EXPECT_NEAR(field_of(smooth).at(0.1 + 15e-3, 5e-3).z, factor * 2e-5 * std::sin(2.5), 1e-3 * 2e-5);
+}
+
+}  // namespace
+}  // namespace railstrata
