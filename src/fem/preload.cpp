@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "body/plastic_pass.hpp"
 #include "body/traversal.hpp"
@@ -94,9 +95,22 @@ class Preload {
         1e3 * m.spec.mesh.element_size, 2e3 * m.hertz.a, 2e3 * m.hertz.b);
   }
 
+  double search_length() const { return 2 * sys_.model.hertz.a + 4 * sys_.options.element_size; }
+
+  // How far the rigid wheel comes down to touch the heights along the middle of the contact.
+  double rigid_descent() const {
+    const double length = search_length(), step = 0.25 * sys_.options.element_size;
+    double least = std::numeric_limits<double>::infinity();
+    for (double x = -length; x <= length; x += step)
+      least = std::min(least, x * x / (2 * sys_.rolling_radius) - sys_.rail_surface().heights.at(x, 0).z -
+                                  sys_.wheel_surface().heights.at(x, 0).z);
+    return least;
+  }
+
   void start_from_overlap() {
     if (before_) u_.body[kRail] = before_->u;
     u_.axle = -kVirtualPenetration * sys_.model.hertz.approach;
+    if (!(sys_.rail_surface().heights.none() && sys_.wheel_surface().heights.none())) u_.axle -= rigid_descent();
     for (const NodeLine& l : sys_.wheel().lines)
       if (l.component == 2) std::fill_n(u_.body[kWheel].begin() + l.first, l.count, u_.axle);
     sys_.apply_constraints(u_.body[kRail], u_.body[kWheel], {0, 0, u_.axle, 0});
@@ -143,9 +157,7 @@ class Preload {
 
   void update_contact() {
     const AxlePose pose{0, 0, u_.axle, 0};
-    const double h = sys_.options.element_size;
-    contact_.search(u_.body[kRail], u_.body[kWheel], pose, 2 * sys_.model.hertz.a + 4 * h,
-                    0.3 * sys_.model.hertz.approach);
+    contact_.search(u_.body[kRail], u_.body[kWheel], pose, search_length(), 0.3 * sys_.model.hertz.approach);
     rows_ = &contact_.rows(u_.body[kRail], u_.body[kWheel], pose);
     pressure_.clear();
     active_.clear();

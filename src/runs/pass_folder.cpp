@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 #include "core/stop_request.hpp"
 #include "judge/check_limits.hpp"
@@ -52,6 +53,7 @@ class SteadyPasses : public PassJob {
 
  private:
   RailPasses rail_of() {
+    require_same_along(loaded_.spec, "a series of passes");
     BemOptions bem;
     bem.cell = wanted_.cell;
     const StopRequest wish(&control_.stop);

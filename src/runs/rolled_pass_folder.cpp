@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/provenance.hpp"
@@ -17,6 +18,7 @@ namespace {
 RolledPasses passes_of(const LoadedCase& loaded, double roll_length) {
   if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
   try {
+    require_same_along(loaded.spec, "a series of passes");
     return {loaded.spec, loaded.folder(), roll_length};
   } catch (const CaseError& e) {
     throw in_case_file(loaded, e);

@@ -1,11 +1,13 @@
 // Static equilibrium before the rolling.
 #include "fem/preload.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "body/aggregates.hpp"
+#include "case/case_file.hpp"
 #include "core/parallel.hpp"
 #include "small_rolling.hpp"
 #include "tests/body/sample_bodies.hpp"
@@ -136,6 +138,35 @@ TEST(SlowPreload, ALayerFourTimesAsStiffAndThinIsReachedToo) {
   const PreloadResult r = solve_preload(sys, 1e-6);
   EXPECT_LT(r.residual, 1e-6);
   EXPECT_LT(r.newton_steps, 20);
+}
+
+// Independent half-spaces under 85 kN, a cylinder of 430 mm on a crown of 300 mm over a cosine hollow of 20 mm x 0.2
+// mm: lowering over that on the flat rail 81.0, 69.9 and 21.0 um at 0, 3 and 8 mm from its middle, p_max 2033 MPa at 3
+// mm. Elements of 2 mm.
+TEST(SlowPreload, OverAHollowTheWheelComesDownAsHalfSpacesHaveIt) {
+  const auto solve = [](double at, BodyId on) {
+    const CaseSpec spec =
+        parse_case(
+            fmt::format("[geometry]\nrail_profile = \"arc:R=300 mm\"\nwheel_profile = \"flat\"\nwheel_radius = "
+                        "\"430 mm\"\nrail_shape = \"block\"\nblock_width = \"50 mm\"\nwheel_shape = \"disc\"\n"
+                        "bore_radius = \"300 mm\"\ncant = 0.0\n[vehicle]\nwheel_mass = \"600 kg\"\nwheel_load = "
+                        "\"85 kN\"\n[drive]\ntraction_coefficient = 0.0\n[mesh]\nelement_size = \"2 mm\"\n[run]\n"
+                        "rolling = false\n[[irregularity]]\non = \"{}\"\nat = \"{} mm\"\nlength = \"20 mm\"\n"
+                        "depth = \"0.2 mm\"\n",
+                        body_word(on), at),
+            "a.toml")
+            .spec;
+    const RollingSystem sys(build_model(spec, {}));
+    return solve_preload(sys, 1e-6);
+  };
+  const PreloadResult flat = solve(200, BodyId::rail), hollow = solve(3, BodyId::rail);
+  const auto lower = [&](const PreloadResult& r) { return 1e6 * (flat.axle_z - r.axle_z); };
+  EXPECT_NEAR(lower(solve(0, BodyId::rail)), 81.0, 1.5);
+  EXPECT_NEAR(lower(hollow), 69.9, 1.5);
+  EXPECT_NEAR(lower(solve(8, BodyId::rail)), 21.0, 1.5);
+  EXPECT_NEAR(lower(solve(3, BodyId::wheel)), 69.9, 1.5) << "of the wheel's arc";
+  EXPECT_NEAR(largest_pressure(hollow), 2033e6, 0.04 * 2033e6);
+  EXPECT_NEAR(hollow.contact_force.z / flat.contact_force.z, 1.0, 1e-5);
 }
 
 // The modes of a cluster are orthonormal, so P P^T leaves what they span unchanged.
