@@ -1,0 +1,44 @@
+#pragma once
+// The track below a rail: pads, rigid sleepers and ballast, as numbers.
+#include <string_view>
+#include <vector>
+
+namespace railstrata {
+
+/// Of one rail seat. Sleepers stand at x = (phase + k) spacing, k any whole number; x = 0 is where the wheel starts.
+/// Vertically a pad joins the foot to the sleeper, half a sleeper's mass, and the ballast joins that to the ground.
+/// Sideways and along the rail the sleeper is at rest, and the pad has `pad_shear` of its vertical numbers.
+struct SleeperTrack {
+  double spacing = 0.6;                               ///< m
+  double phase = 0.5;                                 ///< of a spacing; 0: a sleeper at x = 0, 0.5: midspan
+  double pad_stiffness = 0, pad_damping = 0;          ///< N/m, N s/m
+  double pad_length = 0.15;                           ///< m, along the rail; 0: a point
+  double pad_shear = 0.1;                             ///< sideways and along over vertical stiffness and damping
+  double sleeper_mass = 0;                            ///< kg
+  double ballast_stiffness = 0, ballast_damping = 0;  ///< N/m, N s/m
+  int bays = 12;                                      ///< length of the model over the spacing
+  double length() const { return bays * spacing; }    ///< m
+};
+
+enum class TrackSet {
+  held,    ///< no track: the foot's base is held
+  delft,   ///< hard pads
+  medium,  ///< UIC60 on B70
+  cn60     ///< soft pads
+};
+
+struct NamedTrack {
+  TrackSet set;
+  std::string_view name, rail, source;
+  SleeperTrack track;
+};
+/// All sets but `held`.
+const std::vector<NamedTrack>& named_tracks();
+/// Null for `held` and for a word that names none.
+const NamedTrack* named_track(TrackSet set);
+const NamedTrack* named_track(std::string_view name);
+
+/// Positions of the sleepers whose pads lie within [begin, end], m, increasing.
+std::vector<double> sleepers_between(const SleeperTrack& track, double begin, double end);
+
+}  // namespace railstrata
