@@ -27,7 +27,7 @@ SECTIONS = [
     ("Start", ["README.md", "docs/tutorial.ipynb", "docs/commands.md", "docs/windows.md", "docs/conventions.md"]),
     ("Use", ["docs/bem.md", "docs/finite-elements.md", "docs/friction.md", "docs/checks.md", "docs/damage.md",
              "docs/passes.md", "docs/study.md", "docs/report.md", "docs/explorer.md", "docs/export.md",
-             "docs/creep-table.md", "docs/validate.md", "docs/gpu.md"]),
+             "docs/creep-table.md", "docs/track.md", "docs/validate.md", "docs/gpu.md"]),
     ("Theory", ["docs/bem-theory.md", "docs/finite-elements-theory.md", "docs/damage-theory.md",
                 "docs/damage-indices.md", "docs/material.md", "docs/passes-theory.md"]),
     ("Verification", ["docs/validation.md", "docs/bem-verification.md", "docs/error-bars.md",

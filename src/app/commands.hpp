@@ -25,6 +25,11 @@ struct CreepCurveOptions {
   int points = 21;              ///< --points
   bool both_sides = false;      ///< --both-sides: braking and driving, left and right
 };
+struct ReceptanceOptions {
+  double largest = 3000;       ///< --largest, Hz
+  std::string time = "0.1 s";  ///< --time: how long a blow is followed
+  bool beam = false;           ///< --beam: without finite elements
+};
 struct CreepTableCommandOptions {
   std::vector<std::string> axes;  ///< --axis
   std::string scaled;             ///< --scaled ANGLES:SPINS:SIZES; empty: a plain table
@@ -113,6 +118,7 @@ struct CommonOptions {
 struct CommandOptions : CommonOptions {
   RunOptions run;
   CreepCurveOptions creep_curve;
+  ReceptanceOptions receptance;
   CreepTableCommandOptions creep_table;
   int usetab_cells = 20;  ///< --cells, along either axis of the ellipse
   SweepCommandOptions sweep;
@@ -147,6 +153,7 @@ extern const Command kMaterialCommand;
 extern const Command kPassesCommand;
 extern const Command kCompareCommand;
 extern const Command kCreepCurveCommand;
+extern const Command kReceptanceCommand;
 extern const Command kCreepTableCommand;
 extern const Command kUsetabCommand;
 extern const Command kSweepCommand;

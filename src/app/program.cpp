@@ -32,12 +32,12 @@ namespace railstrata {
 namespace {
 
 /// In the order of the help; the manual, whose pages they are, stands last.
-constexpr const Command* kCommands[] = {&kDemoCommand,    &kCheckCommand,      &kMeshCommand,       &kRunCommand,
-                                        &kBemCommand,     &kShakedownCommand,  &kMaterialCommand,   &kPassesCommand,
-                                        &kCompareCommand, &kCreepCurveCommand, &kCreepTableCommand, &kUsetabCommand,
-                                        &kSweepCommand,   &kValidateCommand,   &kCollectiveCommand, &kWearLoopCommand,
-                                        &kStudyCommand,   &kReportCommand,     &kExploreCommand,    &kExportCommand,
-                                        &kSchemaCommand,  &kInfoCommand,       &kCompletionCommand, &kManualCommand};
+constexpr const Command* kCommands[] = {
+    &kDemoCommand,       &kCheckCommand,    &kMeshCommand,       &kRunCommand,        &kBemCommand,
+    &kShakedownCommand,  &kMaterialCommand, &kPassesCommand,     &kCompareCommand,    &kCreepCurveCommand,
+    &kCreepTableCommand, &kUsetabCommand,   &kSweepCommand,      &kValidateCommand,   &kCollectiveCommand,
+    &kWearLoopCommand,   &kStudyCommand,    &kReceptanceCommand, &kReportCommand,     &kExploreCommand,
+    &kExportCommand,     &kSchemaCommand,   &kInfoCommand,       &kCompletionCommand, &kManualCommand};
 
 std::vector<std::string> command_names() {
   std::vector<std::string> names;

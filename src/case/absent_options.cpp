@@ -43,7 +43,8 @@ constexpr std::array kAbsent{
     Absent{"yield_strength", kElastic},
     Absent{"hardening", kElastic},
     Absent{"residual_stress", kElastic},
-    Absent{"track", kTrack},
+    Absent{"gauge", kTrack},
+    Absent{"cant", kTrack},
 };
 
 }  // namespace

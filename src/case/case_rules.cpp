@@ -8,6 +8,7 @@
 #include "case/irregularity_rules.hpp"
 #include "case/line_rules.hpp"
 #include "case/load_rows.hpp"
+#include "case/option_table.hpp"
 #include "case/strength_rules.hpp"
 #include "case/transient_rules.hpp"
 #include "case/units.hpp"
@@ -304,6 +305,29 @@ void check_device(const CaseSpec& spec, CaseSource& source) {
   refuse(!spec.friction.lateral_table.empty(), "friction.lateral_table");
 }
 
+/// A set gives the numbers that a case leaves out; without one nothing is below the foot.
+void check_track(const CaseSpec& spec, CaseSource& source) {
+  if (spec.track.held()) {
+    for (const Option& o : find_table("track")->options)
+      if (const std::string key = fmt::format("track.{}", o.key); key != "track.preset" && source.has(key))
+        return source.complain(key, fmt::format("{} needs track.preset: without it the foot is held", key),
+                               "give track.preset = \"delft\", \"medium\" or \"cn60\", whose numbers the keys have "
+                               "that are not given");
+    return;
+  }
+  const auto refuse = [&](bool asked, const char* with, const char* remedy) {
+    if (asked) source.complain("track.preset", fmt::format("track.preset with {} is not computed", with), remedy);
+  };
+  refuse(spec.geometry.rail_radius.has_value(), "geometry.rail_radius", "a roller turns about a shaft: take it out");
+  refuse(spec.run.device != ComputeDevice::cpu, "run.device = \"gpu\"", "run.device = \"cpu\"");
+  const SleeperTrack& t = spec.track.support;
+  if (source.sound({"track.pad_length", "track.spacing"}) && t.pad_length > 0.8 * t.spacing)
+    source.complain("track.pad_length",
+                    fmt::format("track.pad_length = {}: must be at most {}, 0.8 spacings", length(t.pad_length),
+                                length(0.8 * t.spacing)),
+                    "give the pad's length along the rail, e.g. \"150 mm\"");
+}
+
 void check_passes(const CaseSpec& spec, CaseSource& source) {
   if (spec.passes.jump != PassJump::off && spec.passes.lateral_deviation)
     source.complain("passes.jump",
@@ -340,6 +364,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_strengths(spec, source);
   check_plasticity(spec, source);
   check_device(spec, source);
+  check_track(spec, source);
   check_passes(spec, source);
   check_irregularities(spec, source);
   check_loads(spec, source);

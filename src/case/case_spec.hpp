@@ -9,6 +9,7 @@
 #include "case/history_spec.hpp"
 #include "case/layer_spec.hpp"
 #include "case/run_spec.hpp"
+#include "case/track_spec.hpp"
 #include "geometry/irregularity.hpp"
 
 namespace railstrata {
@@ -20,6 +21,7 @@ struct CaseSpec {
   std::vector<LayerSpec> layers;
   std::vector<Irregularity> irregularities;
   VehicleSpec vehicle;
+  TrackSpec track;
   DriveSpec drive;
   FrictionSpec friction;
   ThirdBodySpec third_body;

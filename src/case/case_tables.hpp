@@ -10,6 +10,7 @@ OptionTable wheel_material_table();
 OptionTable layer_table();
 OptionTable irregularity_table();
 OptionTable vehicle_table();
+OptionTable track_table();
 OptionTable drive_table();
 OptionTable friction_table();
 OptionTable third_body_table();

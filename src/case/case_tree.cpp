@@ -24,6 +24,7 @@ class TreeReader {
   void read(const toml::table& document) {
     take_condition(document);
     take_track(document);
+    take_sleepers(document);
     for (const auto& [key, node] : document) read_top(std::string(key.str()), key, node);
     finish_derived();
     const std::vector<TablePoint>& across = spec_.friction.lateral_table;
@@ -71,6 +72,12 @@ class TreeReader {
     g.back_to_back = p.back_to_back;
     g.cant = p.cant;
     g.wheel_radius = p.wheel_radius;
+  }
+
+  /// The numbers of a set of sleepers likewise.
+  void take_sleepers(const toml::table& document) {
+    const NamedTrack* named = named_track(document["track"]["preset"].value_or<std::string>(""));
+    if (named) spec_.track.support = named->track;
   }
 
   struct Derived {

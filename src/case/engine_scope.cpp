@@ -84,6 +84,10 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   beyond(g.in_line(), "geometry.contact", "a line contact", "bodies have ends across, and patches too");
   refuse_on_ring(spec, out);
   refuse_irregularities(spec, out);
+  if (!spec.track.held())
+    out.push_back({"track.preset",
+                   "a track below the rail (track.preset) is not in the steps of a run: its foot is held",
+                   "take [track] out; `railstrata receptance` computes the rail on its track"});
   beyond(g.roll != 0, "geometry.roll", "a roll of the wheelset", "the wheel is meshed upright");
   if (!spec.run.rolling) return out;
   if (spec.friction.law != FrictionForm::coulomb && !(spec.friction.memory_distance > 0))

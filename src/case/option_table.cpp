@@ -41,6 +41,7 @@ const std::vector<OptionTable>& case_tables() {
       layer_table(),
       irregularity_table(),
       vehicle_table(),
+      track_table(),
       drive_table(),
       friction_table(),
       third_body_table(),

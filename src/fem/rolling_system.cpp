@@ -31,6 +31,8 @@ std::vector<double> nodal_areas(const Section& s) {
   return area;
 }
 
+}  // namespace
+
 std::vector<EndDashpot> end_absorbers(const Body& rail) {
   const BodyLayout& lay = rail.layout;
   Field coefficient = lay.field();
@@ -49,6 +51,8 @@ std::vector<EndDashpot> end_absorbers(const Body& rail) {
     if (coefficient[k] > 0 && rail.inverse_mass[k] > 0) out.push_back({k, coefficient[k]});
   return out;
 }
+
+namespace {
 
 std::vector<EndLoad> end_loads_of(const Body& rail) {
   if (rail.initial_stress.empty()) return {};

@@ -45,6 +45,9 @@ struct EndDashpot {
   double coefficient;
 };
 
+/// At all free nodes of both end planes.
+std::vector<EndDashpot> end_absorbers(const Body& rail);
+
 /// Force of the rail beyond the model's end on a node of the end plane [N], along x: the nodal force of its initial
 /// stress, so that the rail is as long as it is and keeps that stress up to its ends. A free end would be felt far into
 /// it: of a layer of thickness h on a block the stress comes back as 1 - 2.14 h/distance (a wedge of a right angle with

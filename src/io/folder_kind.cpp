@@ -36,7 +36,8 @@ std::vector<std::string> command_line_of(const fs::path& folder) {
 /// The command that has written the folder ("run", "study"), by its provenance.json; empty if that has none.
 std::string command_of(const fs::path& folder) {
   for (const std::string& word : command_line_of(folder))
-    for (const char* command : {"run", "bem", "study", "sweep", "creep-curve", "collective", "passes", "mesh"})
+    for (const char* command :
+         {"run", "bem", "study", "sweep", "creep-curve", "receptance", "collective", "passes", "mesh"})
       if (word == command) return command;
   return {};
 }
@@ -92,6 +93,9 @@ Diagnostic no_result_here(const fs::path& folder) {
   if (command == "creep-curve" || has(folder, "creep_curve.csv"))
     return {"", fmt::format("{}: this is a creep curve, not the result of one case", name),
             "its table is creep_curve.csv in it; for a page on the case: railstrata bem CASE"};
+  if (command == "receptance" || has(folder, "receptance.csv"))
+    return {"", fmt::format("{}: this is a receptance of the track, not the result of one case", name),
+            "its table is receptance.csv in it; for a page on the case: railstrata run CASE"};
   if (command == "collective" || has(folder, "collective.csv"))
     return {"", fmt::format("{}: this is a load collective, not the result of one case", name),
             "its page is report.html in it; the load that it shows whole is in shown_load"};

@@ -233,6 +233,18 @@ void refuse_beyond_elements(const CaseSpec& spec) {
   for (const LayerSpec& layer : spec.layers) check(fmt::format("layer \"{}\"", layer.name), layer.material.poisson);
 }
 
+/// Of the rail beyond the fine range; on a track as long as its bays ask for.
+double end_length(const CaseSpec& spec, double begin, double end) {
+  if (spec.track.held()) return spec.mesh.end_length;
+  const double out = 0.5 * (spec.track.support.length() - (end - begin));
+  if (out < spec.mesh.end_length)
+    throw CaseError(fmt::format("track.bays = {}: the rail would end {:.0f} mm beyond the wheel's path, less than "
+                                "mesh.end_length",
+                                spec.track.support.bays, 1e3 * out),
+                    "give more track.bays, or a shorter path (run.positions)", "track.bays");
+  return out;
+}
+
 /// rail: not null: its mesh.
 Model build(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail) {
   refuse_beyond_elements(spec);
@@ -266,7 +278,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   rail.contact_s = strip.rail_s;
   rail.x_begin = -margin;
   rail.x_end = m.x_end + margin;
-  rail.end_length = spec.mesh.end_length;
+  rail.end_length = end_length(spec, rail.x_begin, rail.x_end);
   rail.block_width = g.block_width;
   rail.block_height = g.block_height;
   rail.layers = layer_meshes(spec, BodyId::rail);

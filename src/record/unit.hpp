@@ -23,6 +23,7 @@ struct Unit {
     if (key_ending == "_per_s") return "1/s";
     if (key_ending == "_N_m") return "N m";
     if (key_ending == "_J_per_m") return "J/m";
+    if (key_ending == "_m_per_N") return "m/N";
     return key_ending.empty() ? key_ending : key_ending == "_m2" ? "m²" : key_ending.substr(1);
   }
 };
@@ -63,6 +64,8 @@ inline constexpr Unit kSeconds = si("_s", "s");
 inline constexpr Unit kMilliseconds = both("_s", "_ms", kToMilli, "ms");
 inline constexpr Unit kNanoseconds = both("_s", "_ns", 1e9, "ns");
 inline constexpr Unit kPerSecond = si("_per_s", "1/s");
+inline constexpr Unit kHertz = si("_Hz", "Hz");
+inline constexpr Unit kNanometresPerNewton = both("_m_per_N", "_nm_per_N", 1e9, "nm/N");
 inline constexpr Unit kMetresPerSecond = si("_m_s", "m/s");
 inline constexpr Unit kMillimetresPerSecond = both("_m_s", "_mm_s", kToMilli, "mm/s");
 inline constexpr Unit kRadiansPerSecond = si("_rad_s", "rad/s");

@@ -7,17 +7,18 @@ namespace railstrata {
 
 /// Of one rail seat. Sleepers stand at x = (phase + k) spacing, k any whole number; x = 0 is where the wheel starts.
 /// Vertically a pad joins the foot to the sleeper, half a sleeper's mass, and the ballast joins that to the ground.
-/// Sideways and along the rail the sleeper is at rest, and the pad has `pad_shear` of its vertical numbers.
+/// Sideways and along the rail the sleeper is at rest, and the pad has `pad_shear` of its vertical numbers. Without
+/// others the numbers are those of `medium`.
 struct SleeperTrack {
-  double spacing = 0.6;                               ///< m
-  double phase = 0.5;                                 ///< of a spacing; 0: a sleeper at x = 0, 0.5: midspan
-  double pad_stiffness = 0, pad_damping = 0;          ///< N/m, N s/m
-  double pad_length = 0.15;                           ///< m, along the rail; 0: a point
-  double pad_shear = 0.1;                             ///< sideways and along over vertical stiffness and damping
-  double sleeper_mass = 0;                            ///< kg
-  double ballast_stiffness = 0, ballast_damping = 0;  ///< N/m, N s/m
-  int bays = 12;                                      ///< length of the model over the spacing
-  double length() const { return bays * spacing; }    ///< m
+  double spacing = 0.6;                                     ///< m
+  double phase = 0.5;                                       ///< of a spacing; 0: a sleeper at x = 0, 0.5: midspan
+  double pad_stiffness = 200e6, pad_damping = 28e3;         ///< N/m, N s/m
+  double pad_length = 0.15;                                 ///< m, along the rail; 0: a point
+  double pad_shear = 0.1;                                   ///< sideways and along over vertical stiffness and damping
+  double sleeper_mass = 140;                                ///< kg
+  double ballast_stiffness = 40e6, ballast_damping = 47e3;  ///< N/m, N s/m
+  int bays = 12;                                            ///< length of the model over the spacing
+  double length() const { return bays * spacing; }          ///< m
 };
 
 enum class TrackSet {

@@ -48,6 +48,10 @@ on = "wheel"
 young_ratio = 0.5
 [vehicle]
 suspension_damping = "12 kN·s/m"
+[track]
+preset = "delft"
+pad_length = "180 mm"
+bays = 6
 [drive]
 speed = "90 km/h"
 traction_coefficient = "15 %"
@@ -76,6 +80,10 @@ volume = false
   EXPECT_EQ(spec.layers[0].material.young, 420e9);
   EXPECT_EQ(spec.layers[1].material.young, 100e9);
   EXPECT_EQ(spec.vehicle.suspension_damping, 12e3);
+  EXPECT_EQ(spec.track.support.pad_stiffness, 1300e6);
+  EXPECT_EQ(spec.track.support.ballast_damping, 32e3);
+  EXPECT_EQ(spec.track.support.pad_length, 180e-3);
+  EXPECT_EQ(spec.track.support.length(), 6 * 0.6);
   EXPECT_DOUBLE_EQ(spec.drive.speed, 25.0);
   EXPECT_EQ(spec.drive.traction_coefficient, 0.15);
   EXPECT_EQ(spec.friction.law, FrictionForm::falling_rational);
@@ -215,8 +223,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "hub_radius, hub_width, bore_radius"},
       {"[meshes]\n",
        "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: "
-       "case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, drive, friction, third_body, "
-       "mesh, "
+       "case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, track, drive, friction, "
+       "third_body, mesh, "
        "contact, run, bem, transient, load, collective, passes, output"},
       {"[mesh]\nelement_size = \"1 MPa\"\n",
        "a.toml:2:16: mesh.element_size = \"1 MPa\": \"MPa\" is not the unit of a length\n    2 | element_size = \"1 "
@@ -393,7 +401,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "keys"},
       {"[material]\nyoung = \"210 GPa\"\n",
        "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: "
-       "tables: case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, drive, friction, "
+       "tables: case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, track, drive, friction, "
        "third_body, mesh, "
        "contact, run, bem, transient, load, collective, passes, output"},
   };
