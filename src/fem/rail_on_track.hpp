@@ -5,8 +5,8 @@
 // with the shape functions of the stations, so that a pad's resultant lies where the pad does:
 //   f_i = share_i (k (u_i - z) + c (v_i - w)),   m dw/dt = sum f_i - k_b z - c_b w
 // vertically, with z and w of the sleeper; sideways and along the rail share_i pad_shear (k u_i + c v_i) to the ground.
-// Displacements count from the equilibrium under the weights. Central differences as in fem/stepper.hpp; dashpots of pads
-// and ballast take the velocity of the half step before, those at the ends the mean of both.
+// Displacements count from the equilibrium under the weights. Central differences as in fem/stepper.hpp; dashpots of
+// pads and ballast take the velocity of the half step before, those at the ends the mean of both.
 #include <functional>
 #include <vector>
 

@@ -238,7 +238,7 @@ double end_length(const CaseSpec& spec, double begin, double end) {
   if (spec.track.held()) return spec.mesh.end_length;
   const double out = 0.5 * (spec.track.support.length() - (end - begin));
   if (out < spec.mesh.end_length)
-    throw CaseError(fmt::format("track.bays = {}: the rail would end {:.0f} mm beyond the wheel's path, less than "
+    throw CaseError(fmt::format("the rail of {} bays would end {:.0f} mm beyond the wheel's path, less than "
                                 "mesh.end_length",
                                 spec.track.support.bays, 1e3 * out),
                     "give more track.bays, or a shorter path (run.positions)", "track.bays");

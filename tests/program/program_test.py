@@ -174,6 +174,23 @@ class Program(FromOutside):
             rc, _, err = railstrata("check", case, *coarse)
             self.assertEqual(rc, 0, f"{case}: {err}")
 
+    def test_a_receptance_has_its_table_page_and_refusals(self):
+        case = SOURCE / "cases" / "along" / "receptance.toml"
+        out = self.folder / "receptance"
+        rc, text, err = railstrata("receptance", case, "--beam", "--largest", 100, "--set", "track.pad_length=0 mm",
+                                   "--out", out, "--json")
+        self.assertEqual(rc, 0, err)
+        curves = json.loads(text)
+        self.assertEqual(curves["frequency_Hz"], [10.0 * k for k in range(11)])
+        # an endless UIC60 of 3038 cm4 on pads as points: 9.74 and 9.38 nm/N; this one has CN60's foot at its height
+        self.assertAlmostEqual(curves["beam_midspan_nm_per_N"][0] / 9.74, 1, delta=0.03)
+        self.assertAlmostEqual(curves["beam_sleeper_nm_per_N"][0] / 9.38, 1, delta=0.03)
+        for name in "report.html", "receptance.csv":
+            self.assertTrue((out / name).is_file(), name)
+        for command in "run", "bem":
+            self.refused(2, [command, case, "--out", self.folder / "no"], "receptance.toml:", "railstrata receptance")
+        self.refused(2, ["receptance", self.case(TINY), "--out", self.folder / "no"], "the foot of this rail is held")
+
     def test_compare_names_the_folder_that_it_writes(self):
         self.assertIn("(default: results/<folder A>-against-<folder B>)", re.sub(r"\s+", " ", railstrata(
             "compare", "--help")[1]))
