@@ -32,7 +32,7 @@ void solve(const CommandOptions& options, const LoadedCase& loaded, InfluenceCac
   CollectiveOptions how;
   how.bem.cell = cell_size(options.cell);
   how.bem.cache = &cache;
-  how.shakedown = strength_given(loaded.spec, BodyId::rail) || strength_given(loaded.spec, BodyId::wheel);
+  how.shakedown = strength_to_judge(loaded.spec);
   how.control = &control_by_signals();
   solve_collective(rows, loaded.folder(), how);
   how.control->progress("");

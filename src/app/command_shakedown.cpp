@@ -21,8 +21,10 @@ void require_elastic_run(const LoadedCase& loaded) {
 
 /// Without a strength there is nothing to hold the stresses against.
 void require_strength(const LoadedCase& loaded) {
-  if (strength_given(loaded.spec, BodyId::rail) || strength_given(loaded.spec, BodyId::wheel)) return;
-  throw CaseError("the case gives no strength of rail, wheel or layers",
+  if (strength_to_judge(loaded.spec)) return;
+  const bool both = loaded.spec.run.judged == JudgedBodies::both;
+  throw CaseError(both ? "the case gives no strength of rail, wheel or layers"
+                       : "the case gives no strength of the body that run.judged names, nor of its layers",
                   "give yield_strength = \"500 MPa\", or grade = \"R260\", in [material.rail], [material.wheel] or a "
                   "[[layer]]",
                   loaded.file.string());

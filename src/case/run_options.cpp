@@ -97,7 +97,11 @@ OptionTable run_table() {
        option("plastic_width", at<&C::run, &R::plastic_width>,
               "Its reach to either side of the contact point; of a box that is given by one of the two, the depth is "
               "2.5 times Hertz's larger half-axis, the reach 1.6 times his half-width and two elements",
-              kLength, above(0, 1))}};
+              kLength, above(0, 1)),
+       choice_at<&C::run, &R::judged>(
+           "judged",
+           "Whose strength and fatigue are judged: the answer, its zones and the worst load are of these bodies",
+           {{"both", JudgedBodies::both}, {"rail", JudgedBodies::rail}, {"wheel", JudgedBodies::wheel}})}};
 }
 
 OptionTable bem_table() {

@@ -30,6 +30,9 @@ enum class LeadingEdge {
   whole_cell  ///< between two cells, as Kalker and CONTACT do
 };
 
+/// Whose strength and fatigue a result judges.
+enum class JudgedBodies { both, rail, wheel };
+
 struct MeshSpec {
   double element_size = 1e-3, fine_width = 24e-3, fine_depth = 8e-3, largest = 12e-3;
   int coarse_ratio = 3;
@@ -60,6 +63,7 @@ struct RunSpec {
   bool rolling = true;                                 ///< false: stop after the static preload
   bool plasticity = false;                             ///< finite elements: materials with a strength yield
   std::optional<double> plastic_depth, plastic_width;  ///< m, box of the elements that may (fem/plastic_zone.hpp)
+  JudgedBodies judged = JudgedBodies::both;
 };
 
 /// Angle of the surfaces that the lateral slip of spin is taken with (bem/case_patch.hpp).

@@ -235,7 +235,7 @@ struct Explorer::State {
     out["summary"] = summary_json(solution.summary);
     out["values"] = case_values(loaded.spec, request.values);
     out["layers"] = layers_json(loaded.spec);
-    out["strengths"] = strength_given(loaded.spec, BodyId::rail) || strength_given(loaded.spec, BodyId::wheel);
+    out["strengths"] = strength_to_judge(loaded.spec);
     out["doubts"] = doubts_json(solution.summary);
     out["notes"] = loaded.notes;
     for (const auto& further : {loaded.elastic_notes, loaded.static_notes, placement.notes, solution.result.notes})

@@ -79,6 +79,16 @@ bool strength_given(const CaseSpec& spec, BodyId body) {
   return false;
 }
 
+bool judged(const CaseSpec& spec, BodyId body) {
+  return spec.run.judged != (body == BodyId::rail ? JudgedBodies::wheel : JudgedBodies::rail);
+}
+
+bool strength_to_judge(const CaseSpec& spec) {
+  for (const BodyId body : {BodyId::rail, BodyId::wheel})
+    if (judged(spec, body) && strength_given(spec, body)) return true;
+  return false;
+}
+
 std::function<double(double, bool)> shear_strength_by_depth(const CaseSpec& spec, BodyId body) {
   std::vector<double> bottoms;
   for (const std::size_t i : layers_on(spec, body))

@@ -20,6 +20,10 @@ struct RowStrength {
 
 /// Whether a case gives a strength of a body, or of a layer on it.
 bool strength_given(const CaseSpec& spec, BodyId body);
+/// Whether a body is one of those that the case asks about (run.judged).
+bool judged(const CaseSpec& spec, BodyId body);
+/// Whether there is anything to judge: a strength of a body that the case asks about.
+bool strength_to_judge(const CaseSpec& spec);
 
 /// Per zone: the yield strength, a table of it, a grade, else an estimate from hardness, in this order. Depths of rail
 /// and wheel count from the running surface. Throws CaseError where a table ends above the deepest row of its zone.

@@ -31,7 +31,9 @@ SectionShakedown section_shakedown(const CaseSpec& spec, BodyId body, const Stre
   return out;
 }
 
-bool wanted(const CaseSpec& spec, BodyId body) { return strength_given(spec, body) || fatigue_given(spec, body); }
+bool wanted(const CaseSpec& spec, BodyId body) {
+  return judged(spec, body) && (strength_given(spec, body) || fatigue_given(spec, body));
+}
 
 /// Cells of the strip of slip behind the sticking ones, in the column at y; 0 without such a strip.
 int strip_of_slip(const BemPatch& patch, double y) {
@@ -121,7 +123,10 @@ BodyShakedown body_shakedown(const CaseSpec& spec, const SectionShakedown& secti
       if (std::isfinite(section.single_track))
         out.zones.back().factors.single_track = std::clamp(section.single_track, z.wandering.value, z.upper.value);
     }
-  out.notes = section.strength.notes;
+  const BodyId other = section.body == BodyId::rail ? BodyId::wheel : BodyId::rail;
+  if (!judged(spec, other))
+    out.notes.push_back(fmt::format("the {} is not judged: run.judged = \"{}\"", body_word(other), out.body));
+  out.notes.insert(out.notes.end(), section.strength.notes.begin(), section.strength.notes.end());
   out.notes.insert(out.notes.end(), section.notes.begin(), section.notes.end());
   return out;
 }

@@ -29,8 +29,8 @@ struct SectionShakedown {
   double x_first = 0, x_last = 0;  ///< m, of the cycle
 };
 
-/// Bodies whose strength or fatigue limits the case gives; of several patches the one that decides. Throws CaseError
-/// where a table of strengths ends too early.
+/// Judged bodies whose strength or fatigue limits the case gives; of several patches the one that decides. Throws
+/// CaseError where a table of strengths ends too early.
 std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result);
 /// The same of a finite element body, from its contact band, below the surface and at it.
 struct BandBody {

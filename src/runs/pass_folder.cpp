@@ -92,8 +92,9 @@ class SteadyPasses : public PassJob {
   /// Shakedown factors of the elastic stress, to stand beside the class; where no strength is given there are none.
   void judge_elastic(HalfSpaceSolution& solution) {
     if (!strength_given(loaded_.spec, BodyId::rail)) return;
-    solution.shakedown = half_space_shakedown(loaded_.spec, solution.result);
-    std::erase_if(solution.shakedown, [](const SectionShakedown& s) { return s.body != BodyId::rail; });
+    CaseSpec of_rail = loaded_.spec;
+    of_rail.run.judged = JudgedBodies::rail;
+    solution.shakedown = half_space_shakedown(of_rail, solution.result);
     complete_shakedown(loaded_.spec, solution);
     answer_.shakedown = solution.summary.shakedown;
   }

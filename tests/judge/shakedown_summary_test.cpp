@@ -68,6 +68,28 @@ TEST(ShakedownSummary, ALayerOfTheRailsOwnStiffnessAndStrengthChangesNothing) {
   EXPECT_EQ(b.body.zones.size(), 2u);
 }
 
+TEST(ShakedownSummary, OnlyTheBodyThatTheCaseAsksAboutIsJudged) {
+  CaseSpec spec = frictionless();
+  spec.wheel_material.strength.yield_strength = 300e6;
+  const BemResult r = solve_bem(spec, place(spec, {}), cells(0.5e-3));
+  const auto judged_by = [&](JudgedBodies asked) {
+    spec.run.judged = asked;
+    return shakedown_summary(spec, half_space_shakedown(spec, r));
+  };
+  const ShakedownSummary both = judged_by(JudgedBodies::both), rail = judged_by(JudgedBodies::rail);
+  ASSERT_EQ(both.bodies.size(), 2u);
+  EXPECT_EQ(both.governing()->body, "wheel");
+  ASSERT_EQ(rail.bodies.size(), 1u);
+  EXPECT_EQ(rail.governing()->body, "rail");
+  EXPECT_EQ(rail.bodies[0].factors.wandering, both.bodies[0].factors.wandering);
+  EXPECT_EQ(rail.bodies[0].notes.at(0), "the wheel is not judged: run.judged = \"rail\"");
+  EXPECT_EQ(judged_by(JudgedBodies::wheel).bodies.at(0).body, "wheel");
+  spec.rail_material.strength.yield_strength.reset();
+  EXPECT_TRUE(strength_to_judge(spec));
+  spec.run.judged = JudgedBodies::rail;
+  EXPECT_FALSE(strength_to_judge(spec));
+}
+
 TEST(SlowShakedownSummary, HalfTheCellsGiveTheSameFactors) {
   CaseSpec spec = frictionless();
   spec.drive.friction_coefficient = 0.25;

@@ -88,6 +88,7 @@ const std::map<std::string, std::string>& others() {
       {"run.plasticity", "refused: DeviceCase.WhatADeviceDoesNotTakeIsRefusedWithARemedy"},
       {"run.plastic_depth", "idle without run.plasticity"},
       {"run.plastic_width", "idle without run.plasticity"},
+      {"run.judged", "of results, not of steps"},
   };
   return all;
 }
