@@ -120,7 +120,7 @@ void passes(benchmark::State& state) {
   timed(state, 300, [&] {
     const RailPasses rail = rail_passes(spec, {solve_bem(spec, placement, {})});
     const SteadyBody body = body_of(rail);
-    const Field contact = contact_strain(rail, body);
+    const Field contact = contact_strain(rail, body, rail.contact_stress.front());
     PassState rolled = body.virgin();
     for (int n = 0; n < 200; ++n) benchmark::DoNotOptimize(body.run_pass(contact, rolled));
   });

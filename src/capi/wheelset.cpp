@@ -66,9 +66,9 @@ void place(Wheel& w, const HeldPlace& held) {
   g.cant = p.track.cant;
 }
 
-/// hold: each wheel keeps to the place where it touches now, if another is lower by less than a micrometre.
+/// hold: each wheel keeps to the place where it touches now, if another is lower by less than 5 um.
 void place(rs_wheelset& set, const rs_wheelset_state& state, double roll, bool hold = false) {
-  constexpr double kHeldWithin = 1e-6;  // m
+  constexpr double kHeldWithin = 5e-6;  // m
   for (int side : {RS_LEFT, RS_RIGHT}) {
     Wheel& w = set.wheels[static_cast<std::size_t>(side)];
     w.motion = motion_of(state);
@@ -203,12 +203,13 @@ double tilt(rs_wheelset& set, const rs_wheelset_state& state, const std::array<d
     }
     return height[0] - height[1];
   };
-  double roll = set.roll, error = apart(roll), slope = -2 * std::max(tape_circle_distance(set.wheels[0].at_rest), 1e-3);
+  const double usual = -2 * std::max(tape_circle_distance(set.wheels[0].at_rest), 1e-3);
+  double roll = set.roll, error = apart(roll), slope = usual;
   for (int i = 0; i < kMostSolutions; ++i) {
     if (std::abs(error) <= kClose) return 0.5 * (height[0] + height[1]);
     hold = hold || i == kFreeSolutions;
     const double next = roll - error / slope, after = apart(next);
-    if (std::abs(next - roll) > 0 && (after - error) / (next - roll) < 0.1 * slope)
+    if (std::abs(next - roll) > 0 && (after - error) / (next - roll) < 0.1 * usual)
       slope = (after - error) / (next - roll);
     roll = next;
     error = after;

@@ -33,11 +33,11 @@ double cycles_to_failure(double used, const SigmaN& line, BelowLimit below);
 
 /// Damage of one kind of wheels at a place of the surface, by depth.
 struct KindDamage {
-  double wheels = 1;          ///< of this kind in a unit of traffic
-  std::vector<double> rate;   ///< at every depth, of one wheel
-  std::vector<double> trend;  ///< m at every depth; empty: nothing fades
-  std::vector<double> begun;  ///< damage after `from` wheels; with trend
-  double from = 1;            ///< the wheel that has `rate`; with trend
+  double wheels = 1;            ///< of this kind in a unit of traffic
+  std::vector<double> rate{};   ///< at every depth, of one wheel
+  std::vector<double> trend{};  ///< m at every depth; empty: nothing fades
+  std::vector<double> begun{};  ///< damage after `from` wheels; with trend
+  double from = 1;              ///< the wheel that has `rate`; with trend
 };
 
 /// m, removed by the first t units of traffic: wear, and grinding after every so many units.
