@@ -343,6 +343,18 @@ void check_passes(const CaseSpec& spec, CaseSource& source) {
                              "the wheel would slide: lower the traction or raise the friction");
 }
 
+void check_life(const CaseSpec& spec, CaseSource& source) {
+  constexpr int kFewest = 8;
+  if (spec.life.passes > 0 && spec.life.passes < kFewest)
+    source.complain("life.passes",
+                    fmt::format("life.passes = {}: must be 0, or at least {} for a trend", spec.life.passes, kFewest),
+                    "take some 40");
+  if (spec.grinding.every.has_value() != (spec.grinding.depth > 0))
+    source.complain(spec.grinding.every ? "grinding.every" : "grinding.depth",
+                    "grinding.every and grinding.depth belong together",
+                    "give both, e.g. every = \"15 Mt\" and depth = \"0.2 mm\", or none");
+}
+
 }  // namespace
 
 void check_case_rules(const CaseSpec& spec, CaseSource& source) {
@@ -367,6 +379,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_track(spec, source);
   check_passes(spec, source);
   check_irregularities(spec, source);
+  check_life(spec, source);
   check_loads(spec, source);
 }
 

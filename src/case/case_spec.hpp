@@ -32,6 +32,8 @@ struct CaseSpec {
   TransientSpec transient;
   std::vector<LoadSpec> loads;
   CollectiveSpec collective;
+  LifeSpec life;
+  GrindingSpec grinding;
   PassesSpec passes;
   OutputSpec output;
 };

@@ -21,6 +21,8 @@ OptionTable bem_table();
 OptionTable transient_table();
 OptionTable load_table();
 OptionTable collective_table();
+OptionTable life_table();
+OptionTable grinding_table();
 OptionTable passes_table();
 OptionTable output_table();
 

@@ -55,6 +55,16 @@ struct CollectiveSpec {
   WearLaw wear_law = WearLaw::usfd;
 };
 
+/// What lives are computed from beside the strengths (judge/zone_life.hpp).
+struct LifeSpec {
+  int passes = 0;  ///< of every load, by the stationary method; 0: none
+};
+/// Grinding of the rail.
+struct GrindingSpec {
+  std::optional<double> every;  ///< kg of gross traffic
+  double depth = 0;             ///< m, each time
+};
+
 /// Whether passes are jumped over (steady/pass_jump.hpp).
 enum class PassJump { off, automatic };
 

@@ -23,6 +23,9 @@ double passages_of(const CaseSpec& spec, std::size_t index, double million_tonne
   return million_tonnes * 1e9 * v.gravity / (2 * wheel);
 }
 
+bool follows_passes(const CaseSpec& spec, std::size_t) { return spec.life.passes > 0; }
+bool grinds(const CaseSpec& spec, std::size_t) { return spec.grinding.every.has_value(); }
+
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
 
 std::vector<Option> force_options() {
@@ -88,6 +91,29 @@ OptionTable collective_table() {
           {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}})
           .where(has_loads);
   return {"collective", "All rows of [[load]] together", {file, law}};
+}
+
+OptionTable life_table() {
+  return {
+      "life",
+      "What the lives of `railstrata collective` rest on, beside the strengths",
+      {option("passes", at<&CaseSpec::life, &LifeSpec::passes>,
+              "Passes of every load over a new rail by the stationary method (`railstrata passes`): the strain that "
+              "they leave gives the life of what yields; 0: none, else some 40, at least 8",
+              kNumber, {0, 10000})
+           .where(follows_passes)}};
+}
+
+OptionTable grinding_table() {
+  using G = GrindingSpec;
+  return {"grinding",
+          "Grinding of the rail, for the lives of `railstrata collective`",
+          {option("every", at<&CaseSpec::grinding, &G::every>,
+                  "Gross traffic from one grinding to the next, a mass: \"15 Mt\" are 15 million tonnes", kMass,
+                  above(0, 1e13)),
+           option("depth", at<&CaseSpec::grinding, &G::depth>, "What is ground off each time, everywhere", kLength,
+                  {0, 0.01})
+               .where(grinds)}};
 }
 
 }  // namespace railstrata

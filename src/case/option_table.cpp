@@ -52,6 +52,8 @@ const std::vector<OptionTable>& case_tables() {
       transient_table(),
       load_table(),
       collective_table(),
+      life_table(),
+      grinding_table(),
       passes_table(),
       output_table()};
   return tables;

@@ -79,6 +79,11 @@ bool elastic_on_purpose(const CaseSpec& spec, std::size_t index) {
 }
 
 template <class Place>
+bool has_sigma_n(const CaseSpec& spec, std::size_t index) {
+  return Place::strength(spec, index).fatigue.exponent.has_value();
+}
+
+template <class Place>
 bool set_named(const CaseSpec& spec, std::size_t index) {
   return !Place::strength(spec, index).hardening.empty();
 }
@@ -134,6 +139,13 @@ std::vector<Option> fatigue_options() {
       option("fatigue_limit", Place::template slot<&S::fatigue, &FatigueSpec::limit>,
              "Of Dang Van's criterion: the amplitude that alternating shear bears for ever", kPressure,
              {kMega, 1e4 * kMega}),
+      option("fatigue_exponent", Place::template slot<&S::fatigue, &FatigueSpec::exponent>,
+             "k of the sigma-N line through the limit, N = fatigue_cycles (fatigue_limit / stress)^k: gives a life "
+             "where all stays elastic",
+             kNumber, {1, 50}),
+      option("fatigue_cycles", Place::template slot<&S::fatigue, &FatigueSpec::cycles>,
+             "Cycles that the limit bears, the knee of the sigma-N line", kNumber, {1e3, 1e12})
+          .where(has_sigma_n<Place>),
       option("dang_van_coefficient", Place::template slot<&S::fatigue, &FatigueSpec::dang_van>,
              "Weight of the hydrostatic stress in Dang Van's criterion", kNumber, {0, 3}),
       option("fatemi_socie_coefficient", Place::template slot<&S::fatigue, &FatigueSpec::fatemi_socie>,

@@ -43,6 +43,8 @@ inline constexpr std::string_view kEstimatedHardening = "estimated";
 /// Constants of the fatigue criteria; what is not given leaves its criterion out.
 struct FatigueSpec {
   std::optional<double> limit;            ///< Pa, of Dang Van: in alternating shear
+  std::optional<double> exponent;         ///< k of N = cycles (limit/stress)^k
+  double cycles = 1e6;                    ///< that the limit bears
   std::optional<double> dang_van;         ///< weight of the hydrostatic stress
   std::optional<double> fatemi_socie;     ///< k of the term k sigma_n / yield strength
   std::optional<double> jiang_sehitoglu;  ///< J

@@ -36,6 +36,7 @@ const std::array kSymbols{
     Symbol{"kg", {1, 0, dimension::kMass}, false},
     Symbol{"g", {1, -3, dimension::kMass}, true},
     Symbol{"t", {1, 3, dimension::kMass}, false},
+    Symbol{"Mt", {1, 9, dimension::kMass}, false},
     Symbol{"m", {1, 0, dimension::kLength}, true},
     Symbol{"s", {1, 0, dimension::kTime}, true},
     Symbol{"min", {60, 0, dimension::kTime}, false},
@@ -75,7 +76,7 @@ const std::vector<Customary>& customary() {
   static const std::vector<Customary> all{
       {dimension::kNumber, "a number", "0.2", {""}},
       {dimension::kLength, "a length", "0.2 mm", {"mm", "m", "µm", "cm"}},
-      {dimension::kMass, "a mass", "8000 kg", {"kg", "t"}},
+      {dimension::kMass, "a mass", "8000 kg", {"kg", "t", "Mt"}},
       {dimension::kTime, "a time", "1.5 ms", {"ms", "s", "µs"}},
       {dimension::kSpeed, "a speed", "100 km/h", {"m/s", "km/h"}},
       {dimension::kRate, "a rate", "2000 1/s", {"1/s", "Hz", "kHz"}},

@@ -7,16 +7,20 @@
 
 namespace railstrata {
 
+/// Cycles, of an exponent -c; 0: the first cycle is too much. accumulated: Dp, above 0; ductility: e_f, the amplitude
+/// of plastic strain that one reversal bears.
+inline double low_cycle_life(double accumulated, double ductility, double exponent) {
+  const double share = 4 * ductility / accumulated;
+  return share > 1 ? 0.5 * std::pow(share, 1 / exponent) : 0;
+}
+
 /// Cycles, between the two exponents.
 struct LowCycleLife {
   double fewest = 0, most = 0;
 };
 
-/// accumulated: Dp, above 0; ductility: e_f, the amplitude of plastic strain that one reversal bears.
 inline LowCycleLife low_cycle_life(double accumulated, double ductility) {
-  const double share = 4 * ductility / accumulated;
-  const auto cycles = [&](double exponent) { return 0.5 * std::pow(share, 1 / exponent); };
-  return share > 1 ? LowCycleLife{cycles(0.7), cycles(0.5)} : LowCycleLife{};
+  return {low_cycle_life(accumulated, ductility, 0.7), low_cycle_life(accumulated, ductility, 0.5)};
 }
 
 }  // namespace railstrata

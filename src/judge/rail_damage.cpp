@@ -75,4 +75,21 @@ double nearest_on_rail(const Profile& rail, const TrackGeometry& track, Vec2 poi
   return s;
 }
 
+std::vector<double> smoothed_wear(const RailDamage& damage, WearLaw law) {
+  constexpr double kSpread = 4;                                     // cells, standard deviation
+  constexpr int kRounds = static_cast<int>(2 * kSpread * kSpread);  // each adds half a cell squared to the variance
+  std::vector<double> depth = damage.depth(law);
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> next = depth;
+    for (std::size_t i = 1; i < depth.size(); ++i) {
+      if (!(damage.passages[i - 1] > 0 && damage.passages[i] > 0)) continue;
+      const double flow = 0.25 * (depth[i] - depth[i - 1]);
+      next[i - 1] += flow;
+      next[i] -= flow;
+    }
+    depth = std::move(next);
+  }
+  return depth;
+}
+
 }  // namespace railstrata

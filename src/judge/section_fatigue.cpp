@@ -46,8 +46,11 @@ FatigueValue place(const CaseSpec& spec, BodyId body, const StressHistory& histo
 void add_dang_van(const CaseSpec& spec, BodyId body, const StressHistory& history, ResidualRows residual,
                   BodyFatigue& out) {
   if (!any_zone(spec, body, says_dang_van)) return;
-  const DangVanSection found = dang_van(history, residual, dang_van_limits(spec, body, history));
+  const std::vector<DangVanLimit> limits = dang_van_limits(spec, body, history);
+  const DangVanSection found = dang_van(history, residual, limits);
   if (!found.row) return;
+  for (std::size_t p = 0; p < found.point.size(); ++p)
+    out.dang_van_used.push_back(found.point[p].stress / limits[p / history.y.size()].limit);
   const int column = found.worst_column[*found.row];
   out.dang_van = place(spec, body, history, *found.row, column, found.utilisation);
 }

@@ -12,6 +12,7 @@
 #include "judge/bem_summary.hpp"
 #include "many/each_case.hpp"
 #include "many/result_columns.hpp"
+#include "runs/life_passes.hpp"
 #include "runs/solve_half_space.hpp"
 
 namespace railstrata {
@@ -39,6 +40,8 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
     const std::vector<SectionShakedown> sections = half_space_shakedown(row.spec, solution.result);
     s.shakedown = shakedown_summary(row.spec, sections);
     for (const SectionShakedown& section : sections) s.fatigue.push_back(section.fatigue);
+    row.sections = sections;
+    if (row.spec.life.passes > 0) row.passed = passed_section(row.spec, solution.result, options.control);
   }
   s.warnings = bem_warnings(s, row.spec, solution.result);
   row.patches = patch_damages(row.spec, solution);
@@ -108,6 +111,16 @@ WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement
   for (const CollectiveRow& row : rows)
     for (const PatchDamage& patch : patches_of(row)) add_distance(out, patch, row.passages / all);
   return out;
+}
+
+Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& rows, const RailDamage& rail,
+                       const WheelDamage& wheel) {
+  std::vector<LifeLoad> loads;
+  for (const CollectiveRow& row : rows)
+    if (row.sound() && !row.sections.empty())
+      loads.push_back(
+          {row.passages, row.summary.contact.F_z, &row.patches, &row.sections, row.passed ? &*row.passed : nullptr});
+  return zone_lives(spec, loads, rail, wheel);
 }
 
 double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law) {

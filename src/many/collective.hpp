@@ -2,6 +2,7 @@
 // A load collective: half-space solutions of the case's rows of [[load]], and what all their passages do to the rail.
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "core/control.hpp"
 #include "judge/rail_damage.hpp"
 #include "judge/wheel_damage.hpp"
+#include "judge/zone_life.hpp"
 #include "model/model.hpp"
 #include "result/summary.hpp"
 
@@ -26,7 +28,9 @@ struct CollectiveRow {
   Summary summary;                      ///< where it is solved
   nlohmann::ordered_json summary_json;  ///< the same; null: there is none
   std::vector<PatchDamage> patches;
-  std::string fault;  ///< empty: solved, and its checks hold
+  std::vector<SectionShakedown> sections;  ///< of the bodies with strengths
+  std::optional<PassedSection> passed;     ///< by life.passes
+  std::string fault;                       ///< empty: solved, and its checks hold
   bool done = false;
   bool solved() const { return !summary_json.is_null(); }
   bool sound() const { return solved() && fault.empty(); }
@@ -52,6 +56,10 @@ RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& 
 
 /// Damage of one wheel that runs the sound rows in the shares of their passages.
 WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell);
+
+/// Lives under the sound rows (judge/zone_life.hpp).
+Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& rows, const RailDamage& rail,
+                       const WheelDamage& wheel);
 
 /// m² per `passages` of all sound rows: the sum over their streamlines of depth times width. What rail_damage must
 /// conserve.

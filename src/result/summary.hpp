@@ -159,6 +159,7 @@ struct BodyFatigue {
   std::optional<FatigueValue> jiang_sehitoglu;  ///< Pa
   std::vector<BrittleSummary> brittle;
   std::vector<InterfaceSummary> interfaces;
+  std::vector<double> dang_van_used;  ///< of its limit at every point of the section, row by row; empty: no limit
 };
 
 /// Wear and damage of the rail's surface in one passage (judge/streamlines.hpp); NaN where friction or data are

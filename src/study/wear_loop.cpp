@@ -8,13 +8,13 @@
 
 #include "core/faults.hpp"
 #include "jobs/state_table.hpp"
+#include "judge/zone_life.hpp"
 #include "many/collective_files.hpp"
 #include "model/zone.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr double kSpread = 4;  // cells, standard deviation of the smoothing
 const StateColumns<Vec2> kPoints{{"y", &Vec2::y, unit::kMillimetres}, {"z", &Vec2::z, unit::kMillimetres}};
 
 /// Between two curves with the same ends, positive where the second lies to the right of the first.
@@ -156,10 +156,9 @@ void note_layer(const LayerLeft& layer, const std::vector<double>& depth, double
   }
 }
 
-double tonnes_of(const std::vector<CollectiveRow>& rows) {
-  constexpr double kGravity = 9.80665, kTonne = 1e3;
-  double out = 0;
-  for (const CollectiveRow& row : rows) out += row.passages * row.summary.contact.F_z / kGravity / kTonne;
+double tonnes_of(const std::vector<CollectiveRow>& rows, double gravity) {
+  double out = 0;  // of the wheels on this rail, half of the gross tonnes
+  for (const CollectiveRow& row : rows) out += 0.5 * row.passages * gross_tonnes(row.summary.contact.F_z, gravity);
   return out;
 }
 
@@ -182,22 +181,6 @@ WornRail unworn(const Placement& placement, double cell) {
   for (const double s : section_of(placement.rail, cells, cells.usfd).s)
     out.points.push_back(placement.rail.at(s).position);
   return out;
-}
-
-std::vector<double> smoothed_wear(const RailDamage& damage, WearLaw law) {
-  constexpr int kRounds = static_cast<int>(2 * kSpread * kSpread);  // each adds half a cell squared to the variance
-  std::vector<double> depth = damage.depth(law);
-  for (int round = 0; round < kRounds; ++round) {
-    std::vector<double> next = depth;
-    for (std::size_t i = 1; i < depth.size(); ++i) {
-      if (!(damage.passages[i - 1] > 0 && damage.passages[i] > 0)) continue;
-      const double flow = 0.25 * (depth[i] - depth[i - 1]);
-      next[i - 1] += flow;
-      next[i] -= flow;
-    }
-    depth = std::move(next);
-  }
-  return depth;
 }
 
 CaseSpec on_worn_rail(const CaseSpec& spec, const Placement& original, const WornRail& rail) {
@@ -240,7 +223,7 @@ WearStep wear_step(const CaseSpec& spec, const std::filesystem::path& folder, co
   step.passages = std::min(step.passages, collective * layer.collectives);
   const double share = step.passages / collective;
   if (top) note_layer(layer, depth, share, step);
-  step.tonnes = share * tonnes_of(step.rows);
+  step.tonnes = share * tonnes_of(step.rows, spec.vehicle.gravity);
   step.deepest = share * deepest;
   step.wanted_area = share * streamline_area(step.rows, spec.collective.wear_law);
   step.rail.step = rail.step + 1;

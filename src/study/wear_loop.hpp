@@ -30,9 +30,6 @@ WornRail unworn(const Placement& placement, double cell);
 /// m, how far a point of the worn rail lies below the unworn one, in its frame.
 double depth_below(const std::vector<Vec2>& unworn, Vec2 point);
 
-/// The wear depth of every cell [m], smoothed as above.
-std::vector<double> smoothed_wear(const RailDamage& damage, WearLaw law);
-
 /// The case on the worn rail; `original` is its placement on the unworn one.
 CaseSpec on_worn_rail(const CaseSpec& spec, const Placement& original, const WornRail& rail);
 

@@ -1,0 +1,90 @@
+#pragma once
+// How long rail and wheel last under a load collective: every zone, at its surface and below, by every way in which it
+// may end.
+//
+//   fatigue               Dang Van's stress on a sigma-N line, where nothing flows
+//   low-cycle fatigue     closed cycles of plastic strain (damage/low_cycle.hpp)
+//   ductility exhausted   strain that passes add, each by its own trend n^-m
+//   worn through          wear and grinding take a layer away
+//   layer cracks, interface shears   the stresses of a load reach the strength
+//
+// Fatigue and ratchetting do not add, the shorter life counts. [Kapoor1994] Damage is summed by position across the
+// body and by depth (damage/life.hpp), with the wear of the case's law on the unworn profile and with the grinding of
+// the case; kinds of wheels add up by their numbers.
+//
+// Ranges. Fatigue: Miner's sum from 1/3 to 3 [Haibach2006], and below the limit the line as above it, flatter, or none.
+// Low-cycle fatigue: exponents 0.7, 0.6 and 0.5. Ductility: the trends of the two halves of the passes and of all.
+// Worn through: the wear laws that the case has data for.
+#include <string>
+#include <vector>
+
+#include "case/case_fwd.hpp"
+#include "damage/life.hpp"
+#include "judge/rail_damage.hpp"
+#include "judge/shakedown_summary.hpp"
+#include "judge/wheel_damage.hpp"
+
+namespace railstrata {
+
+/// m, the upper part of a body that counts as its surface.
+inline constexpr double kSkin = 0.2e-3;
+
+/// Plastic strain of a rail's section after so many passes of one load. Rows by depth, columns by y from the rigid
+/// contact point; point row * columns + column.
+struct PassedSection {
+  int passes = 0;
+  std::vector<double> y, depth;
+  std::vector<int> zone;             ///< of rows
+  std::vector<double> accumulated;   ///< dp of the last pass
+  std::vector<double> net, reached;  ///< |E^p| that the last pass has added, and of all
+  std::vector<double> trend[3];  ///< s of net ~ n^-s: from a quarter to half of the passes, over both, from there on
+};
+
+/// A kind of wheels.
+struct LifeLoad {
+  double passages = 1;  ///< in a unit of traffic, one collective
+  double force = 0;     ///< N, on this rail
+  const std::vector<PatchDamage>* patches = nullptr;
+  const std::vector<SectionShakedown>* sections = nullptr;
+  const PassedSection* passed = nullptr;  ///< null: no passes were followed
+};
+
+struct LifeRow {
+  std::string body, zone, place, mechanism;
+  LifeRange wheels;               ///< that pass; of the wheel its turns
+  LifeRange mgt;                  ///< million gross tonnes; NaN of the wheel
+  double depth = kNotApplicable;  ///< m, below the surface of that time
+  double y = kNotApplicable;      ///< m, from the axis of rail or tape circle, field side positive
+  std::string rests_on;           ///< or what is missing
+  bool known() const { return wheels.known(); }
+};
+
+/// The picture behind a row: m of the place, over MGT.
+struct LifeCurve {
+  std::vector<double> mgt, removed;          ///< by wear and grinding
+  std::vector<double> damaged_mgt, damaged;  ///< how deep everything would have failed if nothing were removed
+  double layer = kNotApplicable;             ///< thickness of the uppermost layer
+};
+
+struct Lives {
+  std::vector<LifeRow> rows;
+  double tonnes = 0, wheels = 0;  ///< of a unit of traffic
+  LifeCurve curve;                ///< of the rail's shortest life by damage; empty without one
+};
+
+/// Tonnes over the track by axles of two such wheels; gravity m/s².
+inline double gross_tonnes(double wheel_force, double gravity) { return 2e-3 * wheel_force / gravity; }
+
+/// rail, wheel: damage of one collective, and of the wheel per metre.
+Lives zone_lives(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const RailDamage& rail,
+                 const WheelDamage& wheel);
+
+/// The rail's row with the shortest life; null where none is known.
+const LifeRow* shortest(const std::vector<LifeRow>& rows);
+
+/// "lasts 42 MGT (25 to 70): rail, at the surface, ductility exhausted; not known: …".
+std::string life_text(const std::vector<LifeRow>& rows);
+/// "42 (25 to 70)", "never".
+std::string range_text(const LifeRange& range);
+
+}  // namespace railstrata

@@ -1,0 +1,52 @@
+#include "runs/life_passes.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "case/case_spec.hpp"
+#include "passes/rail_passes.hpp"
+
+namespace railstrata {
+namespace {
+
+/// s of net ~ n^-s between two passes of a point; 0 where it does not flow in both.
+double trend_between(double net, double later_net, double ratio) {
+  return net > 0 && later_net > 0 ? -std::log(later_net / net) / std::log(ratio) : 0;
+}
+
+}  // namespace
+
+PassedSection passed_section(const CaseSpec& spec, const BemResult& result, const Control* control) {
+  const RailPasses rail = rail_passes(spec, {result});
+  const SteadyBody body = body_of(rail);
+  const Field strain = contact_strain(rail, body);
+  PassState state = body.virgin();
+  PassLimits limits;
+  limits.control = control;
+  PassedSection out;
+  out.passes = spec.life.passes;
+  const int quarter = out.passes / 4, half = out.passes / 2;
+  std::array<std::vector<double>, 2> earlier;  // net strain of those passes
+  PassResult last;
+  for (int n = 1; n <= out.passes; ++n) {
+    last = body.run_pass(strain, state, limits);
+    if (n == quarter) earlier[0] = last.net;
+    if (n == half) earlier[1] = last.net;
+  }
+  for (int j = 0; j < rail.grid.ny; ++j) out.y.push_back(rail.grid.y(j));
+  for (int r = 0; r < rail.grid.rows(); ++r) out.depth.push_back(rail.grid.depth(r));
+  out.zone = rail.zone;
+  out.accumulated = last.accumulated;
+  out.net = last.net;
+  for (const std::array<double, 6>& e : last.plastic_strain)
+    out.reached.push_back(std::sqrt(double_contraction(e.data(), e.data())));
+  const double first = static_cast<double>(half) / quarter, second = static_cast<double>(out.passes) / half;
+  for (std::size_t p = 0; p < last.net.size(); ++p) {
+    out.trend[0].push_back(trend_between(earlier[0][p], earlier[1][p], first));
+    out.trend[1].push_back(trend_between(earlier[0][p], last.net[p], first * second));
+    out.trend[2].push_back(trend_between(earlier[1][p], last.net[p], second));
+  }
+  return out;
+}
+
+}  // namespace railstrata
