@@ -17,6 +17,7 @@
 #include "judge/row_strength.hpp"
 #include "many/collective.hpp"
 #include "many/collective_files.hpp"
+#include "many/life_files.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
 #include "runs/write_half_space_result.hpp"
@@ -71,7 +72,7 @@ const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_
                                         {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
                                         {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};
 
-void print_collective(const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+void print_collective(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage) {
   const CaseTable table = collective_table(rows);
   print_rows(joined(std::vector<CaseColumn>{{"load", [](const CaseRow& row) { return row.name; }}},
                     answer_columns(table.rows)),
@@ -108,15 +109,17 @@ ExitCode command_collective(const CommandOptions& options) {
     spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
     return ExitCode::interrupted;
   }
-  const CollectiveDamage damage{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
+  CollectiveDamage damage{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
+  damage.lives = collective_lives(loaded.spec, rows, damage.rail, damage.wheel);
   write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage.rail);
   write_wheel_damage(out / "wheel_damage.csv", table_origin(loaded), damage.wheel);
+  write_lives(out / "life.csv", table_origin(loaded), damage.lives);
   const nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
   write_whole_file(out / "collective.json", json_text(json, 2) + "\n");
   if (options.json)
     fmt::print("{}\n", json_text(json, 2));
   else
-    print_collective(rows, damage.rail);
+    print_collective(rows, damage);
   const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());

@@ -23,7 +23,7 @@ constexpr double kNormOfEquivalent = 1.2247448713915890;  // |E^p| = √(3/2) eq
 constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
 
 /// A body across: positions, what is removed there in a unit of traffic, passages.
-struct Across {
+struct LifeAcross {
   BodyId body = BodyId::rail;
   std::vector<double> s, y, passages;
   std::array<std::vector<double>, 3> wear;  // m a unit, by laws; empty: no data
@@ -42,8 +42,8 @@ bool has_data(const std::vector<double>& depth) {
 
 constexpr std::array kLaws{WearLaw::usfd, WearLaw::kth, WearLaw::archard};
 
-Across across_rail(const CaseSpec& spec, const RailDamage& d, double tonnes) {
-  Across out{.body = BodyId::rail, .s = d.s, .y = d.y, .passages = d.passages, .wear = {}};
+LifeAcross across_rail(const CaseSpec& spec, const RailDamage& d, double tonnes) {
+  LifeAcross out{.body = BodyId::rail, .s = d.s, .y = d.y, .passages = d.passages, .wear = {}};
   out.law = spec.collective.wear_law;
   for (const WearLaw law : kLaws)
     if (has_data(d.depth(law))) out.wear[static_cast<std::size_t>(law)] = smoothed_wear(d, law);
@@ -54,8 +54,8 @@ Across across_rail(const CaseSpec& spec, const RailDamage& d, double tonnes) {
   return out;
 }
 
-Across across_wheel(const CaseSpec& spec, const WheelDamage& d, double turns) {
-  Across out{.body = BodyId::wheel, .s = d.s, .y = d.y, .passages = d.share, .wear = {}};
+LifeAcross across_wheel(const CaseSpec& spec, const WheelDamage& d, double turns) {
+  LifeAcross out{.body = BodyId::wheel, .s = d.s, .y = d.y, .passages = d.share, .wear = {}};
   out.law = spec.collective.wear_law;
   const double way = turns * 2 * std::numbers::pi * spec.geometry.wheel_radius;
   for (const WearLaw law : kLaws)
@@ -65,7 +65,7 @@ Across across_wheel(const CaseSpec& spec, const WheelDamage& d, double turns) {
 }
 
 /// A section with rows by depth and columns by y, of either kind, and where its y = 0 lies on the profile.
-struct Section {
+struct LifeSection {
   const std::vector<double>*y, *depth;
   const std::vector<int>* zone;
   double s0 = 0;
@@ -83,15 +83,15 @@ double middle_of(const LifeLoad& load, BodyId body, std::size_t patch) {
 }
 
 /// The two rows of a zone beside a depth and the share of the lower one; none: the zone is not in the section.
-struct Beside {
+struct RowsBeside {
   std::size_t above = 0, below = 0;
   double share = 0;
 };
-std::optional<Beside> rows_beside(const Section& s, int zone, double z) {
-  std::optional<Beside> out;
+std::optional<RowsBeside> rows_beside(const LifeSection& s, int zone, double z) {
+  std::optional<RowsBeside> out;
   for (std::size_t r = 0; r < s.depth->size(); ++r) {
     if ((*s.zone)[r] != zone) continue;
-    if (!out) out = Beside{r, r, 0};
+    if (!out) out = RowsBeside{r, r, 0};
     out->below = r;
     if ((*s.depth)[r] >= z) break;
     out->above = r;
@@ -103,7 +103,7 @@ std::optional<Beside> rows_beside(const Section& s, int zone, double z) {
 }
 
 /// A value of the section at a place of the profile and a depth; 0 beside the section.
-double value_at(const Section& s, const std::vector<double>& values, const Beside& rows, double place) {
+double value_at(const LifeSection& s, const std::vector<double>& values, const RowsBeside& rows, double place) {
   const double y = place - s.s0;
   const auto columns = s.y->size();
   if (columns == 0 || (columns > 1 && (y < s.y->front() || y > s.y->back()))) return 0;
@@ -118,14 +118,14 @@ double value_at(const Section& s, const std::vector<double>& values, const Besid
 }
 
 /// All of a body's zone that its mechanisms need.
-struct Zone {
+struct LifeZone {
   const CaseSpec& spec;
   const std::vector<LifeLoad>& loads;
-  const Across& across;
+  const LifeAcross& across;
   int zone = 0;
   double top = 0, bottom = kNever;
-  std::vector<double> depth;  // of the tables
-  std::string key;            // of the material in the case
+  std::vector<double> depth{};  // of the tables
+  std::string key{};            // of the material in the case
 
   const StrengthSpec& strength() const { return zone_material(spec, across.body, zone).strength; }
   LifeRow row(const char* place, const char* mechanism) const {
@@ -137,7 +137,7 @@ struct Zone {
 /// Adds at every depth of a place what one load does there, in one of the three variants.
 using AddKind = std::function<void(const LifeLoad&, double s, std::size_t variant, KindDamage&)>;
 
-DamagedPlace damaged_place(const Zone& z, std::size_t cell, std::size_t variant, const AddKind& add) {
+DamagedPlace damaged_place(const LifeZone& z, std::size_t cell, std::size_t variant, const AddKind& add) {
   DamagedPlace out{.depth = z.depth, .kinds = {}, .top = z.top, .bottom = z.bottom};
   for (const LifeLoad& load : z.loads) {
     KindDamage kind;
@@ -149,11 +149,11 @@ DamagedPlace damaged_place(const Zone& z, std::size_t cell, std::size_t variant,
 }
 
 /// The place across where the zone fails first, by the best values; wear only lengthens what no wear gives.
-struct Worst {
+struct WorstPlace {
   std::size_t cell = 0;
   Failure failure;
 };
-std::optional<Worst> worst_place(const Zone& z, const AddKind& add, double from, double to) {
+std::optional<WorstPlace> worst_place(const LifeZone& z, const AddKind& add, double from, double to) {
   std::vector<std::pair<double, std::size_t>> unworn;
   for (std::size_t cell = 0; cell < z.across.s.size(); ++cell) {
     if (!(z.across.passages[cell] > 0)) continue;
@@ -161,24 +161,24 @@ std::optional<Worst> worst_place(const Zone& z, const AddKind& add, double from,
     if (!place.kinds.empty()) unworn.emplace_back(first_failure(place, {}, 0, kNever).traffic, cell);
   }
   std::sort(unworn.begin(), unworn.end());
-  std::optional<Worst> out;
+  std::optional<WorstPlace> out;
   for (const auto& [least, cell] : unworn) {
     if (out && least >= out->failure.traffic) break;
     const Failure f = first_failure(damaged_place(z, cell, 1, add), z.across.removal(cell, z.across.law), from, to);
-    if (!out || f.traffic < out->failure.traffic) out = Worst{cell, f};
+    if (!out || f.traffic < out->failure.traffic) out = WorstPlace{cell, f};
   }
   return out;
 }
 
 /// Rows of a body, in units of traffic, and of those by damage the shortest.
-struct Found {
+struct FoundLives {
   std::vector<LifeRow> rows;
   double units = kNever;  ///< by the best values; without removal where it never fails
   DamagedPlace place;
   std::size_t cell = 0;
   bool any = false;
 };
-void keep_shortest(const Zone& z, const AddKind& add, const Worst& worst, Found& out) {
+void keep_shortest(const LifeZone& z, const AddKind& add, const WorstPlace& worst, FoundLives& out) {
   const DamagedPlace place = damaged_place(z, worst.cell, 1, add);
   const double units =
       std::isfinite(worst.failure.traffic) ? worst.failure.traffic : 3 * first_failure(place, {}, 0, kNever).traffic;
@@ -189,12 +189,13 @@ void keep_shortest(const Zone& z, const AddKind& add, const Worst& worst, Found&
   out.any = true;
 }
 
-void add_row(const Zone& z, const AddKind& add, const char* mechanism, const std::string& rests_on, Found& out) {
+void add_row(const LifeZone& z, const AddKind& add, const char* mechanism, const std::string& rests_on,
+             FoundLives& out) {
   const bool surface = z.top == 0;
   for (const bool at_surface : {true, false}) {
     if (at_surface && !surface) continue;
     const double from = at_surface ? 0 : surface ? kSkin : 0, to = at_surface ? kSkin : kNever;
-    const std::optional<Worst> worst = worst_place(z, add, from, to);
+    const std::optional<WorstPlace> worst = worst_place(z, add, from, to);
     if (!worst) continue;
     LifeRow row = z.row(at_surface ? "at the surface" : "below", mechanism);
     for (std::size_t v = 0; v < kVariants.size(); ++v)
@@ -209,14 +210,14 @@ void add_row(const Zone& z, const AddKind& add, const char* mechanism, const std
   }
 }
 
-LifeRow missing(const Zone& z, const char* mechanism, const std::string& what) {
+LifeRow missing(const LifeZone& z, const char* mechanism, const std::string& what) {
   LifeRow out = z.row("", mechanism);
   out.rests_on = what;
   return out;
 }
 
 /// Whether a load makes the zone yield for ever, by its factor for wandering traffic.
-bool yields(const Zone& z, const LifeLoad& load) {
+bool yields(const LifeZone& z, const LifeLoad& load) {
   const SectionShakedown* section = section_of(load, z.across.body);
   if (!section) return false;
   for (const ZoneFactors& f : section->found.zones)
@@ -224,23 +225,23 @@ bool yields(const Zone& z, const LifeLoad& load) {
   return false;
 }
 
-double flow_at(const Zone& z, const LifeLoad& load, const std::vector<double>& values, double s, double depth) {
+double flow_at(const LifeZone& z, const LifeLoad& load, const std::vector<double>& values, double s, double depth) {
   const PassedSection& p = *load.passed;
-  const Section section{&p.y, &p.depth, &p.zone, middle_of(load, z.across.body, 0)};
-  const std::optional<Beside> rows = rows_beside(section, z.zone, depth);
+  const LifeSection section{&p.y, &p.depth, &p.zone, middle_of(load, z.across.body, 0)};
+  const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
   return rows ? value_at(section, values, *rows, s) : 0;
 }
 
-AddKind by_fatigue(const Zone& z) {
+AddKind by_fatigue(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
     constexpr std::array kBelow{BelowLimit::as_above, BelowLimit::flatter, BelowLimit::endures};
     constexpr std::array kSums{1.0 / 3, 1.0, 3.0};
     const SectionShakedown* found = section_of(load, z.across.body);
     if (!found || found->fatigue.dang_van_used.empty()) return;
-    const Section section{&found->y, &found->depth, &found->zone, middle_of(load, z.across.body, found->patch)};
+    const LifeSection section{&found->y, &found->depth, &found->zone, middle_of(load, z.across.body, found->patch)};
     const SigmaN line{*z.strength().fatigue.exponent, z.strength().fatigue.cycles};
     for (const double depth : z.depth) {
-      const std::optional<Beside> rows = rows_beside(section, z.zone, depth);
+      const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
       const bool flows = load.passed && flow_at(z, load, load.passed->accumulated, s, depth) >= kNoFlow;
       const double used = rows && !flows ? value_at(section, found->fatigue.dang_van_used, *rows, s) : 0;
       kind.rate.push_back(1 / cycles_to_failure(used, line, kBelow[variant]) / kSums[variant]);
@@ -248,7 +249,7 @@ AddKind by_fatigue(const Zone& z) {
   };
 }
 
-AddKind by_closed_cycles(const Zone& z) {
+AddKind by_closed_cycles(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
     constexpr std::array kExponents{0.7, 0.6, 0.5};  // [Suresh1998]; 0.6: [Manson1965]
     if (!load.passed) return;
@@ -260,7 +261,7 @@ AddKind by_closed_cycles(const Zone& z) {
   };
 }
 
-AddKind by_ductility(const Zone& z) {
+AddKind by_ductility(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
     if (!load.passed) return;
     const double bears = kNormOfEquivalent * *z.spec.passes.ductility;
@@ -277,7 +278,7 @@ AddKind by_ductility(const Zone& z) {
   };
 }
 
-void add_damages(const Zone& z, Found& out) {
+void add_damages(const LifeZone& z, FoundLives& out) {
   const FatigueSpec& f = z.strength().fatigue;
   const bool yielding = std::any_of(z.loads.begin(), z.loads.end(), [&](const LifeLoad& l) { return yields(z, l); });
   const bool passed = z.across.body == BodyId::rail && z.loads.front().passed;
@@ -307,7 +308,7 @@ void add_damages(const Zone& z, Found& out) {
 }
 
 /// Units until wear and grinding have taken so much somewhere, and where.
-void add_worn_through(const Zone& z, std::vector<LifeRow>& out) {
+void add_worn_through(const LifeZone& z, std::vector<LifeRow>& out) {
   LifeRow row = z.row("layer", "worn through");
   for (const WearLaw law : kLaws) {
     if (z.across.wear[static_cast<std::size_t>(law)].empty()) continue;
@@ -328,7 +329,7 @@ void add_worn_through(const Zone& z, std::vector<LifeRow>& out) {
 }
 
 /// What the stresses of any load do to a layer at once.
-void add_strengths(const Zone& z, std::vector<LifeRow>& out) {
+void add_strengths(const LifeZone& z, std::vector<LifeRow>& out) {
   LifeRow cracks = z.row("layer", "layer cracks"), shears = z.row("interface", "interface shears");
   double tension = kNotApplicable, bond = kNotApplicable;
   for (const LifeLoad& load : z.loads) {
@@ -363,7 +364,7 @@ double deepest_of(const std::vector<LifeLoad>& loads, BodyId body) {
   return out;
 }
 
-LifeCurve curve_of(const Across& across, const DamagedPlace& place, std::size_t cell, double end, double mgt) {
+LifeCurve curve_of(const LifeAcross& across, const DamagedPlace& place, std::size_t cell, double end, double mgt) {
   constexpr int kPoints = 400;
   LifeCurve out;
   const Removal removal = across.removal(cell, across.law);
@@ -380,19 +381,20 @@ LifeCurve curve_of(const Across& across, const DamagedPlace& place, std::size_t 
   return out;
 }
 
-void add_body(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const Across& across, double mgt, Lives& out) {
+void add_body(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const LifeAcross& across, double mgt,
+              Lives& out) {
   const std::vector<std::size_t> layers = layers_on(spec, across.body);
   const double deepest = deepest_of(loads, across.body);
-  Found found;
+  FoundLives found;
   double top = 0;
   for (std::size_t k = 0; k <= layers.size(); ++k) {
     const bool layer = k < layers.size();
-    Zone z{.spec = spec,
-           .loads = loads,
-           .across = across,
-           .zone = layer ? static_cast<int>(k) + 1 : 0,
-           .top = top,
-           .bottom = layer ? top + spec.layers[layers[k]].thickness : kNever};
+    LifeZone z{.spec = spec,
+               .loads = loads,
+               .across = across,
+               .zone = layer ? static_cast<int>(k) + 1 : 0,
+               .top = top,
+               .bottom = layer ? top + spec.layers[layers[k]].thickness : kNever};
     z.key = layer ? fmt::format("layer.{}", layers[k]) : fmt::format("material.{}", body_word(across.body));
     if (deepest > top) {
       z.depth = table_depths(top, z.bottom, deepest);

@@ -51,11 +51,11 @@ struct LifeLoad {
 
 struct LifeRow {
   std::string body, zone, place, mechanism;
-  LifeRange wheels;               ///< that pass; of the wheel its turns
-  LifeRange mgt;                  ///< million gross tonnes; NaN of the wheel
+  LifeRange wheels{};             ///< that pass; of the wheel its turns
+  LifeRange mgt{};                ///< million gross tonnes; NaN of the wheel
   double depth = kNotApplicable;  ///< m, below the surface of that time
   double y = kNotApplicable;      ///< m, from the axis of rail or tape circle, field side positive
-  std::string rests_on;           ///< or what is missing
+  std::string rests_on{};         ///< or what is missing
   bool known() const { return wheels.known(); }
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "judge/answer.hpp"
+#include "many/life_files.hpp"
 #include "many/result_columns.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
@@ -374,10 +375,12 @@ Json collective_json(const std::string& title, const std::vector<CollectiveRow>&
                                            {"wandering", worst->summary.shakedown.least(&ShakedownFactors::wandering)},
                                            {"where", remarks_of(worst->summary_json).decided_by}}
                                     : Json(nullptr)},
+          {"lives", lives_json(both.lives)},
           {"loads", all}};
 }
 
-std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
+  const RailDamage& damage = both.rail;
   std::vector<ReportAnswer> out;
   if (const CollectiveRow* worst = worst_row(rows))
     if (const std::optional<Answer> answer = answer_of(worst->summary)) {
@@ -385,6 +388,7 @@ std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& r
       out.push_back({std::string(words.tone), std::string(words.title),
                      fmt::format("load \"{}\", {}", worst->name, answer->reason)});
     }
+  if (ReportAnswer life = life_answer(both.lives); !life.text.empty()) out.push_back(std::move(life));
   const auto most = std::max_element(damage.rcf_damage.begin(), damage.rcf_damage.end());
   if (most != damage.rcf_damage.end() && *most >= 1)
     out.push_back({"bad", "Rolling contact fatigue",
@@ -404,9 +408,13 @@ ReportVerdict write_collective_page(const std::filesystem::path& page, const std
   report.runs.back().name = shown;
   report.checks = report_checks(report.runs);
   report.checks.insert(report.checks.begin(), unsolved_check(rows));
-  report.answers = collective_answers(rows, damage.rail);
-  report.tables = {totals_table(rows, damage.rail), rows_table(rows)};
+  report.answers = collective_answers(rows, damage);
+  if (!damage.lives.rows.empty()) report.tables.push_back(lives_table(damage.lives));
+  report.tables.push_back(totals_table(rows, damage.rail));
+  report.tables.push_back(rows_table(rows));
   report.charts = charts_of(damage.rail);
+  if (const std::optional<ReportChart> life = life_chart(damage.lives))
+    report.charts.insert(report.charts.begin(), *life);
   report.charts.push_back(wheel_chart(damage.wheel));
   write_whole_file(page, report_page(report));
   return verdict_of(report);

@@ -30,6 +30,7 @@ void write_wheel_damage(const std::filesystem::path& file, const std::vector<std
 struct CollectiveDamage {
   RailDamage rail;
   WheelDamage wheel;
+  Lives lives{};
 };
 
 /// collective.json: totals, where the extremes are, and every row in short.
@@ -37,8 +38,8 @@ nlohmann::ordered_json collective_json(const std::string& title, const std::vect
                                        const CollectiveDamage& damage);
 
 /// A page over all rows; `looked_at` is the result folder of the row that it shows whole, by the name `shown`.
-/// What the passages do, the worst first: whether the rail lasts, rolling contact fatigue, wear.
-std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const RailDamage& damage);
+/// What the passages do, the worst first: whether and how long the rail lasts, rolling contact fatigue, wear.
+std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage);
 
 ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
                                     const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,

@@ -19,7 +19,7 @@ double trend_between(double net, double later_net, double ratio) {
 PassedSection passed_section(const CaseSpec& spec, const BemResult& result, const Control* control) {
   const RailPasses rail = rail_passes(spec, {result});
   const SteadyBody body = body_of(rail);
-  const Field strain = contact_strain(rail, body);
+  const Field strain = contact_strain(rail, body, rail.contact_stress.front());
   PassState state = body.virgin();
   PassLimits limits;
   limits.control = control;

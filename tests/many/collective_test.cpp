@@ -62,7 +62,7 @@ TEST(Collective, NamesTheLoadThatDecidesAndDoubtsTheWearOfOneProfile) {
     text += passages;
     const CaseSpec spec = parse_case(text, "a.toml").spec;
     const std::vector<CollectiveRow> rows = solved(spec);
-    return collective_answers(rows, rail_damage(rows, place(spec, {}), 0.5e-3));
+    return collective_answers(rows, {rail_damage(rows, place(spec, {}), 0.5e-3), {}});
   };
   const std::vector<ReportAnswer> few = answers("1000");
   ASSERT_EQ(few.size(), 2u);

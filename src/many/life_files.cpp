@@ -1,0 +1,117 @@
+#include "many/life_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "many/case_row.hpp"
+#include "record/csv.hpp"
+#include "record/output_file.hpp"
+#include "record/unit.hpp"
+
+namespace railstrata {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json life_cell(double value) {
+  if (std::isnan(value)) return nullptr;
+  return std::isinf(value) ? Json("never") : Json(value);
+}
+
+Json length_cell(double si) { return std::isfinite(si) ? Json(unit::kMillimetres.factor * si) : Json(nullptr); }
+
+std::vector<TextColumn<LifeRow>> life_columns() {
+  using R = LifeRow;
+  std::vector<TextColumn<R>> out{{"body", [](const R& r) { return r.body; }},
+                                 {"zone", [](const R& r) { return r.zone; }},
+                                 {"place", [](const R& r) { return r.place; }},
+                                 {"mechanism", [](const R& r) { return r.mechanism; }}};
+  constexpr std::pair<const char*, double LifeRange::*> kVariants[] = {
+      {"", &LifeRange::best}, {"_low", &LifeRange::low}, {"_high", &LifeRange::high}};
+  for (const auto& [name, value] : kVariants)
+    out.push_back({fmt::format("life{}_MGT", name), [value = value](const R& r) { return life_cell(r.mgt.*value); }});
+  for (const auto& [name, value] : kVariants)
+    out.push_back({fmt::format("wheels{}", name), [value = value](const R& r) { return life_cell(r.wheels.*value); }});
+  out.push_back({"depth_mm", [](const R& r) { return length_cell(r.depth); }});
+  out.push_back({"y_mm", [](const R& r) { return length_cell(r.y); }});
+  out.push_back({"rests_on", [](const R& r) { return r.rests_on; }});
+  return out;
+}
+
+ReportSeries line(const std::string& name, const std::vector<double>& mgt, const std::vector<double>& depth) {
+  ReportSeries out{.name = name, .x = mgt, .y = {}, .markers = false};
+  for (const double d : depth) out.y.push_back(unit::kMillimetres.factor * d);
+  return out;
+}
+
+}  // namespace
+
+void write_lives(const std::filesystem::path& file, const std::vector<std::string>& origin, const Lives& lives) {
+  ReportTable table;
+  add_rows(table, lives.rows, life_columns());
+  std::string text = csv_remarks(origin);
+  text += csv_line(std::vector<Json>(table.columns.begin(), table.columns.end()));
+  for (const std::vector<Json>& row : table.rows) text += csv_line(row);
+  write_whole_file(file, text);
+}
+
+Json lives_json(const Lives& lives) {
+  Json out = Json::array();
+  for (const LifeRow& row : lives.rows) {
+    Json one = Json::object();
+    for (const TextColumn<LifeRow>& c : life_columns()) one[c.name] = c.cell(row);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+ReportTable lives_table(const Lives& lives) {
+  using R = LifeRow;
+  ReportTable out{.id = "lives",
+                  .title = "How long each zone lasts",
+                  .note =
+                      "Best value and range, in million gross tonnes over this rail and in wheels (of the wheel: "
+                      "its turns). Ways to end do not add up: the shortest life counts. Not known: the key that "
+                      "is missing stands in the last column.",
+                  .columns = {},
+                  .rows = {}};
+  add_rows(out, lives.rows,
+           {{"body", [](const R& r) { return r.body; }},
+            {"zone", [](const R& r) { return r.zone; }},
+            {"place", [](const R& r) { return r.place; }},
+            {"ends by", [](const R& r) { return r.mechanism; }},
+            {"life [MGT]", [](const R& r) { return r.body == "rail" ? Json(range_text(r.mgt)) : Json(nullptr); }},
+            {"wheels", [](const R& r) { return range_text(r.wheels); }},
+            {titled("depth", unit::kMillimetres.shown), [](const R& r) { return length_cell(r.depth); }},
+            {titled("y", unit::kMillimetres.shown), [](const R& r) { return length_cell(r.y); }},
+            {"rests on", [](const R& r) { return r.rests_on; }}});
+  return out;
+}
+
+std::optional<ReportChart> life_chart(const Lives& lives) {
+  const LifeCurve& c = lives.curve;
+  if (c.mgt.empty() || !std::isfinite(c.mgt.back())) return std::nullopt;
+  ReportChart out{
+      "life",
+      "Damage against removal where the rail fails first",
+      "Depth from the new surface. Failed: how deep every point would have failed if nothing were removed. "
+      "Removed: by wear and grinding. Where removed lies deeper than failed, the damage is taken away first.",
+      "traffic [MGT]",
+      titled("depth", unit::kMillimetres.shown),
+      {}};
+  out.series.push_back(line("removed", c.mgt, c.removed));
+  if (!c.damaged.empty()) out.series.push_back(line("failed", c.damaged_mgt, c.damaged));
+  if (std::isfinite(c.layer))
+    out.series.push_back(line("bottom of the layer", {c.mgt.front(), c.mgt.back()}, {c.layer, c.layer}));
+  return out;
+}
+
+ReportAnswer life_answer(const Lives& lives) {
+  if (lives.rows.empty()) return {};
+  const LifeRow* row = shortest(lives.rows);
+  return {row && std::isfinite(row->mgt.best) ? "open" : "plain", "Life", life_text(lives.rows)};
+}
+
+}  // namespace railstrata
