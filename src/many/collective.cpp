@@ -117,7 +117,7 @@ Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& r
                        const WheelDamage& wheel) {
   std::vector<LifeLoad> loads;
   for (const CollectiveRow& row : rows)
-    if (row.sound() && !row.sections.empty())
+    if (row.sound())
       loads.push_back(
           {row.passages, row.summary.contact.F_z, &row.patches, &row.sections, row.passed ? &*row.passed : nullptr});
   return zone_lives(spec, loads, rail, wheel);

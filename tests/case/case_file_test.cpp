@@ -225,7 +225,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: "
        "case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, track, drive, friction, "
        "third_body, mesh, "
-       "contact, run, bem, transient, load, collective, passes, output"},
+       "contact, run, bem, transient, load, collective, life, grinding, passes, output"},
       {"[mesh]\nelement_size = \"1 MPa\"\n",
        "a.toml:2:16: mesh.element_size = \"1 MPa\": \"MPa\" is not the unit of a length\n    2 | element_size = \"1 "
        "MPa\"\n      |                ^\n    remedy: write a length, e.g. "
@@ -403,7 +403,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: "
        "tables: case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, track, drive, friction, "
        "third_body, mesh, "
-       "contact, run, bem, transient, load, collective, passes, output"},
+       "contact, run, bem, transient, load, collective, life, grinding, passes, output"},
   };
   for (const Bad& bad : all) {
     const std::string message = error_of(bad.text);
