@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
@@ -50,6 +51,31 @@ TEST(Collective, ARowThatCannotBeSolvedIsToldAndTheOthersGoOn) {
   EXPECT_EQ(json["totals"]["passages"], 30);
   EXPECT_EQ(json["totals"]["passages_left_out"], 1);
   EXPECT_EQ(json["loads"][1]["name"], "beside the rail");
+}
+
+// A layer of t lasts t over the depth that a collective wears, grinding of t at once ends it, in MGT of 2 F/g a wheel.
+TEST(Collective, ALayerWornThroughHasItsLifeInGrossTonnes) {
+  const auto life = [](const char* more) {
+    const CaseSpec spec =
+        parse_case(std::string(kArcs) + "[[layer]]\nname = \"clad\"\nthickness = \"0.1 mm\"\nyoung_ratio = 1.2\n" +
+                       more + "[[load]]\npassages = 1e4\nwheel_load = \"60 kN\"\n",
+                   "a.toml")
+            .spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    const Placement placement = place(spec, {});
+    const RailDamage damage = rail_damage(rows, placement, 0.5e-3);
+    const Lives lives = collective_lives(spec, rows, damage, wheel_damage(rows, placement, 0.5e-3));
+    const double mgt = 1e4 * 2e-9 * rows[0].summary.contact.F_z / spec.vehicle.gravity;
+    for (const LifeRow& row : lives.rows)
+      if (row.mechanism == "worn through") {
+        const std::vector<double> wear = smoothed_wear(damage, WearLaw::usfd);
+        return std::pair{row.mgt.best, mgt * 0.1e-3 / *std::max_element(wear.begin(), wear.end())};
+      }
+    return std::pair{0.0, 1.0};
+  };
+  const auto [worn, expected] = life("");
+  EXPECT_NEAR(worn / expected, 1, 1e-9);
+  EXPECT_NEAR(life("[grinding]\nevery = \"0.01 Mt\"\ndepth = \"0.2 mm\"\n").first, 0.01, 1e-9);
 }
 
 TEST(Collective, NamesTheLoadThatDecidesAndDoubtsTheWearOfOneProfile) {
