@@ -28,12 +28,6 @@ Value found(const std::vector<std::pair<std::string, Value>>& pairs, const std::
   return at == pairs.end() ? otherwise : at->second;
 }
 
-std::vector<Json> cells_of(const std::vector<CaseColumn>& columns, const CaseRow& row) {
-  std::vector<Json> out;
-  for (const CaseColumn& c : columns) out.push_back(c.cell(row));
-  return out;
-}
-
 }  // namespace
 
 std::string CaseRow::value(const std::string& key) const { return found(values, key, std::string()); }
@@ -77,20 +71,9 @@ std::string csv_line(const std::vector<Json>& cells) {
 }
 
 void write_cases(const std::filesystem::path& file, const std::vector<std::string>& origin, const CaseTable& table) {
-  std::vector<Json> names;
-  for (const CaseColumn& c : table.columns) names.emplace_back(c.name);
-  std::string text = csv_remarks(origin) + csv_line(names);
-  for (const CaseRow& row : table.rows) text += csv_line(cells_of(table.columns, row));
-  write_whole_file(file, text);
+  write_whole_file(file, csv_remarks(origin) + csv_lines(table.columns, table.rows));
 }
 
-Json json_of(const CaseTable& table) {
-  Json out = Json::array();
-  for (const CaseRow& row : table.rows) {
-    Json& one = out.emplace_back(Json::object());
-    for (const CaseColumn& c : table.columns) one[c.name] = c.cell(row);
-  }
-  return out;
-}
+Json json_of(const CaseTable& table) { return json_rows(table.columns, table.rows); }
 
 }  // namespace railstrata

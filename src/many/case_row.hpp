@@ -52,6 +52,26 @@ std::vector<CaseColumn> joined(std::vector<CaseColumn> first, const Lists&... mo
 /// Cells as a line of CSV.
 std::string csv_line(const std::vector<nlohmann::ordered_json>& cells);
 
+/// The lines of a table: names, then rows.
+template <class Row>
+std::string csv_lines(const std::vector<TextColumn<Row>>& columns, const std::vector<Row>& rows) {
+  ReportTable table;
+  add_rows(table, rows, columns);
+  std::string text = csv_line({table.columns.begin(), table.columns.end()});
+  for (const std::vector<nlohmann::ordered_json>& cells : table.rows) text += csv_line(cells);
+  return text;
+}
+/// An object a row.
+template <class Row>
+nlohmann::ordered_json json_rows(const std::vector<TextColumn<Row>>& columns, const std::vector<Row>& rows) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const Row& row : rows) {
+    nlohmann::ordered_json& one = out.emplace_back(nlohmann::ordered_json::object());
+    for (const TextColumn<Row>& c : columns) one[c.name] = c.cell(row);
+  }
+  return out;
+}
+
 /// Writes the table whole, `origin` as "#" lines above it.
 void write_cases(const std::filesystem::path& file, const std::vector<std::string>& origin, const CaseTable& table);
 /// An object a row.

@@ -49,23 +49,10 @@ ReportSeries line(const std::string& name, const std::vector<double>& mgt, const
 }  // namespace
 
 void write_lives(const std::filesystem::path& file, const std::vector<std::string>& origin, const Lives& lives) {
-  ReportTable table;
-  add_rows(table, lives.rows, life_columns());
-  std::string text = csv_remarks(origin);
-  text += csv_line(std::vector<Json>(table.columns.begin(), table.columns.end()));
-  for (const std::vector<Json>& row : table.rows) text += csv_line(row);
-  write_whole_file(file, text);
+  write_whole_file(file, csv_remarks(origin) + csv_lines(life_columns(), lives.rows));
 }
 
-Json lives_json(const Lives& lives) {
-  Json out = Json::array();
-  for (const LifeRow& row : lives.rows) {
-    Json one = Json::object();
-    for (const TextColumn<LifeRow>& c : life_columns()) one[c.name] = c.cell(row);
-    out.push_back(std::move(one));
-  }
-  return out;
-}
+Json lives_json(const Lives& lives) { return json_rows(life_columns(), lives.rows); }
 
 ReportTable lives_table(const Lives& lives) {
   using R = LifeRow;
