@@ -224,14 +224,25 @@ class TreeReader {
     std::vector<std::string> keys;
     for (const Option& o : table.options) keys.emplace_back(o.key);
     source_.complain(full, fmt::format("unknown key {}", full),
-                     fmt::format("{}keys of [{}]: {}", hint_for(key, keys), table.name, fmt::join(keys, ", ")));
+                     fmt::format("{}{}keys of [{}]: {}", hint_for(key, keys), elsewhere(key, table.name), table.name,
+                                 fmt::join(keys, ", ")));
   }
 
   void unknown_table(const std::string& full, const std::string& name) {
     std::vector<std::string> names;
     for (const OptionTable& t : case_tables()) names.emplace_back(t.name);
     source_.complain(full, fmt::format("unknown table or key {}", full),
-                     fmt::format("{}tables: {}", hint_for(name, names), fmt::join(names, ", ")));
+                     fmt::format("{}{}tables: {}", hint_for(name, names), elsewhere(name, ""), fmt::join(names, ", ")));
+  }
+
+  /// Where another table has the key: speed of [vehicle] is drive.speed, coefficient of [friction]
+  /// drive.friction_coefficient.
+  static std::string elsewhere(const std::string& key, std::string_view table) {
+    for (const std::string& word : {key, fmt::format("{}_{}", table, key)})
+      for (const OptionTable& t : case_tables())
+        for (const Option& o : t.options)
+          if (o.key == word) return fmt::format("[{}] has {}. ", t.name, word);
+    return "";
   }
 
   /// Advice for a known unsupported name, else the most similar known name.

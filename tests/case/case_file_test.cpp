@@ -496,6 +496,11 @@ TEST(Overrides, FaultsAreLocatedAtTheCommandLine) {
             "--set mesh.element_size=2: mesh.element_size = 2: a bare number has no unit\n    remedy: write a length, "
             "e.g. \"0.2 mm\", in quotes");
   EXPECT_TRUE(error_of("", {"mesh.size=2 mm"}).starts_with("--set mesh.size=2 mm: unknown key mesh.size\n"));
+  EXPECT_NE(error_of("", {"vehicle.speed=20 m/s"}).find("remedy: [drive] has speed. keys of [vehicle]: "),
+            std::string::npos);
+  EXPECT_NE(error_of("", {"friction.coefficient=0.3"}).find("remedy: [drive] has friction_coefficient. "),
+            std::string::npos);
+  EXPECT_NE(error_of("title = \"mine\"\n").find("remedy: [case] has title. tables: "), std::string::npos);
   EXPECT_EQ(error_of("", {"mesh"}), "--set mesh: is not key=value" + remedy);
   EXPECT_EQ(error_of("", {"mesh=3"}), "--set mesh=3: names no table" + remedy);
   EXPECT_EQ(error_of("[[layer]]\nyoung_ratio=2\n", {"layer.2.thickness=1 mm"}),
