@@ -201,7 +201,7 @@ __attribute__((flatten, noinline)) void evaluate_in_cache(const BlockElements& e
   Prefetch none;
   const Rotation<Real> turn{1, 0};
   for (int q = 0; q < quads; ++q)
-    traversal::evaluate_quad<Evaluation::finite, kind, false>(elements, q, scale, packs, 0, turn, rows, none);
+    traversal::evaluate_quad<Evaluation::finite, kind, false, false>(elements, q, scale, packs, 0, turn, rows, none);
 }
 
 /// Rows of one node at the stations of a tile, in cache.

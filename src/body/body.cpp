@@ -12,14 +12,15 @@ namespace {
 
 // Half of an element's mass at a corner goes to each of its two stations.
 void add_element_masses(const Body& body, int b, Field& mass) {
-  const Section& section = body.mesh.blocks[b].section;
+  const Block& block = body.mesh.blocks[b];
+  const Section& section = block.section;
   const BlockLayout& lay = body.layout.blocks[b];
   const ElementTable<double>& table = body.elements[b].table;
   for (int e = 0; e < lay.elements; ++e) {
     const int next = e + 1 < lay.stations ? e + 1 : 0;
     const SweepScale scale{table.sigma[e], table.c[e]};
     for (int q = 0; q < static_cast<int>(section.quads.size()); ++q) {
-      const double density = body.materials[section.quad_material[q]].density;
+      const double density = body.materials[block.material(q, e)].density;
       const std::array<double, 4> m = corner_masses(body.mesh.kind, quad_corners(section, q), scale, density);
       for (int n = 0; n < 4; ++n)
         for (int i = 0; i < 3; ++i) {
@@ -91,10 +92,10 @@ namespace {
 using CornerBlocks = std::array<double, 32>;
 
 CornerBlocks corner_blocks(SweepKind kind, const BlockElements& elements, int cls, int quad) {
-  const int quads = static_cast<int>(elements.table.quads.size());
   const SpacingClass& mine = elements.classes[cls];
-  const Matrix24 k = linear_stiffness(elements.table.quads[quad], sweep_scale(kind, mine.spacing),
-                                      elements.table.hourglass[mine.hourglass * quads + quad]);
+  const Matrix24 k =
+      linear_stiffness(elements.table.quads[elements.reference(mine.set, quad)], sweep_scale(kind, mine.spacing),
+                       elements.table.hourglass[elements.hourglass(mine, quad)]);
   CornerBlocks out;
   for (int a = 0; a < 8; ++a) {
     out[4 * a] = k(3 * a, 3 * a);
@@ -113,7 +114,7 @@ void stiffness_diagonal(const Body& body, Field& diagonal) {
   for (int b = 0; b < static_cast<int>(body.elements.size()); ++b) {
     const BlockElements& d = body.elements[b];
     const BlockLayout& lay = body.layout.blocks[b];
-    const int quads = static_cast<int>(d.table.quads.size()), classes = static_cast<int>(d.classes.size());
+    const int quads = d.quads, classes = static_cast<int>(d.classes.size());
     std::vector<CornerBlocks> block(static_cast<std::size_t>(classes) * quads);
     for_each(static_cast<std::ptrdiff_t>(block.size()), [&](std::ptrdiff_t i) {
       block[i] = corner_blocks(body.mesh.kind, d, static_cast<int>(i / quads), static_cast<int>(i % quads));
@@ -137,15 +138,16 @@ StepBound element_step_bound(const Body& body) {
   StepBound best{std::numeric_limits<double>::infinity(), 0, 0, 0};
   for (int b = 0; b < static_cast<int>(body.elements.size()); ++b) {
     const BlockElements& d = body.elements[b];
-    const Section& section = body.mesh.blocks[b].section;
-    const int quads = static_cast<int>(d.table.quads.size()), classes = static_cast<int>(d.classes.size());
+    const Block& block = body.mesh.blocks[b];
+    const Section& section = block.section;
+    const int quads = d.quads, classes = static_cast<int>(d.classes.size());
     std::vector<double> step(static_cast<std::size_t>(quads) * classes);
     for_each(static_cast<std::ptrdiff_t>(step.size()), [&](std::ptrdiff_t i) {
       const int q = static_cast<int>(i % quads);
       const SpacingClass& mine = d.classes[i / quads];
-      step[i] =
-          element_stable_step(body.mesh.kind, quad_corners(section, q), sweep_scale(body.mesh.kind, mine.spacing),
-                              body.materials[section.quad_material[q]], d.table.hourglass[mine.hourglass * quads + q]);
+      step[i] = element_stable_step(body.mesh.kind, quad_corners(section, q), sweep_scale(body.mesh.kind, mine.spacing),
+                                    body.materials[block.material_of_set(mine.set, q)],
+                                    d.table.hourglass[d.hourglass(mine, q)]);
     });
     const auto smallest = std::min_element(step.begin(), step.end()) - step.begin();
     if (step[smallest] >= best.step) continue;

@@ -60,7 +60,7 @@ void fill_frames(SweepKind kind, const Block& block, const BlockLayout& lay, Blo
 }
 
 // Groups and classes of the elements; returns the spacings that hourglass stiffnesses are made for.
-std::vector<double> classify(const std::vector<double>& spacing, int padded, BlockElements& out) {
+std::vector<double> classify(const std::vector<double>& spacing, const Block& block, int padded, BlockElements& out) {
   assert(!spacing.empty() && padded >= static_cast<int>(spacing.size()));
   std::vector<double> hourglass_spacings;
   const int elements = static_cast<int>(spacing.size());
@@ -70,13 +70,24 @@ std::vector<double> classify(const std::vector<double>& spacing, int padded, Blo
       const double shortest = *std::min_element(&spacing[e], &spacing[e] + count);
       out.hourglass_class.push_back(class_of(hourglass_spacings, shortest, same_spacing));
     }
-    const SpacingClass mine{spacing[e], out.hourglass_class.back()};
+    const SpacingClass mine{spacing[e], out.hourglass_class.back(), block.set_of(e)};
     out.element_class.push_back(class_of(out.classes, mine, [](const SpacingClass& a, const SpacingClass& c) {
-      return same_spacing(a.spacing, c.spacing) && a.hourglass == c.hourglass;
+      return same_spacing(a.spacing, c.spacing) && a.hourglass == c.hourglass && a.set == c.set;
     }));
   }
   out.hourglass_class.resize(padded / kHourglassGroup, out.hourglass_class.back());
   return hourglass_spacings;
+}
+
+void fill_sets(const Block& block, int padded, BlockElements& out) {
+  out.quads = static_cast<int>(block.section.quads.size());
+  if (block.along.empty()) return;
+  out.set = block.along.of_element;
+  out.set.resize(static_cast<std::size_t>(padded), out.set.back());
+  for (int q = 0; q < out.quads; ++q) {
+    const auto same = [&](const std::vector<int>& s) { return s[q] == block.section.quad_material[q]; };
+    out.varies.push_back(!std::all_of(block.along.sets.begin(), block.along.sets.end(), same));
+  }
 }
 
 ElementTable<float> rounded(const ElementTable<double>& from) {
@@ -111,22 +122,30 @@ BlockElements block_elements(SweepKind kind, const Block& block, const BlockLayo
   const Section& section = block.section;
   const int quads = static_cast<int>(section.quads.size());
   const int padded = (lay.elements + kLineEnd - 1) / kLineEnd * kLineEnd;
-  const auto material = [&](int q) -> const Elastic& { return materials[section.quad_material[q]]; };
+  const auto material = [&](std::ptrdiff_t set, int q) -> const Elastic& {
+    return materials[block.material_of_set(static_cast<int>(set), q)];
+  };
   BlockElements out;
+  fill_sets(block, padded, out);
   ElementTable<double>& table = out.table;
   const std::vector<double> spacing = spacings(block, lay);
   fill_station_lines(kind, spacing, padded, table);
   fill_frames(kind, block, lay, out);
-  const std::vector<double> hourglass_spacings = classify(spacing, padded, out);
+  const std::vector<double> hourglass_spacings = classify(spacing, block, padded, out);
 
-  table.quads.reserve(quads);
-  for (int q = 0; q < quads; ++q) table.quads.push_back(quad_reference(kind, quad_corners(section, q), material(q)));
-  table.hourglass.assign(hourglass_spacings.size() * quads, HourglassStiffness{});
+  out.hourglass_classes = static_cast<int>(hourglass_spacings.size());
+  table.quads.reserve(static_cast<std::size_t>(block.sets()) * quads);
+  for (int set = 0; set < block.sets(); ++set)
+    for (int q = 0; q < quads; ++q)
+      table.quads.push_back(quad_reference(kind, quad_corners(section, q), material(set, q)));
+  table.hourglass.assign(table.quads.size() * out.hourglass_classes, HourglassStiffness{});
   for_each(static_cast<std::ptrdiff_t>(table.hourglass.size()), [&](std::ptrdiff_t i) {
     const int q = static_cast<int>(i % quads);
-    const SweepScale scale = sweep_scale(kind, hourglass_spacings[i / quads]);
-    table.hourglass[i] = hourglass_stiffness(kind, quad_corners(section, q), scale, material(q), options.element,
-                                             options.hourglass_coefficient);
+    const std::ptrdiff_t n = i / quads;  // of set and class
+    const SweepScale scale = sweep_scale(kind, hourglass_spacings[n % out.hourglass_classes]);
+    table.hourglass[i] =
+        hourglass_stiffness(kind, quad_corners(section, q), scale, material(n / out.hourglass_classes, q),
+                            options.element, options.hourglass_coefficient);
   });
   if (options.precision == Precision::single_precision) out.single = rounded(table);
   return out;

@@ -2,6 +2,9 @@
 // Tables that the elements of a block read while forces are computed: by quadrilateral, by station, and the hourglass
 // stiffness by both.
 //
+// Where the materials of a section change along the sweep, references and hourglass stiffnesses stand there once for
+// every set of materials (MaterialSets of the block), one set after the other.
+//
 // Elements along the sweep have their own spacing and share the hourglass stiffness of their group: where the mesh is
 // graded that of its shortest element (a stiffer one would shorten the stable step).
 #include <array>
@@ -29,8 +32,8 @@ inline constexpr int kHourglassGroup = 8;  ///< elements that share one hourglas
 template <class Real>
 struct ElementTable {
   using Line = std::vector<Real, CacheLineAllocator<Real>>;
-  std::vector<HexReference<Real>> quads;
-  std::vector<std::array<Real, kHourglassEntries>> hourglass;  ///< [class * quads + quad]; zero for the padding
+  std::vector<HexReference<Real>> quads;                       ///< [set * quads + quad]
+  std::vector<std::array<Real, kHourglassEntries>> hourglass;  ///< [(set * classes + class) * quads + quad]
   Line inv_sigma, inv_c, v1, v2, v3;                           ///< StationScale by element
   Line sigma, c;                                               ///< the same
 
@@ -45,6 +48,7 @@ struct ElementTable {
 struct SpacingClass {
   double spacing;
   int hourglass;
+  int set = 0;  ///< of materials
   friend bool operator==(const SpacingClass&, const SpacingClass&) = default;
 };
 
@@ -58,10 +62,21 @@ struct BlockElements {
     else
       return table;
   }
-  std::vector<int> hourglass_class;   ///< per group of elements
-  std::vector<SpacingClass> classes;  ///< all that occur
-  std::vector<int> element_class;     ///< per element, index into classes
-  Field theta, cos_q, sin_q;          ///< angle of the element centres; Q of the element class, zero if extruded
+  int quads = 0, hourglass_classes = 0;  ///< in each set of materials
+  std::vector<int> set;                  ///< of materials, per element and to the end of the padding; empty: one set
+  std::vector<char> varies;              ///< per quadrilateral: not the same material in all sets; empty: one set
+  std::vector<int> hourglass_class;      ///< per group of elements
+  std::vector<SpacingClass> classes;     ///< all that occur
+  std::vector<int> element_class;        ///< per element, index into classes
+  Field theta, cos_q, sin_q;             ///< angle of the element centres; Q of the element class, zero if extruded
+
+  bool varies_at(int quad) const { return !varies.empty() && varies[static_cast<std::size_t>(quad)]; }
+  int set_at(int element) const { return set.empty() ? 0 : set[static_cast<std::size_t>(element)]; }
+  std::size_t reference(int at_set, int quad) const { return static_cast<std::size_t>(at_set) * quads + quad; }
+  std::size_t hourglass(int at_set, int cls, int quad) const {
+    return (static_cast<std::size_t>(at_set) * hourglass_classes + cls) * quads + quad;
+  }
+  std::size_t hourglass(const SpacingClass& c, int quad) const { return hourglass(c.set, c.hourglass, quad); }
 };
 
 /// Corners of a quadrilateral, section coordinates.

@@ -25,7 +25,7 @@ Sym3 element_stress(const Body& body, const Field& u, const PlasticHistory& hist
          station < body.layout.blocks[block].elements);
   assert(quad >= 0 && quad < static_cast<int>(body.mesh.blocks[block].section.quads.size()));
   const BlockElements& d = body.elements[block];
-  const QuadReference& ref = d.table.quads[quad];
+  const QuadReference& ref = d.table.quads[d.reference(d.set_at(station), quad)];
   const StationScale<double> st = d.table.scale<double>(station, scalar);
   const Rotation<double> q{d.cos_q[station], d.sin_q[station]};
   const auto corner = corners_of(body.layout.blocks[block], body.mesh.blocks[block].section.quads[quad], u, station);

@@ -73,10 +73,12 @@ __attribute__((flatten)) void Traversal::run_tile(int t, bool follows, const Fie
       rows.eigenstress = body_->plastic.eigenstress(history, t, q);
       if (!rows.eigenstress) rows.eigenstress = body_->initial_stress.rows(tile.block, q);  // of what is cold
     }
-    if (rows.eigenstress)
-      traversal::evaluate_quad<how, kind, true>(elements, q, scale, packs, tile.first, turn, rows, ahead);
+    if (elements.varies_at(q))
+      traversal::evaluate_own<how, kind>(elements, q, scale, packs, tile.first, turn, rows, ahead);
+    else if (rows.eigenstress)
+      traversal::evaluate_quad<how, kind, true, false>(elements, q, scale, packs, tile.first, turn, rows, ahead);
     else
-      traversal::evaluate_quad<how, kind, false>(elements, q, scale, packs, tile.first, turn, rows, ahead);
+      traversal::evaluate_quad<how, kind, false, false>(elements, q, scale, packs, tile.first, turn, rows, ahead);
     complete_nodes<kind>(t, follows, work, q, rows, f, policy);
   }
 }
@@ -219,8 +221,13 @@ StrainEnergy Traversal::tile_energy(const Tile& tile, const Field& u) const {
         difference = right - left;
       };
       auto kin = element_kinematics<SweepKind::revolve, Pack>(ref.shape, st, corner);
-      const auto stress = hex_stress<SweepKind::revolve, Pack>(ref, turn_, kin);
-      const Pack stored = traversal::pack_hourglass<double>(d, static_cast<int>(q), e, kin);
+      const int quad = static_cast<int>(q);
+      const bool own = d.varies_at(quad);
+      const auto stress =
+          own ? hex_stress<SweepKind::revolve, Pack>(traversal::pack_reference<double>(d, quad, e), turn_, kin)
+              : hex_stress<SweepKind::revolve, Pack>(ref, turn_, kin);
+      const Pack stored = own ? traversal::own_class_hourglass<double>(d, quad, e, kin)
+                              : traversal::pack_hourglass<double>(d, quad, e, kin);
       for (int l = 0; l < real; ++l) hourglass[l] += stored[l];
       strain += 0.5 * ref.shape.volume * st.v2 * double_contraction(stress.strain, stress.s);
     }

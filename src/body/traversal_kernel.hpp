@@ -24,10 +24,45 @@ struct TwoClasses {
   PackOf<Real> operator()(int e) const { return halves(PackOf<Real>{} + lower[e], PackOf<Real>{} + upper[e]); }
 };
 
+// Hourglass stiffness of elements with materials of their own.
+template <class Real>
+struct OwnClasses {
+  const Real* k[kLanesOf<Real>];
+  PackOf<Real> operator()(int e) const {
+    PackOf<Real> out;
+    for (int l = 0; l < kLanesOf<Real>; ++l) out[l] = k[l][e];
+    return out;
+  }
+};
+
 // Seldom: where the spacing changes. Kept out of the loop over packs, whose registers it would take.
 template <class Real, class P>
 __attribute__((noinline)) P two_class_hourglass(const Real* lower, const Real* upper, ElementKinematics<P>& kin) {
   return hourglass_forces(TwoClasses<Real>{lower, upper}, kin);
+}
+
+template <class Real, class P>
+__attribute__((noinline)) P own_class_hourglass(const BlockElements& elements, int quad, int first,
+                                                ElementKinematics<P>& kin) {
+  OwnClasses<Real> own;
+  for (int l = 0; l < kLanesOf<Real>; ++l) {
+    const int e = first + l, cls = elements.hourglass_class[e / kHourglassGroup];
+    own.k[l] = elements.of<Real>().hourglass[elements.hourglass(elements.set_at(e), cls, quad)].data();
+  }
+  return hourglass_forces(own, kin);
+}
+
+// Material parameters of a pack of elements from `first` on.
+template <class Real>
+PackReference<Real, PackOf<Real>> pack_reference(const BlockElements& elements, int quad, int first) {
+  const auto& references = elements.of<Real>().quads;
+  PackReference<Real, PackOf<Real>> out{references[quad].shape, {}};
+  for (int l = 0; l < kLanesOf<Real>; ++l) {
+    const MaterialParameters<Real>& own = references[elements.reference(elements.set_at(first + l), quad)].material;
+    out.material.lambda[l] = own.lambda;
+    out.material.mu[l] = own.mu;
+  }
+  return out;
 }
 
 // Replaces the hourglass amplitudes of a pack of elements from `first` on by their forces; returns the energy. Lanes
@@ -35,7 +70,7 @@ __attribute__((noinline)) P two_class_hourglass(const Real* lower, const Real* u
 template <class Real, class P>
 P pack_hourglass(const BlockElements& elements, int quad, int first, ElementKinematics<P>& kin) {
   const ElementTable<Real>& table = elements.of<Real>();
-  const std::size_t quads = table.quads.size();
+  const auto quads = static_cast<std::size_t>(elements.quads);
   const auto stiffness = [&](int cls) { return table.hourglass[cls * quads + quad].data(); };
   const int lower = elements.hourglass_class[first / kHourglassGroup];
   const int upper = elements.hourglass_class[(first + kLanesOf<Real> / 2) / kHourglassGroup];
@@ -132,7 +167,8 @@ inline QuadRows<Real> gather_quad(const TileWork<Real>& work, int q, const Field
 }
 
 // All packs of one quadrilateral in a tile.
-template <Evaluation how, SweepKind kind, bool eigenstressed, class Real, class P, int most>
+// own: elements have materials of their own.
+template <Evaluation how, SweepKind kind, bool eigenstressed, bool own, class Real, class P, int most>
 inline void evaluate_quad(const BlockElements& elements, int quad, const StationScale<P> (&scale)[most], int packs,
                           int first_element, const Rotation<Real>& turn, const QuadRows<Real>& rows,
                           const Prefetch& ahead) {
@@ -152,7 +188,10 @@ inline void evaluate_quad(const BlockElements& elements, int quad, const Station
     };
     const PackEigenstress<P> eigenstress{rows.eigenstress + (eigenstressed ? e : 0)};
     const auto hourglass = [&](ElementKinematics<P>& kin) {
-      pack_hourglass<Real>(elements, quad, first_element + e, kin);
+      if constexpr (own)
+        own_class_hourglass<Real>(elements, quad, first_element + e, kin);
+      else
+        pack_hourglass<Real>(elements, quad, first_element + e, kin);
       if constexpr (eigenstressed) eigenstress.take_off(kin);
     };
     const auto add_forces = [&](int c, int i, auto&& add) {
@@ -162,11 +201,29 @@ inline void evaluate_quad(const BlockElements& elements, int quad, const Station
       store(node[c] + (Rows::kForces + Rows::kSum + i) * kTile + e, s);
       store(node[c] + (Rows::kForces + Rows::kDifference + i) * kTile + e, difference);
     };
-    if constexpr (eigenstressed)
-      hex_forces<kind, how>(reference, scale[n], turned, corner, hourglass, add_forces, eigenstress);
+    const auto forces = [&](const auto& of) {
+      if constexpr (eigenstressed)
+        hex_forces<kind, how>(of, scale[n], turned, corner, hourglass, add_forces, eigenstress);
+      else
+        hex_forces<kind, how>(of, scale[n], turned, corner, hourglass, add_forces);
+    };
+    if constexpr (own)
+      forces(pack_reference<Real>(elements, quad, first_element + e));
     else
-      hex_forces<kind, how>(reference, scale[n], turned, corner, hourglass, add_forces);
+      forces(reference);
   }
+}
+
+// Elements with materials of their own: kept out of the tile's loop, which few bodies have them in.
+template <Evaluation how, SweepKind kind, class Real, class P, int most>
+__attribute__((noinline, flatten)) void evaluate_own(const BlockElements& elements, int quad,
+                                                     const StationScale<P> (&scale)[most], int packs, int first_element,
+                                                     const Rotation<Real>& turn, const QuadRows<Real>& rows,
+                                                     const Prefetch& ahead) {
+  if (rows.eigenstress)
+    evaluate_quad<how, kind, true, true>(elements, quad, scale, packs, first_element, turn, rows, ahead);
+  else
+    evaluate_quad<how, kind, false, true>(elements, quad, scale, packs, first_element, turn, rows, ahead);
 }
 
 }  // namespace traversal

@@ -251,18 +251,25 @@ struct HexReference {
   MaterialParameters<Real> material;
 };
 
-/// Internal forces of one element (or of a pack of them).
+/// The same where the elements of a pack have materials of their own.
+template <class Real, class T>
+struct PackReference {
+  const QuadShape<Real>& shape;
+  MaterialParameters<T> material;
+};
+
+/// Internal forces of one element (or of a pack of them); Reference: HexReference or PackReference.
 ///   corner     as in element_kinematics
 ///   hourglass  replaces the hourglass amplitudes of the kinematics by generalised forces
 ///   change     as in element_forces
 ///   relieve    takes an eigenstress off the mean stress; never of a linear evaluation
-template <SweepKind kind, Evaluation how, class T, class Real, class Corner, class Hourglass, class Change,
-          class Relieve = NoEigenstress>
-RAILSTRATA_POINTWISE void hex_forces(const HexReference<Real>& r, const StationScale<T>& st, const Rotation<Real>& turn,
+template <SweepKind kind, Evaluation how, class T, class Reference, class Real, class Corner, class Hourglass,
+          class Change, class Relieve = NoEigenstress>
+RAILSTRATA_POINTWISE void hex_forces(const Reference& r, const StationScale<T>& st, const Rotation<Real>& turn,
                                      Corner&& corner, Hourglass&& hourglass, Change&& change, Relieve&& relieve = {}) {
   auto kin = element_kinematics<kind, T>(r.shape, st, corner);
   ElementStress<T> stress;
-  const MaterialParameters<Real>& m = r.material;
+  const auto& m = r.material;
   if constexpr (how == Evaluation::linear)
     stress = small_stress(kin, [&](const T(&strain)[6], T(&s)[6]) { elastic_stress(m.lambda, m.mu, strain, s); });
   else
@@ -275,8 +282,8 @@ RAILSTRATA_POINTWISE void hex_forces(const HexReference<Real>& r, const StationS
 }
 
 /// Stress and strain of an element at a displacement.
-template <SweepKind kind, class T, class Real, class Relieve = NoEigenstress>
-RAILSTRATA_POINTWISE ElementStress<T> hex_stress(const HexReference<Real>& r, const Rotation<Real>& turn,
+template <SweepKind kind, class T, class Reference, class Real, class Relieve = NoEigenstress>
+RAILSTRATA_POINTWISE ElementStress<T> hex_stress(const Reference& r, const Rotation<Real>& turn,
                                                  const ElementKinematics<T>& kin, Relieve&& relieve = {}) {
   return finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
     elastic_stress(r.material.lambda, r.material.mu, strain, s);

@@ -1,5 +1,8 @@
 #pragma once
 // Meshes of the two bodies.
+#include <cmath>
+#include <limits>
+
 #include "geometry/body_shapes.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile.hpp"
@@ -16,6 +19,10 @@ struct LayerMesh {
       0.060;  ///< m, lateral extent, centred on the body's profile origin; clipped to the band that carries it
   int elements = 0;
   bool continues = false;  ///< a row of a graded layer that goes on below: no interface
+  /// m along the rail, of a wheel along its arc from the first contact; infinite: endless. Where a layer is not, the
+  /// next one lies in its place.
+  double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+  bool ends() const { return std::isfinite(from) || std::isfinite(to); }
 };
 
 /// Rows of elements through a layer on elements of size h.
@@ -41,6 +48,7 @@ struct RailMeshSpec {
   double end_length = 0.12;
   double block_width = 0.06, block_height = 0.06;  ///< shape block only
   std::vector<LayerMesh> layers;
+  std::vector<double> planes;  ///< m, where a layer begins or ends: node planes stand there
 };
 SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const RailMeshSpec& spec,
                     const MeshSizes& sizes);
@@ -61,6 +69,7 @@ struct WheelMeshSpec {
   double theta_begin = 0, theta_end = 0;
   WheelSection section;
   std::vector<LayerMesh> layers;
+  std::vector<double> planes;  ///< rad, as RailMeshSpec's
 };
 SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, const WheelMeshSpec& spec,
                      const MeshSizes& sizes);

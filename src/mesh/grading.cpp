@@ -82,9 +82,35 @@ StationPair uniform_ring(double begin, double step, int ratio) {
   return out;
 }
 
-void append_fine_range(StationPair& stations, double begin, int coarse_count, double step, int ratio) {
+// Even steps from plane to plane, in groups of up to `ratio`, which are the coarse ones.
+void append_pieces(StationPair& stations, const std::vector<double>& ends, double step, int ratio) {
+  stations.fine.push_back(ends.front());
+  stations.coarse.push_back(ends.front());
+  for (std::size_t p = 1; p < ends.size(); ++p) {
+    const double from = ends[p - 1], length = ends[p] - from;
+    const int count = std::max(1, static_cast<int>(std::lround(length / step))), groups = (count + ratio - 1) / ratio;
+    for (int i = 1, group = 1; i <= count; ++i) {
+      const double at = i == count ? ends[p] : from + length * i / count;
+      stations.fine.push_back(at);
+      if (i < (group * count + groups / 2) / groups) continue;
+      stations.coarse.push_back(at);
+      ++group;
+    }
+  }
+}
+
+void append_fine_range(StationPair& stations, double begin, int coarse_count, double step, int ratio,
+                       const std::vector<double>& planes) {
   stations.fine_begin = begin;
   stations.fine_end = begin + coarse_count * ratio * step;
+  std::vector<double> ends{begin};
+  for (double plane : planes)
+    if (plane > ends.back() + 0.5 * step && plane < stations.fine_end - 0.5 * step) ends.push_back(plane);
+  if (ends.size() > 1) {
+    ends.push_back(stations.fine_end);
+    append_pieces(stations, ends, step, ratio);
+    return;
+  }
   for (int i = 0; i <= coarse_count * ratio; ++i) {
     const double at = begin + i * step;
     stations.fine.push_back(at);
@@ -94,7 +120,8 @@ void append_fine_range(StationPair& stations, double begin, int coarse_count, do
 
 }  // namespace
 
-StationPair extruded_stations(double begin, double end, double step, int ratio, double end_length, double largest) {
+StationPair extruded_stations(double begin, double end, double step, int ratio, double end_length, double largest,
+                              const std::vector<double>& planes) {
   StationPair out;
   const double coarse = ratio * step;
   const std::vector<double> run = growing_spacings(end_length, coarse, kStationGrowth, largest);
@@ -105,16 +132,17 @@ StationPair extruded_stations(double begin, double end, double step, int ratio, 
   }
   std::reverse(out.fine.begin(), out.fine.end());
   out.coarse = out.fine;
-  append_fine_range(out, begin, coarse_steps(begin, end, coarse), step, ratio);
+  append_fine_range(out, begin, coarse_steps(begin, end, coarse), step, ratio, planes);
   append_run(out, run);
   return out;
 }
 
-StationPair ring_stations(double begin, double end, double step, int ratio, double largest) {
+StationPair ring_stations(double begin, double end, double step, int ratio, double largest,
+                          const std::vector<double>& planes) {
   StationPair out;
   const double coarse = ratio * step;
   if (2 * std::numbers::pi - (end - begin) < 4 * coarse) return uniform_ring(begin, step, ratio);
-  append_fine_range(out, begin, coarse_steps(begin, end, coarse), step, ratio);
+  append_fine_range(out, begin, coarse_steps(begin, end, coarse), step, ratio, planes);
   const double rest = 2 * std::numbers::pi - (out.fine_end - out.fine_begin);
   std::vector<double> run = growing_spacings(rest / 2, coarse, kStationGrowth, largest);
   append_run(out, run);

@@ -27,12 +27,15 @@ struct StationPair {
 inline constexpr double kStationGrowth = 1.3;
 
 /// Spacing `step` on [begin, end], the end moved outward to a whole number of coarse steps (ratio * step); outside,
-/// over end_length on both sides, growing spacings.
-StationPair extruded_stations(double begin, double end, double step, int ratio, double end_length, double largest);
+/// over end_length on both sides, growing spacings. Stations of both kinds stand at the planes that lie within the
+/// range; from one to the next the spacing is even and as near to `step` as that allows.
+StationPair extruded_stations(double begin, double end, double step, int ratio, double end_length, double largest,
+                              const std::vector<double>& planes = {});
 /// The same closed round a ring of 2 pi; the first station is `begin`, the last one lies below begin + 2 pi. A range
 /// that leaves less than four coarse steps of the ring, or is longer than it, makes the whole ring fine: equal
-/// spacings, a whole number of coarse ones, fine_end = fine_begin + 2 pi.
-StationPair ring_stations(double begin, double end, double step, int ratio, double largest);
+/// spacings, a whole number of coarse ones, fine_end = fine_begin + 2 pi, and no stations at planes.
+StationPair ring_stations(double begin, double end, double step, int ratio, double largest,
+                          const std::vector<double>& planes = {});
 /// A subset of the stations, ends kept, with spacings up to `largest`.
 std::vector<double> thinned(const std::vector<double>& stations, double largest);
 

@@ -8,6 +8,7 @@
 #include "geometry/rail_outline.hpp"
 #include "mesh/contact_band.hpp"
 #include "mesh/grading.hpp"
+#include "mesh/layer_stacks.hpp"
 #include "mesh/offset_frame.hpp"
 #include "mesh/rail_sections.hpp"
 
@@ -243,11 +244,14 @@ SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const Ra
   body.materials = material_names(spec.layers);
   body.material_layer = material_layers(spec.layers);
   const StationPair stations = extruded_stations(spec.x_begin, spec.x_end, sizes.element, sizes.coarse_ratio,
-                                                 spec.end_length, far_spacing(sizes));
+                                                 spec.end_length, far_spacing(sizes), spec.planes);
+  RailMeshSpec whole = spec;
+  whole.layers = slabs_of(spec.layers);
   if (spec.shape == RailShape::rail)
-    fill_rail(body, profile, spec, sizes, stations);
+    fill_rail(body, profile, whole, sizes, stations);
   else
-    fill_block(body, profile, spec, sizes, stations);
+    fill_block(body, profile, whole, sizes, stations);
+  set_stacks(body, spec.layers, 1.0);
   for (Block& block : body.blocks)
     for (Vec2& p : block.section.nodes) p = rail_to_model(track, p);
   return body;

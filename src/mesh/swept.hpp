@@ -9,7 +9,7 @@
 //   revolve (t = theta [rad]) origin + (-z sin t, y, z cos t),  z < 0: minus the distance to the axle; t = 0 is the
 //   lowest point, t > 0 in front of it (x > 0).
 // Elements between stations j and j+1 are congruent for equal station spacing: the solver keeps one set of reference
-// data per quadrilateral.
+// data per quadrilateral, and a further one for every set of materials where they change along the sweep.
 #include <array>
 #include <string>
 #include <vector>
@@ -40,11 +40,26 @@ struct Stations {
   int elements() const { return closed ? nodes() : nodes() - 1; }
 };
 
+/// Materials of a section that change along the sweep. Empty: Section::quad_material all along.
+struct MaterialSets {
+  std::vector<std::vector<int>> sets;  ///< by set and quadrilateral; the first one is Section::quad_material
+  std::vector<int> of_element;         ///< per element along the sweep, into sets
+  bool empty() const { return sets.empty(); }
+};
+
 /// A section with its own stations.
 struct Block {
   std::string name;  ///< "cap", "head", "rim", …: what reports call it
   Section section;
   Stations stations;
+  MaterialSets along = {};
+
+  int sets() const { return along.empty() ? 1 : static_cast<int>(along.sets.size()); }
+  int set_of(int element) const { return along.empty() ? 0 : along.of_element[static_cast<std::size_t>(element)]; }
+  int material_of_set(int set, int quad) const {
+    return along.empty() ? section.quad_material[quad] : along.sets[static_cast<std::size_t>(set)][quad];
+  }
+  int material(int quad, int element) const { return material_of_set(set_of(element), quad); }
 };
 
 /// Hanging nodes: all nodes of one section node of a finer block are carried by a line of a coarser one,

@@ -20,7 +20,7 @@ void append_block(HexMesh& mesh, const SweptBody& body, int index) {
       const std::array<int, 4>& n = block.section.quads[q];
       mesh.cells.push_back(
           {here + n[0], here + n[1], here + n[2], here + n[3], there + n[0], there + n[1], there + n[2], there + n[3]});
-      mesh.material.push_back(block.section.quad_material[q]);
+      mesh.material.push_back(block.material(q, j));
       mesh.block.push_back(index);
       mesh.scaled_jacobian.push_back(static_cast<float>(scaled_jacobian(element_corners(body, block, q, j))));
     }

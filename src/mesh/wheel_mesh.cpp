@@ -7,6 +7,7 @@
 #include "core/faults.hpp"
 #include "mesh/contact_band.hpp"
 #include "mesh/grading.hpp"
+#include "mesh/layer_stacks.hpp"
 #include "mesh/offset_frame.hpp"
 
 namespace railstrata {
@@ -168,10 +169,11 @@ SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, con
   const double far = std::min(kFarOfLargest * sizes.largest,
                               std::max(kLargestAspect * sizes.element, sizes.coarse_ratio * sizes.element));
   const StationPair ring = ring_stations(spec.theta_begin, spec.theta_end, sizes.element / rolling_radius,
-                                         sizes.coarse_ratio, far / rolling_radius);
+                                         sizes.coarse_ratio, far / rolling_radius, spec.planes);
+  const std::vector<LayerMesh> slabs = slabs_of(spec.layers);
   OffsetFrameSpec frame = rim_frame(profile, spec, sizes);
   if (!disc) frame.floor_breaks = {y0, y1};
-  const FrameNodes rim = add_offset_frame(body, profile, spec.contact_s, spec.layers, sizes, frame, {ring.fine, true},
+  const FrameNodes rim = add_offset_frame(body, profile, spec.contact_s, slabs, sizes, frame, {ring.fine, true},
                                           {ring.coarse, true}, ring);
 
   WebSection web = web_section(y0, y1, spec.section.rim_thickness, wheel_radius - spec.section.hub_radius,
@@ -189,6 +191,7 @@ SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, con
 
   for (Block& block : body.blocks)
     for (Vec2& p : block.section.nodes) p.z -= wheel_radius;
+  set_stacks(body, spec.layers, rolling_radius);
   return body;
 }
 
