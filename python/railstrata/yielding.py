@@ -73,7 +73,7 @@ class PassesResult:
 
     @property
     def net_strain_per_pass(self) -> float:
-        """|E^p_n - E^p_(n-1)| of the last pass where it is largest, per pass: what grows."""
+        """√(2/3) |E^p_n - E^p_(n-1)| of the last pass where it is largest, per pass: what grows."""
         return float(self.summary["net_strain_per_pass"])
 
     def table(self, name: str = "passes") -> dict[str, Array]:

@@ -19,7 +19,6 @@ namespace railstrata {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kNormOfEquivalent = 1.2247448713915890;  // |E^p| = √(3/2) equivalent strain
 constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
 
 /// A body across: positions, what is removed there in a unit of traffic, passages.
@@ -264,7 +263,7 @@ AddKind by_closed_cycles(const LifeZone& z) {
 AddKind by_ductility(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
     if (!load.passed) return;
-    const double bears = kNormOfEquivalent * *z.spec.passes.ductility;
+    const double bears = *z.spec.passes.ductility;
     kind.from = load.passed->passes;
     for (const double depth : z.depth) {
       std::array<double, 3> trends{};

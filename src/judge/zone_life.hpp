@@ -36,7 +36,7 @@ struct PassedSection {
   std::vector<double> y, depth;
   std::vector<int> zone;             ///< of rows
   std::vector<double> accumulated;   ///< dp of the last pass
-  std::vector<double> net, reached;  ///< |E^p| that the last pass has added, and of all
+  std::vector<double> net, reached;  ///< plastic strain that the last pass has added, and of all
   std::vector<double> trend[3];  ///< s of net ~ n^-s: from a quarter to half of the passes, over both, from there on
 };
 

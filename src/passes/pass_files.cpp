@@ -11,6 +11,7 @@
 
 #include "core/faults.hpp"
 #include "io/damage_files.hpp"
+#include "material/strain_claim.hpp"
 #include "passes/pass_json.hpp"
 #include "passes/pass_way_files.hpp"
 #include "record/csv.hpp"
@@ -86,7 +87,7 @@ PassPoint point_of(const RailPasses& rail, const PassSeries& series, PassClass w
 
 double largest_strain(const PassResult& result) {
   double out = 0;
-  for (const auto& e : result.plastic_strain) out = std::max(out, std::sqrt(double_contraction(e.data(), e.data())));
+  for (const auto& e : result.plastic_strain) out = std::max(out, equivalent_strain(e.data()));
   return out;
 }
 

@@ -29,11 +29,10 @@ Json points_json(const std::vector<std::vector<PassStrain>>& points, PassClass w
 }
 
 Json ductility_json(double ductility, double reached, const std::vector<PassStrain>& cycles, int cycle) {
-  constexpr double kNormOfEquivalent = 1.2247448713915890;  // |E^p| = √(3/2) equivalent strain
-  const DuctilityReach reach = passes_to_ductility(kNormOfEquivalent * ductility, reached, cycles);
+  const DuctilityReach reach = passes_to_ductility(ductility, reached, cycles);
   const auto passes = [&](double count) { return json_number(cycle * count); };
   return {{"strain", ductility},
-          {"reached", reached / kNormOfEquivalent},
+          {"reached", reached},
           {"passes", passes(reach.passes)},
           {"earliest", passes(reach.earliest)},
           {"latest", passes(reach.latest)}};

@@ -18,7 +18,7 @@ nlohmann::ordered_json last_pass_json(const CsvTable& table);
 nlohmann::ordered_json points_json(const std::vector<std::vector<PassStrain>>& points, PassClass whole);
 
 /// Passes until the ductility [equivalent strain] is used up, and between which two numbers that lies; null: never by
-/// this law. reached: the largest |E^p| so far; cycles of `cycle` passes.
+/// this law. reached: the largest equivalent plastic strain so far; cycles of `cycle` passes.
 nlohmann::ordered_json ductility_json(double ductility, double reached, const std::vector<PassStrain>& cycles,
                                       int cycle);
 

@@ -20,10 +20,8 @@ void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series)
     const std::array<double, 6>& strain = result.plastic_strain[n];
     begun[6] += result.accumulated[n];
     if (!whole) continue;
-    double change[6];
-    for (std::size_t c = 0; c < 6; ++c) change[c] = strain[c] - begun[c];
     std::vector<PassStrain>& point = series.points[n];
-    remember_pass({begun[6], std::sqrt(double_contraction(change, change))}, point);
+    remember_pass({begun[6], net_strain(begun.data(), strain.data())}, point);
     largest.accumulated = std::max(largest.accumulated, point.back().accumulated);
     largest.net = std::max(largest.net, point.back().net);
     std::copy(strain.begin(), strain.end(), begun.begin());

@@ -27,9 +27,7 @@ PassPoint point_of(const RollingSystem& sys, PlasticSection::Quad q, const Conta
     out.column = q.quad % band.columns;
   }
   out.zone = rail.mesh.layer_of(section.quad_material[q.quad]);
-  std::array<double, 6> change{};
-  for (std::size_t i = 0; i < 6; ++i) change[i] = after.plastic[i] - before.plastic[i];
-  out.strain = {after.accumulated - before.accumulated, std::sqrt(double_contraction(change.data(), change.data()))};
+  out.strain = {after.accumulated - before.accumulated, net_strain(before.plastic.data(), after.plastic.data())};
   out.accumulated = after.accumulated;
   const auto& e = after.plastic;  // 11, 22, 33, 12, 23, 13
   out.plastic = plane.turned({e[0], e[1], e[2], e[3], e[4], e[5]});
@@ -122,13 +120,6 @@ RolledPass rolled_pass(const RollingSystem& sys, const Model& base, const Plasti
   add_extremes(out.points, out.row);
   add_displacement(sys, plane, at_rest.u, middle, out.row);
   add_balance(sys, at_rest, middle, out.row);
-  return out;
-}
-
-double largest_plastic_norm(const std::vector<PassPoint>& points) {
-  double out = 0;
-  for (const PassPoint& p : points)
-    out = std::max(out, std::sqrt(double_contraction(p.plastic.data(), p.plastic.data())));
   return out;
 }
 

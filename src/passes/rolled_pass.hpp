@@ -25,9 +25,6 @@ struct RolledPass {
   std::vector<PassPoint> points;  ///< in the order of PlasticSection::quads, without their class
   SectionMesh mesh;               ///< of the points
 };
-/// |E^p|, the norm, of the point where it is largest: √(3/2) times the equivalent strain.
-double largest_plastic_norm(const std::vector<PassPoint>& points);
-
 /// From the rail at rest (fem/rail_at_rest.hpp) with `after` at all stations. base: the model whose contact point gives
 /// the axes; before: the same quadrilaterals before the pass; middle: m, of the steady stations.
 RolledPass rolled_pass(const RollingSystem& system, const Model& base, const PlasticSection& before,

@@ -180,7 +180,7 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   out["verdict"] = describe(progress) + (doubt.empty() ? "" : fmt::format(" Not to be relied on: {}.", doubt));
   out["doubts"] = doubt.empty() ? nlohmann::ordered_json::array() : nlohmann::ordered_json::array({doubt});
   if (spec.passes.ductility)
-    out["ductility"] = ductility_json(*spec.passes.ductility, largest_plastic_norm(pass.points), series.strains, 1);
+    out["ductility"] = ductility_json(*spec.passes.ductility, pass.row.strain, series.strains, 1);
   out["zones"] = zones_json(spec, zones_of(spec));
   out["loops"] = loops_json(loops);
   out["roll"] = {{"half_length_m", roll.half_length},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case/case_spec.hpp"
+#include "material/strain_claim.hpp"
 #include "passes/rail_passes.hpp"
 
 namespace railstrata {
@@ -38,8 +39,7 @@ PassedSection passed_section(const CaseSpec& spec, const BemResult& result, cons
   out.zone = rail.zone;
   out.accumulated = last.accumulated;
   out.net = last.net;
-  for (const std::array<double, 6>& e : last.plastic_strain)
-    out.reached.push_back(std::sqrt(double_contraction(e.data(), e.data())));
+  for (const std::array<double, 6>& e : last.plastic_strain) out.reached.push_back(equivalent_strain(e.data()));
   const double first = static_cast<double>(half) / quarter, second = static_cast<double>(out.passes) / half;
   for (std::size_t p = 0; p < last.net.size(); ++p) {
     out.trend[0].push_back(trend_between(earlier[0][p], earlier[1][p], first));

@@ -41,7 +41,8 @@ auto with_places(const LoadedCase& loaded, Work&& work) {
 class SteadyPasses : public PassJob {
  public:
   SteadyPasses(LoadedCase loaded, const PassOrder& order, Control& control)
-      : PassJob("the case, the --set, the --cell and the grid of its beginning", std::move(loaded), order, control),
+      : PassJob("the case, the --set, the --cell, the grid and the version it began with", std::move(loaded), order,
+                control),
         rail_(with_places(loaded_, [&] { return rail_of(); })),
         body_(body_of(rail_)) {
     series_.state = body_.virgin();
@@ -100,7 +101,7 @@ class SteadyPasses : public PassJob {
   }
 
   std::string identity() const override {
-    return fmt::format("{} {} {} {}", CaseJob::identity(), rail_.grid.nx, rail_.grid.ny, wanted_.cell);
+    return fmt::format("{} {} {} {}", PassJob::identity(), rail_.grid.nx, rail_.grid.ny, wanted_.cell);
   }
 
   void begin() override {

@@ -18,6 +18,8 @@ class PassJob : public CaseJob {
  protected:
   /// to_repeat: as of JobKind.
   PassJob(const char* to_repeat, LoadedCase loaded, const PassOrder& order, Control& control);
+  /// Plastic strain of all rows is equivalent strain: folders of versions where it was another norm do not go on.
+  std::string identity() const override { return CaseJob::identity() + " equivalent strain"; }
   void begin() override;
   std::vector<std::string> older_results() const override;
   bool write_page() override;

@@ -28,8 +28,8 @@ RolledPasses passes_of(const LoadedCase& loaded, double roll_length) {
 class RolledPassJob : public PassJob {
  public:
   RolledPassJob(LoadedCase loaded, const PassOrder& order, Control& control)
-      : PassJob("the case, the --set and the --roll-length of its beginning, with --engine fem", std::move(loaded),
-                order, control),
+      : PassJob("the case, the --set, the --roll-length and the version it began with, with --engine fem",
+                std::move(loaded), order, control),
         passes_(passes_of(loaded_, order.roll_length)) {
     fem_.control = &control_;
     fem_.times.checkpoint_every = order.checkpoint_every;
@@ -37,7 +37,7 @@ class RolledPassJob : public PassJob {
   int passes() const { return series_.passes; }
 
  private:
-  std::string identity() const override { return fmt::format("{} fem {}", CaseJob::identity(), wanted_.roll_length); }
+  std::string identity() const override { return fmt::format("{} fem {}", PassJob::identity(), wanted_.roll_length); }
   CheckpointOrigin pass_origin() const {
     return {fmt::format("{} pass {}", CaseJob::identity(), series_.passes + 1), version_text(), origin()};
   }

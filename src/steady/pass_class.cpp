@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "material/strain_claim.hpp"
+
 namespace railstrata {
 
 namespace {
@@ -38,6 +40,12 @@ double trend_of(const std::vector<PassStrain>& passes) {
 }
 
 }  // namespace
+
+double net_strain(const double* before, const double* after) {
+  double change[6];
+  for (int c = 0; c < 6; ++c) change[c] = after[c] - before[c];
+  return equivalent_strain(change);
+}
 
 PassVerdict classify(const std::vector<PassStrain>& passes) {
   PassVerdict verdict;

@@ -1,6 +1,6 @@
 #pragma once
 // Class of a series of passes (shakedown, ratchetting, …), at a point or as a whole, from two numbers of every pass:
-// the plastic strain accumulated in it, Δp, and its net plastic strain |E^p_n - E^p_(n-1)|.
+// the plastic strain accumulated in it, Δp, and its net plastic strain, both equivalent strains, so that net <= Δp.
 //
 //   elastic shakedown   Δp < 1e-6: nothing flows any more
 //   plastic shakedown   Δp the same from pass to pass, net < 1 % of it: closed cycles, no growth
@@ -24,6 +24,9 @@ inline constexpr double kClosed = 0.01;
 inline constexpr double kConstantTrend = 0.05;
 
 enum class PassClass : int { elastic_shakedown, plastic_shakedown, ratchetting, transient };
+
+/// Net plastic strain of a pass: √(2/3 e:e), e = E^p after - E^p before: the first six numbers of histories.
+double net_strain(const double* before, const double* after);
 
 /// Plastic strain of one pass.
 struct PassStrain {
@@ -51,7 +54,7 @@ struct DuctilityReach {
                                     ///< last rate, and net ~ n^-s with the trend; infinite: by that, never
 };
 
-/// ductility, reached: |E^p| as the net strains; `reached` is that of the point that grows fastest. Of shakedown
+/// ductility, reached: equivalent plastic strains; `reached` is that of the point that grows fastest. Of shakedown
 /// (elastic or plastic) nothing grows: never. The increments are taken to have one direction, as in ratchetting;
 /// otherwise it takes longer. `passes`: net strain per pass, the first one first, all of them.
 DuctilityReach passes_to_ductility(double ductility, double reached, const std::vector<PassStrain>& passes);

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "material/strain_claim.hpp"
 #include "steady/pass_class.hpp"
 #include "steady/steady_pass.hpp"
 
@@ -69,8 +70,8 @@ double jump_error(const std::vector<double>& start, const std::vector<double>& e
       mean[c] = (end[n + c] - start[n + c]) / rounds;
       off[c] = kOfTrapezium * (0.5 * (rate_at_start[n + c] + rate_at_end[n + c]) - mean[c]);
     }
-    net += double_contraction(mean.data(), mean.data());
-    net_error += double_contraction(off.data(), off.data());
+    net += std::pow(equivalent_strain(mean.data()), 2);
+    net_error += std::pow(equivalent_strain(off.data()), 2);
     accumulated += mean[6] * mean[6];
     accumulated_error += off[6] * off[6];
   }

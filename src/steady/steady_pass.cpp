@@ -8,6 +8,7 @@
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "steady/anderson.hpp"
+#include "steady/pass_class.hpp"
 
 namespace railstrata {
 
@@ -274,14 +275,13 @@ void SteadyBody::conclude(const std::vector<double>& before, const Field& strain
   for (std::size_t n = 0; n < g.points(); ++n) {
     const int r = static_cast<int>(n) / g.ny, j = static_cast<int>(n) % g.ny;
     const double *was = before.data() + n * kStreamlineHistory, *is = state.history.data() + n * kStreamlineHistory;
-    double change[6], e[6];
+    double e[6];
     for (int c = 0; c < 6; ++c) {
-      change[c] = is[c] - was[c];
       out.plastic_strain[n][c] = is[c];
       e[c] = strain[c * g.points() + n];
     }
     out.accumulated[n] = is[6] - was[6];
-    out.net[n] = std::sqrt(double_contraction(change, change));
+    out.net[n] = net_strain(was, is);
     const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
     // u vanishes at the foot and z points down: u(0) = - sum of du/dz; the strain is the same along x
     const double h = g.thickness[static_cast<std::size_t>(r)];

@@ -51,7 +51,7 @@ struct PassResult {
   bool converged = true;            ///< error within the tolerance
   double late_flow = 0;             ///< largest p of the last quarter behind the load, over the largest Δp
   std::vector<double> accumulated;  ///< plastic strain p of this pass, Δp
-  std::vector<double> net;          ///< |E^p after - E^p before|
+  std::vector<double> net;          ///< net_strain (steady/pass_class.hpp)
   std::vector<std::array<double, 6>> residual_stress;  ///< Pa, after the pass, xx, yy, zz, xy, yz, xz
   std::vector<std::array<double, 6>> plastic_strain;   ///< E^p after the pass
   std::vector<double> forward, lateral;  ///< m, per column: displacement of the surface over the yielding rows' foot,

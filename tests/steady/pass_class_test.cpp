@@ -16,6 +16,15 @@ std::vector<PassStrain> passes(int count, const OfPass& accumulated, const OfPas
   return all;
 }
 
+/// Tension by 2 % and simple shear by √3 · 2 % (engineering strain) count alike, and both as much as flows in them.
+TEST(PassClass, NetStrainIsTheEquivalentStrainOfTheChange) {
+  const double before[6] = {1e-3, 2e-3, -3e-3, 4e-3, 5e-3, 6e-3};
+  const double tension[6] = {21e-3, -8e-3, -13e-3, 4e-3, 5e-3, 6e-3};
+  const double shear[6] = {1e-3, 2e-3, -3e-3, 4e-3, 5e-3, 6e-3 + 0.01 * std::sqrt(3.0)};
+  EXPECT_NEAR(net_strain(before, tension), 0.02, 1e-16);
+  EXPECT_NEAR(net_strain(before, shear), 0.02, 1e-16);
+}
+
 TEST(PassClass, NothingFlowsIsElasticShakedown) {
   EXPECT_EQ(classify({{1e-3, 5e-4}, {0, 0}}).kind, PassClass::elastic_shakedown);
 }

@@ -81,6 +81,7 @@ std::vector<PassStrain> roll(PatchRolling& run, int passes) {
   for (int n = 0; n < passes; ++n) {
     const PassResult pass = run.body.run_pass(run.contact, run.state);
     EXPECT_TRUE(pass.converged);
+    for (std::size_t p = 0; p < pass.net.size(); ++p) EXPECT_LE(pass.net[p], pass.accumulated[p] + 1e-16);
     all.push_back({largest(pass.accumulated) / kShear, largest(pass.net) / kShear});
   }
   return all;
