@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/shipped_files.hpp"
+#include "case/engine_scope.hpp"
 
 namespace railstrata {
 namespace {
@@ -41,11 +42,7 @@ LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
 
 LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use) {
   LoadedCase loaded = load_case_of(options, use);
-  if (!loaded.spec.track.held())
-    with_places(loaded, []() -> void {
-      throw CaseError("half-spaces have no inertia, and no track below them",
-                      "take [track] out, or compute the rail on it with `railstrata receptance`", "track.preset");
-    });
+  with_places(loaded, [&] { require_half_spaces(loaded.spec); });
   const RunSpec& run = loaded.spec.run;
   if (run.rolling && run.device != ComputeDevice::cpu)  // else a note of the case reports it
     spdlog::warn("run.device has no effect: half-spaces are computed on processors");

@@ -5,6 +5,7 @@
 
 #include "bem/case_patch.hpp"
 #include "bem/several_patches.hpp"
+#include "case/engine_scope.hpp"
 #include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 #include "halfspace/creep_theories.hpp"
@@ -22,6 +23,7 @@ void vary(VariedCreepage varied, double creepage, RollingContact& contact) {
 
 std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, VariedCreepage varied,
                                          const std::vector<double>& creepages, const BemOptions& options) {
+  require_half_spaces(spec);
   require_same_along(spec, "a creep curve");
   if (!(spec.drive.friction_coefficient > 0))
     throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero",

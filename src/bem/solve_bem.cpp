@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bem/several_patches.hpp"
+#include "case/engine_scope.hpp"
 #include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 
@@ -344,6 +345,7 @@ BemResult bem_result(const CaseSpec& spec, const Placement& placement, const Pat
 
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
+  require_half_spaces(spec);
   if (spec.run.rolling) require_same_along(spec, "steady rolling of half-spaces");
   SharedLoad shared =
       spec.vehicle.approach ? press_to_approach(spec, placement, options) : bear_weight(spec, placement, options);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bem/several_patches.hpp"
+#include "case/engine_scope.hpp"
 #include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 
@@ -267,6 +268,7 @@ int transient_steps(const CaseSpec& spec, const Placement& placement, double cel
 
 TransientState solve_transient(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                                const TransientObserver& observer) {
+  require_half_spaces(spec);
   return Course(spec, placement, options).run(observer);
 }
 

@@ -92,7 +92,7 @@ Json si_value(const std::string& key, const std::string& text, double gravity) {
   if (std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot)) try {
       return finite(parse_quantity(words, option->dimension));
     } catch (const UnitError&) {
-      return option->derivation.takes_mass ? weight(words, gravity) : Json(nullptr);
+      return option->takes_mass ? weight(words, gravity) : Json(nullptr);
     }
   const Json read = Json::parse(words, nullptr, false);
   const bool plain = std::holds_alternative<int*>(slot) ? read.is_number() : read.is_boolean();

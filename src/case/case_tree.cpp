@@ -165,7 +165,7 @@ class TreeReader {
         continue;
       }
       remember(full, key, node);
-      if (option->derivation)
+      if (option->derivation || option->takes_mass)
         read_derived(table, *option, full, index, node);
       else
         read_value(source_, spec_, {*option, full, node, index});
@@ -205,7 +205,7 @@ class TreeReader {
   void read_derived(const OptionTable& table, const Option& option, const std::string& key, std::size_t index,
                     const toml::node& node) {
     Derived derived{&table, &option, key, shown(node), index, 0, false};
-    if (option.derivation.takes_mass) derived.mass = is_mass(node);
+    if (option.takes_mass) derived.mass = is_mass(node);
     const Option as_mass{.key = option.key, .slot = option.slot, .doc = option.doc, .dimension = dimension::kMass};
     if (read_number(source_, {derived.mass ? as_mass : option, key, node}, derived.written))
       derived_.push_back(std::move(derived));
@@ -288,15 +288,16 @@ class TreeReader {
     const double written = d.mass ? d.written * spec_.vehicle.gravity : d.written;
     if (!d.option->range.holds(written)) return refuse_range(source_, *d.option, d.key, d.shown, "", written);
     const Slot slot = d.option->slot(spec_, d.index);
-    const double value = d.option->derivation.value(spec_, d.index, written);
+    const Derivation& derive = d.option->derivation;
+    const double value = derive ? derive.value(spec_, d.index, written) : written;
     for (const Option& whole : d.table->options)
-      if (!whole.derivation && whole.slot(spec_, d.index) == slot && !whole.range.holds(value))
+      if (derive && !whole.derivation && whole.slot(spec_, d.index) == slot && !whole.range.holds(value))
         source_.complain(
             d.key,
             fmt::format("{} = {}: must be {} here: it makes {} {}, which must be {}", d.key, d.shown,
                         describe(range_behind(d, whole.range), d.option->dimension), whole.key,
                         format_quantity(rounded(value), whole.dimension), describe(whole.range, whole.dimension)),
-            std::string(d.option->derivation.remedy));
+            std::string(derive.remedy));
     if (auto* const* maybe = std::get_if<std::optional<double>*>(&slot))
       **maybe = value;
     else

@@ -96,12 +96,14 @@ OptionTable vehicle_table() {
                   "Load of the wheel on the rail, a force or a mass, instead of the sprung mass: that is load / "
                   "gravity - wheel_mass; at least the wheel's own weight",
                   kForce, above(0, 1e7))
-               .derived({sprung_mass_under, kMoreLoad, true}),
+               .derived({sprung_mass_under, kMoreLoad})
+               .or_mass(),
            option("axle_load", at<&C::vehicle, &V::sprung_mass>,
                   "Load of both wheels on the track, a force or a mass, instead of the sprung mass; each wheel carries "
                   "half, at least its own weight",
                   kForce, above(0, 2e7))
-               .derived({sprung_mass_under_axle, kMoreLoad, true}),
+               .derived({sprung_mass_under_axle, kMoreLoad})
+               .or_mass(),
            option("approach", at<&C::vehicle, &V::approach>,
                   "By how much wheel and rail come together along the contact normal, instead of a load, which is then "
                   "a result; half-space engine",

@@ -53,11 +53,8 @@ void refuse_irregularities(const CaseSpec& spec, std::vector<BeyondEngine>& out)
     refuse(is.kind == IrregularityKind::dip, key,
            "the forces of a dip are made by the track's springs and masses, and the foot of this rail is held",
            "give kind = \"indentation\" for a short one, or solve the case with `railstrata bem`, under a given load");
-    const double wave = shortest_wave(is, spec.geometry.wheel_radius);
-    refuse(wave < kLeastOfWave * spec.mesh.element_size, key,
-           fmt::format("a wave of {} has fewer than {:g} elements", format_quantity(wave, dimension::kLength),
-                       kLeastOfWave),
-           "give a smaller mesh.element_size, or a longer wave");
+    if (const auto fault = too_coarse(spec, i, spec.mesh.element_size, "elements", "mesh.element_size"))
+      out.push_back({key, fault->message, fault->remedy});
     refuse(spec.run.rolling && is.on == BodyId::rail && extent_of(is).from < spec.run.run_up, key,
            fmt::format("it begins before the end of run.run_up ({})",
                        format_quantity(spec.run.run_up, dimension::kLength)),
@@ -113,6 +110,12 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
          "so large a lateral creepage", ("the wheel moves sideways on its way, and " + largest).c_str());
   beyond(d.spin.has_value(), "drive.spin", "a given spin", "it follows from the geometry");
   return out;
+}
+
+void require_half_spaces(const CaseSpec& spec) {
+  if (!spec.track.held())
+    throw CaseError("half-spaces have no inertia, and no track below them",
+                    "take [track] out, or compute the rail on it with `railstrata receptance`", "track.preset");
 }
 
 void require_finite_elements(const CaseSpec& spec) {

@@ -1,5 +1,5 @@
 #pragma once
-// Options of a case that only the half-space engine has.
+// Options of a case that only one of the engines has.
 #include <string>
 #include <vector>
 
@@ -18,7 +18,10 @@ struct BeyondEngine {
 /// The reason why the finite element engine refuses a case; empty for one that it runs.
 std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec);
 
-/// Throws CaseError if there is any of it.
+/// Throws CaseError for what only the finite elements know.
+void require_half_spaces(const CaseSpec& spec);
+
+/// Throws CaseError if there is anything that they refuse.
 void require_finite_elements(const CaseSpec& spec);
 
 }  // namespace railstrata

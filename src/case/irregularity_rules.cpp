@@ -145,15 +145,23 @@ void check_irregularities(const CaseSpec& spec, CaseSource& source) {
                     "take the irregularities out, or give transient.kind = \"rolling\"");
 }
 
+std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, double size, const char* what,
+                                     const char* key) {
+  constexpr double kLeastOfWave = 6;
+  const double wave = shortest_wave(spec.irregularities.at(index), spec.geometry.wheel_radius);
+  if (!(wave < kLeastOfWave * size)) return std::nullopt;
+  const std::string name = fmt::format("irregularity.{}", index);
+  return Diagnostic{"",
+                    fmt::format("{}: a wave of {} on {} of {} has fewer than {:g} of them", name,
+                                format_quantity(wave, dimension::kLength), what,
+                                format_quantity(size, dimension::kLength), kLeastOfWave),
+                    fmt::format("give a smaller {}, or a longer wave", key)};
+}
+
 void require_fine_enough(const CaseSpec& spec, double size, const char* what, const char* key) {
-  for (std::size_t i = 0; i < spec.irregularities.size(); ++i) {
-    const double wave = shortest_wave(spec.irregularities[i], spec.geometry.wheel_radius);
-    if (wave < kLeastOfWave * size)
-      throw CaseError(fmt::format("irregularity.{}: {} on {} of {} has fewer than {:g} of them", i,
-                                  format_quantity(wave, dimension::kLength), what,
-                                  format_quantity(size, dimension::kLength), kLeastOfWave),
-                      fmt::format("give a smaller {}, or a longer wave", key), fmt::format("irregularity.{}", i));
-  }
+  for (std::size_t i = 0; i < spec.irregularities.size(); ++i)
+    if (const auto fault = too_coarse(spec, i, size, what, key))
+      throw CaseError(fault->message, fault->remedy, fmt::format("irregularity.{}", i));
 }
 
 void require_same_along(const CaseSpec& spec, const char* what) {

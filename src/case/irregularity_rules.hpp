@@ -1,22 +1,25 @@
 #pragma once
 // Rules of [[irregularity]], and the file that one of them names.
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "case/case_fwd.hpp"
 #include "case/case_source.hpp"
+#include "core/faults.hpp"
 
 namespace railstrata {
 
 /// The largest slope of a height against the way: contact is computed as that of surfaces without slope.
 inline constexpr double kSteepestHeight = 0.2;
-/// Cells or elements of a wave.
-inline constexpr double kLeastOfWave = 6;
 
 /// Records every broken rule in `source`.
 void check_irregularities(const CaseSpec& spec, CaseSource& source);
 
-/// Throws CaseError for waves shorter than six cells or elements of a size [m].
+/// The fault of an entry with waves shorter than six cells or elements (`what`) of a size [m], which `key` gives.
+std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, double size, const char* what,
+                                     const char* key);
+/// Throws CaseError for the first of them.
 void require_fine_enough(const CaseSpec& spec, double size, const char* what, const char* key);
 /// Throws CaseError for a case whose rail or wheel varies along the way: `what` needs steady rolling.
 void require_same_along(const CaseSpec& spec, const char* what);

@@ -51,11 +51,13 @@ OptionTable load_table() {
       {option("name", load<&LoadSpec::name>, "What results call the row; \"load 1\", \"load 2\", … by its place")
            .where(has_name),
        option("passages", load<&LoadSpec::passages>, "How often such a wheel passes", kNumber, above(0, 1e12)),
-       option("wheel_load", load<&LoadSpec::wheel_load>, "Load of the wheel on the rail, a force", kForce,
-              above(0, 1e7)),
+       option("wheel_load", load<&LoadSpec::wheel_load>, "Load of the wheel on the rail, a force or a mass", kForce,
+              above(0, 1e7))
+           .or_mass(),
        option("axle_load", load<&LoadSpec::wheel_load>,
               "Load of both wheels on the track, a force or a mass; this wheel carries half", kForce, above(0, 2e7))
-           .derived({half, "choose a load in this range", true}),
+           .derived({half, "choose a load in this range"})
+           .or_mass(),
        option(
            "mgt", load<&LoadSpec::passages>,
            "Million gross tonnes of such axles, instead of passages: each brings two wheels of the row's load, one of "

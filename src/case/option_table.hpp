@@ -112,7 +112,6 @@ struct Derivation {
   /// The slot's value for the number written, SI; all other options are read by then.
   double (*value)(const CaseSpec&, std::size_t index, double written) = nullptr;
   std::string_view remedy = "choose a value that does";  ///< of a value that the slot must not have
-  bool takes_mass = false;                               ///< of a force: a mass stands for its weight
   explicit operator bool() const { return value != nullptr; }
 };
 
@@ -141,6 +140,7 @@ struct Option {
   std::vector<Option> columns{};
   std::string_view example{};  ///< of a list or a table by depth
   RowForm form = RowForm::by_depth;
+  bool takes_mass = false;  ///< of one force: a mass stands for its weight
 
   /// The same option with one thing more, for the rows of the tables.
   Option where(bool (*condition)(const CaseSpec&, std::size_t)) const {
@@ -151,6 +151,11 @@ struct Option {
   Option derived(const Derivation& from) const {
     Option out = *this;
     out.derivation = from;
+    return out;
+  }
+  Option or_mass() const {
+    Option out = *this;
+    out.takes_mass = true;
     return out;
   }
   Option with_remedy(std::string_view text) const {

@@ -157,6 +157,16 @@ TEST(LoadRows, TonnesBecomePassagesOfAxles) {
   EXPECT_DOUBLE_EQ(*spec.loads[0].lateral_shift, 2e-3);
 }
 
+TEST(LoadRows, TheLoadOfARowMayBeAMass) {
+  const CaseSpec spec =
+      parse_case("[[load]]\nmgt = 22\nwheel_load = \"11 t\"\n[vehicle]\ngravity = \"9.8 m/s^2\"\n", "a").spec;
+  EXPECT_DOUBLE_EQ(spec.loads.at(0).wheel_load.value(), 11e3 * 9.8);
+  EXPECT_DOUBLE_EQ(spec.loads.at(0).passages, 1e6);
+  expect_says(refusal("[[load]]\nwheel_load = \"11 mm\"\n"), "\"mm\" is not the unit of a force");
+  expect_says(refusal("[[load]]\nwheel_load = \"2000 t\"\n"),
+              "a.toml:2:14: load.0.wheel_load = \"2000 t\": must be above");
+}
+
 TEST(LoadRows, TonnesCountOverTheLoadWhereverItStands) {
   CaseSpec spec;
   read_load_table("mgt,axle_load [t]\n22,22\n", "loads.csv", spec);
