@@ -99,8 +99,11 @@ ReportCheck unsolved_check(const std::vector<CollectiveRow>& rows) {
   return out;
 }
 
+double mgt_of(const Lives& lives) { return lives.tonnes / 1e6; }
+
 /// The depth of a thousand passages, and how far the sum over all of them can be trusted.
-ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const RailDamage& d) {
+ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
+  const RailDamage& d = both.rail;
   const WearLaw wanted = rows.front().spec.collective.wear_law;
   const std::vector<KnownWear> known = known_wear(d);
   const auto asked = std::find_if(known.begin(), known.end(), [&](const KnownWear& w) { return w.law == wanted; });
@@ -110,10 +113,12 @@ ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const RailDamag
   double passages = 0;
   for (const CollectiveRow& row : rows) passages += row.sound() ? row.passages : 0;
   const double micro = as_shown(unit::kMicrometres, *deepest),
-               y = d.y[static_cast<std::size_t>(deepest - depth.begin())];
+               y = d.y[static_cast<std::size_t>(deepest - depth.begin())], mgt = mgt_of(both.lives);
+  const std::string per_traffic =
+      mgt > 0 ? fmt::format(", {:.3g} mm per 100 MGT", 100 / mgt * as_shown(unit::kMillimetres, *deepest)) : "";
   ReportAnswer out{"plain", "Wear",
-                   fmt::format("{:.3g} µm per 1000 passages at y = {:.1f} mm of the rail ({})", 1000 / passages * micro,
-                               as_shown(unit::kMillimetres, y), asked->words)};
+                   fmt::format("{:.3g} µm per 1000 passages{} at y = {:.1f} mm of the rail ({})",
+                               1000 / passages * micro, per_traffic, as_shown(unit::kMillimetres, y), asked->words)};
   if (*deepest <= kMostWearOfOneProfile) return out;
   out.tone = "open";
   out.text += fmt::format(
@@ -121,6 +126,17 @@ ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const RailDamag
       "takes wear off step by step",
       micro, passages);
   return out;
+}
+
+/// Where the damage function grows most, and when it comes to a visible crack.
+ReportAnswer rcf_answer(const CollectiveDamage& both) {
+  const std::vector<double>& damage = both.rail.rcf_damage;
+  const auto most = std::max_element(damage.begin(), damage.end());
+  if (most == damage.end() || !(*most > 0)) return {};
+  const double y = both.rail.y[static_cast<std::size_t>(most - damage.begin())], mgt = mgt_of(both.lives);
+  return {*most >= 1 ? "bad" : "open", "Rolling contact fatigue",
+          fmt::format("damage {:.3g} at y = {:.1f} mm of the rail, where 1 is a visible crack{}", *most,
+                      as_shown(unit::kMillimetres, y), mgt > 0 ? fmt::format(": after {:.3g} MGT", mgt / *most) : "")};
 }
 
 ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
@@ -380,7 +396,6 @@ Json collective_json(const std::string& title, const std::vector<CollectiveRow>&
 }
 
 std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
-  const RailDamage& damage = both.rail;
   std::vector<ReportAnswer> out;
   if (const CollectiveRow* worst = worst_row(rows))
     if (const std::optional<Answer> answer = answer_of(worst->summary)) {
@@ -389,13 +404,8 @@ std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& r
                      fmt::format("load \"{}\", {}", worst->name, answer->reason)});
     }
   if (ReportAnswer life = life_answer(both.lives); !life.text.empty()) out.push_back(std::move(life));
-  const auto most = std::max_element(damage.rcf_damage.begin(), damage.rcf_damage.end());
-  if (most != damage.rcf_damage.end() && *most >= 1)
-    out.push_back({"bad", "Rolling contact fatigue",
-                   fmt::format("damage {:.3g} at y = {:.1f} mm of the rail, where 1 is a visible crack", *most,
-                               as_shown(unit::kMillimetres,
-                                        damage.y[static_cast<std::size_t>(most - damage.rcf_damage.begin())]))});
-  if (ReportAnswer wear = wear_answer(rows, damage); !wear.text.empty()) out.push_back(std::move(wear));
+  if (ReportAnswer rcf = rcf_answer(both); !rcf.text.empty()) out.push_back(std::move(rcf));
+  if (ReportAnswer wear = wear_answer(rows, both); !wear.text.empty()) out.push_back(std::move(wear));
   return out;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -96,6 +98,24 @@ TEST(Collective, NamesTheLoadThatDecidesAndDoubtsTheWearOfOneProfile) {
   EXPECT_TRUE(few[0].text.starts_with("load \"heavy\", rail, ")) << few[0].text;
   EXPECT_EQ(few[1].tone, "plain") << few[1].text;
   EXPECT_EQ(answers("1e8").back().tone, "open") << "millimetres";
+}
+
+TEST(Collective, AnswersGiveWearAndTheFirstCrackByGrossTonnes) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[[load]]\nwheel_load = \"50 kN\"\npassages = 1e5\n"
+                                       "traction_coefficient = 0.1\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  CollectiveDamage damage{rail_damage(rows, place(spec, {}), 0.5e-3), {}, {}};
+  damage.lives.tonnes = 2e6;
+  damage.rail.rcf_damage.front() = 0.25;  // more than any other cell has
+  const std::vector<ReportAnswer> answers = collective_answers(rows, damage);
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_TRUE(answers[0].text.ends_with("a visible crack: after 8 MGT")) << answers[0].text;
+  const double deepest = *std::max_element(damage.rail.usfd.begin(), damage.rail.usfd.end());
+  EXPECT_NE(answers[1].text.find(fmt::format(", {:.3g} mm per 100 MGT at y", 50 * 1e3 * deepest)), std::string::npos)
+      << answers[1].text;
 }
 
 TEST(Collective, SumsTheRowsTimesTheirPassages) {
