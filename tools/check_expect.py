@@ -5,8 +5,9 @@ usage: check_expect.py CASE RESULTS            CASE: a case file, or a folder wi
        check_expect.py CASE --run BINARY       runs the case first, in a folder of its own, and wants exit code 0; one
                                                with a [transient] table, a line contact or a yawed wheel on a roller
                                                by half-spaces, one with [[load]] as a collective, whose numbers stand
-                                               in collective.json, one with [passes] as a few passes on coarse cells:
-                                               passes.json
+                                               in collective.json, one with [collective] too, on coarse cells and
+                                               without passes for its lives, one with [passes] as a few passes on
+                                               coarse cells: passes.json
 
 The expectations of NAME.toml stand beside it in NAME.expect.toml, those of case.toml in expect.toml; one table a
 quantity:
@@ -99,6 +100,8 @@ def command_for(case):
     geometry = tables.get("geometry", {})
     yawed_on_roller = {"yaw", "rail_radius"} <= set(geometry)
     by_half_spaces = "transient" in tables or geometry.get("contact") == "line" or yawed_on_roller
+    if "collective" in tables:
+        return ["collective", "--set", "life.passes=0", "--cell", "1 mm"]
     if "passes" in tables:
         return ["passes", "--passes", "8", "--cell", "1 mm"]
     return ["collective" if "load" in tables else "bem" if by_half_spaces else "run"]
