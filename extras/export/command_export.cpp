@@ -76,6 +76,7 @@ Files contact_result(const LoadedCase& loaded, const std::string& cell) {
   const Placement placement = place(loaded.spec, loaded.folder());
   BemOptions bem;
   bem.cell = cell_size(cell);
+  bem.apart = false;
   const CaseSpec spec = half_space_case(loaded.spec);
   const HalfSpaceSolution solution = solve_half_space_contact(loaded.spec, placement, bem);
   std::vector<const BemPatch*> patches{&solution.result};

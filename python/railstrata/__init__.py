@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from . import _bridge, damage
 from .case import Case, _thread_count, schema, shipped_data
-from .contact import Contact, ContactForces
+from .contact import Contact, ContactForces, PatchForces
 from .creep_table import CreepTable, open_table
 from .errors import CaseError, CheckWarning, Diagnostic, MachineError, NumericalError
 from .law import DrivenPath, MaterialFit, calibrate, material
@@ -38,7 +38,7 @@ def threads(count: int = 0) -> int:
 __all__ = [
     "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Contact", "ContactForces", "CreepTable",
     "Diagnostic", "DrivenPath", "FolderResult", "MachineError", "MaterialFit", "NumericalError", "PassesResult",
-    "Patch", "PatchState", "Peak", "Peaks", "Result", "Table", "WheelForces", "Wheelset", "WheelsetForces", "bem",
-    "calibrate", "damage", "material", "open", "open_table", "passes", "resume", "run", "schema", "shakedown",
-    "shipped_data", "sweep", "threads", "von_mises",
+    "Patch", "PatchForces", "PatchState", "Peak", "Peaks", "Result", "Table", "WheelForces", "Wheelset",
+    "WheelsetForces", "bem", "calibrate", "damage", "material", "open", "open_table", "passes", "resume", "run",
+    "schema", "shakedown", "shipped_data", "sweep", "threads", "von_mises",
 ]

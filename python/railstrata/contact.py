@@ -48,6 +48,41 @@ class ContactForces:
     remarks: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class PatchForces:
+    """One of the patches that share the load, SI, in the model's axes.
+
+    force: N, on the wheel. moment: N m, of its tractions on the wheel about the point asked for. normal_force,
+    lateral_force: N, along the normal of the plane that it was solved in and across it. spin_moment: N m, about that
+    normal through `point`. approach: m. point: m, where the rigid bodies touch. on_wheel, on_rail: m, y and z of it in
+    the profiles' own axes. contact_angle: rad, of the profiles there. rolling_radius: m. p_max: Pa. patch_area: m².
+    dissipation: W. cells: with pressure.
+    """
+
+    force: tuple[float, float, float]
+    moment: tuple[float, float, float]
+    normal_force: float
+    lateral_force: float
+    spin_moment: float
+    approach: float
+    point: tuple[float, float, float]
+    on_wheel: tuple[float, float]
+    on_rail: tuple[float, float]
+    contact_angle: float
+    rolling_radius: float
+    p_max: float
+    patch_area: float
+    dissipation: float
+    cells: int
+
+
+def _plain(value: Any) -> Any:
+    """Numbers that are none come as texts."""
+    if isinstance(value, list):
+        return tuple(_plain(v) for v in value)
+    return float(value) if isinstance(value, str) else value
+
+
 def _number(value: Any, what: str) -> float:
     try:
         number = float(value)
@@ -124,6 +159,14 @@ class Contact:
         found = _bridge.call("patch_of_contact", contact=self._contact, patch=index)
         arrays = {name: found[name] for name in ("x", "y", "z", "area", "p", "q_x", "q_y", "slip_x", "slip_y")}
         return Patch({**arrays, "state": found["state"].astype(np.uint8), "slip_is_distance": False})
+
+    def patch_forces(self, index: int = 0, about: Any = (0.0, 0.0, 0.0)) -> PatchForces:
+        """What a patch of the last solution carries, that of the largest pressure first; tread and gauge corner apart
+        where they are not connected. about: m, model axes, the point that the moment is about. CaseError: no solution,
+        no such patch."""
+        found = _bridge.call(
+            "forces_of_patch", contact=self._contact, patch=index, about=_bridge.numbers(about))
+        return PatchForces(**{name: _plain(found[name]) for name in PatchForces.__dataclass_fields__})
 
     def stresses(self, points: Any, body: str = "rail") -> Array:
         """(n, 6) stresses [Pa] of the last solution at (n, 3) points, as `result.rail.at` of rs.bem has them: x, y,

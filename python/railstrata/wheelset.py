@@ -6,7 +6,7 @@ from typing import Any, Mapping, Optional, Sequence
 
 from . import _bridge
 from .case import AnyCase, Length, Value, _case_of, _metres, _overrides, _thread_count
-from .contact import _number
+from .contact import _number, _plain
 
 Pair = Sequence[float]
 _Triple = tuple[float, float, float]
@@ -58,13 +58,6 @@ class WheelsetForces:
     left: WheelForces
     right: WheelForces
     solutions: int
-
-
-def _plain(value: Any) -> Any:
-    """Numbers that are none come as texts."""
-    if isinstance(value, list):
-        return tuple(_plain(v) for v in value)
-    return float(value) if isinstance(value, str) else value
 
 
 class Wheelset:

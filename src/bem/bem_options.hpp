@@ -20,6 +20,7 @@ struct RailSurface {
 struct BemNeighbour {
   PatchGrid grid;
   RollingSolution solution;
+  bool common = false;  ///< of several contacts, in one plane for all
   bool empty() const { return solution.normal.pressure.empty(); }
 };
 
@@ -31,6 +32,8 @@ struct BemOptions {
   InfluenceCache* cache = nullptr;    ///< for sweeps; may be null
   BemNeighbour* neighbour = nullptr;  ///< may be null. Becomes this solution where one patch bears the load, else
                                       ///< empty. Numbers then depend on it, within the tolerances of the solver
+  bool apart = true;  ///< parts of a patch of several contacts that are not connected become patches of the result;
+                      ///< false: one patch, as its plane was solved
   std::function<RailSurface(const PatchGrid&)> rail_surface = {};  ///< empty: as its profile has it
 };
 

@@ -163,6 +163,15 @@ void drive_contact(const CaseSpec& spec, const RigidContact& contact, double wei
   if (drive.lateral_traction_coefficient) problem.y.force = -*drive.lateral_traction_coefficient * weight;
 }
 
+void carry_creepages(const CaseSpec& spec, const RigidContact& first, const RigidContact& own,
+                     RollingContact& problem) {
+  const double cosines = std::cos(first.angle) / std::cos(own.angle),
+               rail = own.rail_turn == 0 ? 1.0 : first.rail_turn / own.rail_turn;
+  problem.x.creepage = rail - (1 - problem.x.creepage) * own.rolling_radius / first.rolling_radius;
+  problem.y.creepage *= cosines;
+  if (spec.drive.spin) problem.spin = wheel_spin(own) + (*spec.drive.spin - wheel_spin(first)) / cosines;
+}
+
 double normal_load(double weight, double lateral, const RigidContact& contact) {
   return (weight + lateral * std::sin(contact.angle)) / std::cos(contact.angle);
 }

@@ -56,6 +56,10 @@ Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidCo
 /// no forces.
 void drive_contact(const CaseSpec& spec, const RigidContact& contact, double weight, RollingContact& problem);
 
+/// Turns the creepages, and a given spin, of the contact `first` of a wheel into those of another one: the wheel turns
+/// as a whole (several_patches.hpp).
+void carry_creepages(const CaseSpec& spec, const RigidContact& first, const RigidContact& own, RollingContact& problem);
+
 /// The normal force [N] that balances the weight G together with a lateral force T_y on the rail, in the contact plane
 /// at the angle delta: N cos(delta) - T_y sin(delta) = G.
 double normal_load(double weight, double lateral, const RigidContact& contact);

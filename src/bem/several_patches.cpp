@@ -19,6 +19,9 @@ namespace {
 
 constexpr double kLeastApproach = 1e-9;  // m
 
+constexpr int kMostRounds = 20;    // of a plane and the descent that it depends on
+constexpr double kSettled = 1e-6;  // of the descent
+
 double modulus_of(const CaseSpec& spec) {
   return contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
                          {spec.rail_material.young, spec.rail_material.poisson});
@@ -28,46 +31,10 @@ PressureOnRail pressure_of(const PatchOnWheel& p) {
   return {p.contact, p.patch.grid, p.solution.normal.pressure, p.solution.normal.load};
 }
 
-/// t of a point of the section in a contact's plane.
-double along_plane(const RigidContact& contact, Vec2 point) {
-  return dot(point - contact.point, {std::cos(contact.angle), std::sin(contact.angle)});
-}
-
-/// A lowest place of the gap and the patch that it belongs to: by its number in order of descent.
-struct Place {
-  RigidContact contact;
-  std::size_t patch = 0;
-};
-
-/// The first contact and those beside it that the wheel overlaps after a descent. Neighbours nearly in one plane are
-/// one patch where it overlaps the rail all the way between them.
-std::vector<Place> places_of(const Placement& p, double descent) {
-  std::vector<Place> out{{p.contact, 0}};
-  for (const RigidContact& c : further_contacts(p.wheel, p.rail, p.track, p.contact, descent)) {
-    const auto with = std::find_if(out.begin(), out.end(), [&](const Place& other) {
-      return std::abs(c.angle - other.contact.angle) <= kAngleOfOnePlane &&
-             ridge_between(p.wheel, p.rail, p.track, c, other.contact).gap < descent - p.contact.wheel_offset_z;
-    });
-    out.push_back({c, with != out.end() ? with->patch : out.size()});
-  }
-  return out;
-}
-
-/// The patches' numbers without gaps, and the places in order along the rail.
-void put_in_order(std::vector<Place>& places) {
-  std::vector<std::size_t> numbers;
-  for (const Place& p : places) numbers.push_back(p.patch);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  for (Place& p : places)
-    p.patch = static_cast<std::size_t>(std::lower_bound(numbers.begin(), numbers.end(), p.patch) - numbers.begin());
-  std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.contact.rail_s < b.contact.rail_s; });
-}
-
 /// One patch of the wheel while the load is being shared.
 struct Member {
   Placement placement;
+  std::vector<RigidContact> contacts{};
   PatchRoom room;
   std::optional<std::size_t> beside_low, beside_high;  ///< the patches that its room ends at
   HertzContact estimate{};                             ///< under the weight
@@ -87,26 +54,29 @@ struct Member {
   }
 };
 
-std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement, const std::vector<Place>& places) {
+/// What the grid in a plane has to hold.
+PatchRoom room_of(const RigidContact& plane, const std::vector<RigidContact>& contacts) {
+  PatchRoom out;
+  for (const RigidContact& c : contacts) {
+    const double t = along_plane(plane, c.point);
+    out.held_low = std::min(out.held_low, t);
+    out.held_high = std::max(out.held_high, t);
+  }
+  return out;
+}
+
+std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement,
+                               const std::vector<ContactPlace>& places, double descent) {
   std::vector<Member> out;
-  for (std::size_t k = 0; std::any_of(places.begin(), places.end(), [&](const Place& p) { return p.patch == k; });
-       ++k) {
-    const Place* deepest = nullptr;
-    for (const Place& p : places)
-      if (p.patch == k && (!deepest || p.contact.rail_s == placement.contact.rail_s ||
-                           (deepest->contact.rail_s != placement.contact.rail_s &&
-                            p.contact.axle_height > deepest->contact.axle_height)))
-        deepest = &p;
+  for (std::size_t k = 0;; ++k) {
+    std::vector<RigidContact> contacts = contacts_of(places, k);
+    if (contacts.empty()) break;
     Member m{.placement = placement, .room = {}, .beside_low = {}, .beside_high = {}};
-    m.placement.contact = deepest->contact;
+    m.placement.contact = plane_of(placement, contacts, descent);
     m.estimate = hertz_estimate(spec, m.contact());
     m.below = placement.contact.axle_height - m.contact().axle_height;
-    for (const Place& p : places)
-      if (p.patch == k) {
-        const double t = along_plane(m.contact(), p.contact.point);
-        m.room.held_low = std::min(m.room.held_low, t);
-        m.room.held_high = std::max(m.room.held_high, t);
-      }
+    m.room = room_of(m.contact(), contacts);
+    m.contacts = std::move(contacts);
     out.push_back(std::move(m));
   }
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
@@ -127,14 +97,16 @@ std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement,
 /// The wheel on its patches: descent and creepage are sought.
 class WheelOnPatches {
  public:
-  WheelOnPatches(const CaseSpec& spec, std::vector<Member> members, const BemOptions& options)
+  WheelOnPatches(const CaseSpec& spec, const RigidContact& first, std::vector<Member> members,
+                 const BemOptions& options)
       : spec_(spec),
+        first_(first),
         members_(std::move(members)),
         options_(options),
         weight_(static_load(spec)),
         modulus_(modulus_of(spec)),
         along_{spec.drive.creepage.value_or(0), 0},
-        across_{spec.drive.lateral_creepage.value_or(yaw_creepage(members_.front().contact())), 0} {
+        across_{spec.drive.lateral_creepage.value_or(yaw_creepage(first)), 0} {
     options_.rolling.tangential.tolerance = std::min(options_.rolling.tangential.tolerance, kSharp * options_.balance);
     options_.rolling.tangential.share_of_first = options_.rolling.normal.share_of_first = 1;  // starts are its own
     options_.cache = options.cache ? options.cache : &cache_;
@@ -142,7 +114,7 @@ class WheelOnPatches {
 
   void settle() {
     const bool pressed = spec_.vehicle.approach.has_value();
-    double descent = pressed ? laid_descent() : first_descent();
+    double& descent = descent_ = pressed ? laid_descent() : first_descent();
     for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
       const Eigen::MatrixXd bent = depressions();
       const double moved = solve_at(descent, bent), close = options_.balance * (pressed ? vertical() : weight_);
@@ -154,6 +126,9 @@ class WheelOnPatches {
                     "lower drive.friction_coefficient, or check lateral_shift and the profiles",
                     "drive.friction_coefficient");
   }
+
+  /// m, of the wheel below the place where it touches first.
+  double descent() const { return descent_; }
 
   /// Two patches of which one reaches the ridge between them.
   std::optional<std::pair<std::size_t, std::size_t>> merged() const {
@@ -174,7 +149,7 @@ class WheelOnPatches {
     SharedLoad out;
     out.load_iterations = iterations_;
     for (Member& m : members_)
-      if (m.loaded()) out.patches.push_back({m.contact(), std::move(m.patch), std::move(m.solution)});
+      if (m.loaded()) out.patches.push_back({m.contact(), std::move(m.patch), std::move(m.solution), m.contacts});
     return out;
   }
 
@@ -264,7 +239,7 @@ class WheelOnPatches {
 
   /// Of a given approach: of the wheel on its first contact.
   double laid_descent() {
-    const double descent = *spec_.vehicle.approach / std::cos(members_.front().contact().angle);
+    const double descent = *spec_.vehicle.approach / std::cos(first_.angle);
     static_cast<void>(lay(descent));
     return descent;
   }
@@ -316,14 +291,11 @@ class WheelOnPatches {
   }
 
   void drive(Member& m) const {
-    const RigidContact &first = members_.front().contact(), &own = m.contact();
-    const double cosines = std::cos(first.angle) / std::cos(own.angle);
     RollingContact& problem = m.patch.contact;
     problem.target.approach = m.approach;
-    const double rail = own.rail_turn == 0 ? 1.0 : first.rail_turn / own.rail_turn;
-    problem.x = {rail - (1 - along_.creepage) * own.rolling_radius / first.rolling_radius, {}};
-    problem.y = {across_.creepage * cosines, {}};
-    if (spec_.drive.spin) problem.spin = wheel_spin(own) + (*spec_.drive.spin - wheel_spin(first)) / cosines;
+    problem.x = {along_.creepage, {}};
+    problem.y = {across_.creepage, {}};
+    carry_creepages(spec_, first_, m.contact(), problem);
   }
 
   void solve(Member& m) const {
@@ -436,46 +408,68 @@ class WheelOnPatches {
   }
 
   const CaseSpec& spec_;
+  const RigidContact& first_;
   std::vector<Member> members_;
   InfluenceCache cache_;
   BemOptions options_;
   double weight_, modulus_;
   Sought along_, across_;  // creepages of the first contact
+  double descent_ = 0;
   int iterations_ = 0;
 };
 
 }  // namespace
 
-SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options) {
-  std::vector<Place> places = places_of(placement, approach / std::cos(placement.contact.angle));
-  for (;;) {
-    put_in_order(places);
-    std::vector<Member> members = members_of(spec, placement, places);
-    if (members.size() == 1) return {{}, members.front().room, 0};
-    WheelOnPatches wheel(spec, std::move(members), options);
-    wheel.settle();
-    const auto merged = wheel.merged();
-    if (!merged) {
-      SharedLoad out = wheel.take();
-      if (out.patches.size() > 1 || std::abs(out.patches.front().contact.rail_s - placement.contact.rail_s) > 0)
-        return out;
-      return {};
-    }
-    const auto [into, from] = std::minmax(merged->first, merged->second);
-    for (Place& p : places)
-      if (p.patch == from) p.patch = into;
+namespace {
+
+/// The one patch that has all contacts, after a descent that was found in other planes.
+SharedLoad one_patch(const CaseSpec& spec, const Placement& placement, std::vector<RigidContact> contacts,
+                     double descent, const BemOptions& options) {
+  SharedLoad out;
+  Placement own = placement;
+  for (int round = 0; round < kMostRounds; ++round) {
+    own.contact = plane_of(placement, contacts, descent);
+    out.room = room_of(own.contact, contacts);
+    if (contacts.size() == 1 || spec.vehicle.approach) break;
+    const double before = descent;
+    const CasePatch patch = make_case_patch(
+        spec, own, options, {.load = normal_load(static_load(spec), 0, own.contact), .approach = {}}, out.room);
+    descent = patch.frictionless.approach / std::cos(own.contact.angle) + placement.contact.axle_height -
+              own.contact.axle_height;
+    if (std::abs(descent - before) <= kSettled * before) break;
   }
+  out.plane = own.contact;
+  out.contacts = std::move(contacts);
+  return out;
 }
 
-void require_one_plane(const Placement& p, double approach, const std::string& key, const std::string& remedy) {
-  for (const RigidContact& c :
-       further_contacts(p.wheel, p.rail, p.track, p.contact, approach / std::cos(p.contact.angle)))
-    if (std::abs(c.angle - p.contact.angle) > kAngleOfOnePlane)
-      throw CaseError(
-          fmt::format("the wheel touches at y = {:.1f} mm and, under an approach of {:.3g} mm, at another angle at y = "
-                      "{:.1f} mm",
-                      1e3 * p.contact.point.y, 1e3 * approach, 1e3 * c.point.y),
-          remedy, key);
+}  // namespace
+
+SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options) {
+  double descent = approach / std::cos(placement.contact.angle);
+  std::vector<ContactPlace> places = places_of(placement, descent);
+  for (int round = 0;; ++round) {
+    put_in_order(places);
+    std::vector<Member> members = members_of(spec, placement, places, descent);
+    if (members.size() == 1) return one_patch(spec, placement, std::move(members.front().contacts), descent, options);
+    const bool common = members.size() < places.size();
+    WheelOnPatches wheel(spec, placement.contact, std::move(members), options);
+    wheel.settle();
+    if (const auto merged = wheel.merged()) {
+      const auto [into, from] = std::minmax(merged->first, merged->second);
+      for (ContactPlace& p : places)
+        if (p.patch == from) p.patch = into;
+      round = 0;
+    } else if (common && round < kMostRounds && std::abs(wheel.descent() - descent) > kSettled * descent) {
+      descent = wheel.descent();
+    } else {
+      SharedLoad out = wheel.take();
+      const PatchOnWheel& front = out.patches.front();
+      const bool first_alone =
+          out.patches.size() == 1 && front.contacts.size() == 1 && front.contact.rail_s == placement.contact.rail_s;
+      return first_alone ? one_patch(spec, placement, {placement.contact}, descent, options) : std::move(out);
+    }
+  }
 }
 
 double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& patches, const PatchOnWheel& one) {

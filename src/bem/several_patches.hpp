@@ -16,35 +16,31 @@
 #include <vector>
 
 #include "bem/case_patch.hpp"
+#include "bem/contact_places.hpp"
 
 namespace railstrata {
-
-/// Neighbouring contacts nearer to each other in angle than this are solved in one plane with all their interaction
-/// where the wheel overlaps the rail all the way between them: half of the angle that one patch may span without a
-/// warning.
-inline constexpr double kAngleOfOnePlane = 10 * std::numbers::pi / 180;
 
 struct PatchOnWheel {
   RigidContact contact;
   CasePatch patch;
   RollingSolution solution;
+  std::vector<RigidContact> contacts{};  ///< that were solved in one plane, `contact`; empty: that one
 };
 
 struct SharedLoad {
-  std::vector<PatchOnWheel> patches;  ///< that carry load; empty: the first patch carries it all, in one plane
-  PatchRoom room;                     ///< what the grid of that one has to hold
+  std::vector<PatchOnWheel> patches;   ///< that carry load; empty: the first patch carries it all, in one plane
+  PatchRoom room;                      ///< what the grid of that one has to hold
+  RigidContact plane;                  ///< and its plane
+  std::vector<RigidContact> contacts;  ///< that it has
   int load_iterations = 0;
 };
 
 /// Looks for contacts beside a first one that was solved alone under the whole load, where its approach is `approach`
 /// [m], and shares the load if there are.
-/// Patches that reach the ridge between them become one, in the plane of the one that touches first. Throws CaseError:
+/// Patches that reach the ridge between them become one. Its plane is common_contact under the descent of the wheel, of
+/// one patch that of its frictionless contact: it then is the same whichever contact was first. Throws CaseError:
 /// traction above friction, friction that bears the weight (a wedged wheel).
 SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options);
-
-/// Throws CaseError with both places, the case's key and the remedy where a wheel that comes down by `approach` [m]
-/// touches in a further plane: for what follows one patch alone.
-void require_one_plane(const Placement& placement, double approach, const std::string& key, const std::string& remedy);
 
 /// By how much the other patches bend the surfaces over one patch, of the contact's own smaller curvature kappa:
 /// the sum of 2/(pi E*) ∫ p_j/r_j³ dA over kappa, in the plane the second derivative of the depression.

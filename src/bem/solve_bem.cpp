@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "bem/patch_pieces.hpp"
 #include "bem/several_patches.hpp"
 #include "case/engine_scope.hpp"
 #include "case/irregularity_rules.hpp"
@@ -124,7 +125,10 @@ double motion_power(const PatchOnWheel& p, double speed) {
   return sum * g.cell_area() * speed;
 }
 
-SolvedPatch solved_patch(const PatchGrid& g, const NormalSolution& s) {
+/// from: of the place in the plane, m.
+SolvedPatch solved_patch(const PatchGrid& grid, const NormalSolution& s, double from) {
+  PatchGrid g = grid;
+  g.y0 -= from;
   SolvedPatch out{g.y(g.ny - 1), g.y(0), g.y(0) - 0.5 * g.dy, g.y(g.ny - 1) + 0.5 * g.dy, s.load, s.approach};
   for (std::size_t k = 0; k < s.pressure.size(); ++k) {
     if (!(s.pressure[k] > 0)) continue;
@@ -150,21 +154,62 @@ bool cut_off(const CaseSpec& spec, const PatchOnWheel& p, const PatchSurrounding
   return false;
 }
 
-BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& p) {
+/// Turns moment, creepages, spin and approach of the plane into those of a place `from` [m] beside its own.
+void move_to_place(const CaseSpec& spec, const PatchOnWheel& p, double from, BemPatch& r) {
+  r.force.moment -= (r.place.x - r.contact.x) * r.force.tangential - from * r.force.x;
+  RollingContact there;
+  there.x.creepage = r.rigid_slip.x;
+  there.y.creepage = r.rigid_slip.y;
+  carry_creepages(spec, r.contact, r.place, there);
+  r.rigid_slip = {there.x.creepage, there.y.creepage,
+                  wheel_spin(r.place) + (r.rigid_slip.spin - wheel_spin(r.contact)) * std::cos(r.place.angle) /
+                                            std::cos(r.contact.angle)};
+  double least = ProfileGap::kNoSurface;
+  for (std::size_t k = 0; k < r.field.p.size(); ++k)
+    if (r.field.p[k] > 0) least = std::min(least, p.patch.profile.gap[k]);
+  r.approach -= least;
+}
+
+BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& p,
+                      const RigidContact& place) {
   BemPatch r;
   r.contact = p.contact;
+  r.place = place;
   r.grid = p.patch.grid;
   r.rigid_slip.spin = p.patch.contact.spin;
   fill_field(p.patch, p.solution, r.contact, spec.drive.speed, r.field);
   if (r.grid.line) spread_over_line(r.grid.dy, r.field);
   fill_totals(p.solution, spec.drive.speed, r);
   if (p.patch.contact.kind == RollingKind::steady) r.motion_power = motion_power(p, spec.drive.speed);
+  const bool beside = place.rail_s != p.contact.rail_s;
+  const double from = beside ? along_plane(p.contact, place.point) : 0.0;
+  if (beside) move_to_place(spec, p, from, r);
   Placement own = placement;
-  own.contact = p.contact;
-  r.surroundings = patch_surroundings(spec, own, solved_patch(r.grid, p.solution.normal));
+  own.contact = place;
+  r.surroundings = patch_surroundings(spec, own, solved_patch(r.grid, p.solution.normal, from));
   r.surroundings.cut_off = cut_off(spec, p, r.surroundings);
   if (r.grid.line) r.surroundings.edges = {};  // its theory knows none
   return r;
+}
+
+/// One contact under the whole load.
+struct OnePatch {
+  Placement placement;  ///< its contact is the plane
+  PatchRoom room;
+  const RigidContact& first;  ///< that the creepages are of
+  bool common() const { return placement.contact.rail_s != first.rail_s; }
+  /// Of the plane, where that of `first` is given [m].
+  double approach(double of_first) const {
+    const RigidContact& plane = placement.contact;
+    if (!common()) return of_first;
+    return (of_first / std::cos(first.angle) + plane.wheel_offset_z - first.wheel_offset_z) * std::cos(plane.angle);
+  }
+};
+
+/// Creepages or forces of the case, of the contact that touches first, in the patch's plane.
+void drive_patch(const CaseSpec& spec, const OnePatch& one, double weight, RollingContact& problem) {
+  drive_contact(spec, one.first, weight, problem);
+  if (one.common()) carry_creepages(spec, one.first, one.placement.contact, problem);
 }
 
 struct LoadedPatch : PatchOnWheel {
@@ -172,17 +217,21 @@ struct LoadedPatch : PatchOnWheel {
   bool wedged = false;  ///< the solution is that of the last normal load tried
 };
 
-bool starts_from_neighbour(const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
-                           const BemOptions& options) {
+bool holds(const PatchGrid& g, const PatchRoom& room) {
+  return g.y(0) <= room.held_low && g.y(g.ny - 1) >= room.held_high;
+}
+
+bool starts_from_neighbour(const CaseSpec& spec, const OnePatch& one, const BemOptions& options) {
   const PatchRoom whole;
-  return options.neighbour && !options.neighbour->empty() && room.low == whole.low && room.high == whole.high &&
-         suits(options.neighbour->grid, spec, placement, options);
+  return options.neighbour && !options.neighbour->empty() && options.neighbour->common == one.common() &&
+         one.room.low == whole.low && one.room.high == whole.high && holds(options.neighbour->grid, one.room) &&
+         suits(options.neighbour->grid, spec, one.placement, options);
 }
 
 /// Solves under a normal load [N]: from a neighbour, on the grid of the load before, on a new one if there is none or
 /// the patch reached its edge.
-void solve_under(double normal, double weight, const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
-                 const BemOptions& options, LoadedPatch& out) {
+void solve_under(double normal, double weight, const CaseSpec& spec, const OnePatch& one, const BemOptions& options,
+                 LoadedPatch& out) {
   const auto solve = [&](const RollingSolution* start) {
     out.patch.contact.target.load = normal;
     out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling, start);
@@ -190,14 +239,14 @@ void solve_under(double normal, double weight, const CaseSpec& spec, const Place
   if (out.patch.influence) {
     solve(&out.solution);
     if (!out.solution.normal.touches_edge) return;
-  } else if (starts_from_neighbour(spec, placement, room, options)) {
-    out.patch = case_patch_on(options.neighbour->grid, spec, placement, options, {.load = normal, .approach = {}});
-    drive_contact(spec, placement.contact, weight, out.patch.contact);
+  } else if (starts_from_neighbour(spec, one, options)) {
+    out.patch = case_patch_on(options.neighbour->grid, spec, one.placement, options, {.load = normal, .approach = {}});
+    drive_patch(spec, one, weight, out.patch.contact);
     solve(&options.neighbour->solution);
     if (!reaches_edge(out.patch.grid, out.solution.normal.pressure)) return;
   }
-  out.patch = make_case_patch(spec, placement, options, {.load = normal, .approach = {}}, room);
-  drive_contact(spec, placement.contact, weight, out.patch.contact);
+  out.patch = make_case_patch(spec, one.placement, options, {.load = normal, .approach = {}}, one.room);
+  drive_patch(spec, one, weight, out.patch.contact);
   solve(nullptr);
 }
 
@@ -206,19 +255,18 @@ void solve_under(double normal, double weight, const CaseSpec& spec, const Place
 /// fast as N does, the slope of the left side is zero and no N is large enough: the wheel is wedged. Where it carries
 /// so much that a secant would take away half of N or more, the next N is on the chord from N = 0, which keeps it
 /// positive.
-LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
-                                  const BemOptions& options, double weight) {
+LoadedPatch balance_vertical_load(const CaseSpec& spec, const OnePatch& one, const BemOptions& options, double weight) {
   constexpr double kWedged = 0.02;
   constexpr int kMostIterations = 20;
-  const RigidContact& contact = placement.contact;
+  const RigidContact& contact = one.placement.contact;
   const double cosine = std::cos(contact.angle), sine = std::sin(contact.angle);
-  const bool near = starts_from_neighbour(spec, placement, room, options);
+  const bool near = starts_from_neighbour(spec, one, options);
   const double lateral = near ? options.neighbour->solution.tangential.force_y : 0.0;
   double normal = normal_load(weight, lateral, contact), slope = cosine, previous_normal = 0, previous_excess = 0;
   LoadedPatch out;
   out.contact = contact;
   for (;; ++out.load_iterations) {
-    solve_under(normal, weight, spec, placement, room, options, out);
+    solve_under(normal, weight, spec, one, options, out);
     const double excess = normal * cosine - out.solution.tangential.force_y * sine - weight;
     if (std::abs(excess) <= options.balance * weight) return out;
     if (out.load_iterations > 1) slope = (excess - previous_excess) / (normal - previous_normal);
@@ -237,19 +285,20 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placeme
       "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
 }
 
-bool holds(const PatchGrid& g, const PatchRoom& room) {
-  return g.y(0) <= room.held_low && g.y(g.ny - 1) >= room.held_high;
-}
-
 SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const double load = static_load(spec);
   check_friction(spec, load, normal_load(load, 0, placement.contact));
-  LoadedPatch alone = balance_vertical_load(spec, placement, {}, options, load);
+  LoadedPatch alone = balance_vertical_load(spec, {placement, {}, placement.contact}, options, load);
   SharedLoad shared;
   if (!alone.patch.grid.line) shared = share_load(spec, placement, alone.solution.normal.approach, options);
   if (!shared.patches.empty()) return shared;
-  if (!holds(alone.patch.grid, shared.room)) alone = balance_vertical_load(spec, placement, shared.room, options, load);
-  if (alone.wedged) refuse_wedged(placement.contact);
+  if (shared.contacts.size() > 1) {
+    OnePatch one{placement, shared.room, placement.contact};
+    one.placement.contact = shared.plane;
+    alone = balance_vertical_load(spec, one, options, load);
+    alone.contacts = std::move(shared.contacts);
+  }
+  if (alone.wedged) refuse_wedged(alone.contact);
   shared.load_iterations = alone.load_iterations;
   shared.patches.push_back(std::move(alone));
   return shared;
@@ -265,31 +314,34 @@ bool forces_wanted(const CaseSpec& spec) {
 /// in turn, from the frictionless contact on.
 SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   constexpr int kMostIterations = 40;
-  const RigidContact& contact = placement.contact;
-  const NormalTarget target{{}, spec.vehicle.approach};
-  SharedLoad out{{PatchOnWheel{contact, {}, {}}}, {}, 1};
+  OnePatch one{placement, {}, placement.contact};
+  SharedLoad out{{PatchOnWheel{}}, {}, {}, {}, 1};
   if (!forces_wanted(spec)) {
     SharedLoad shared = share_load(spec, placement, *spec.vehicle.approach, options);
     if (!shared.patches.empty()) return shared;
-    out.room = shared.room;
+    one.room = shared.room;
+    one.placement.contact = shared.plane;
+    if (one.common()) out.patches.front().contacts = std::move(shared.contacts);
   } else {
     require_one_plane(
         placement, *spec.vehicle.approach, "vehicle.approach",
         "give creepages in place of forces, or a load instead of vehicle.approach: the contacts share it");
   }
+  const RigidContact& contact = out.patches.front().contact = one.placement.contact;
+  const NormalTarget target{{}, one.approach(*spec.vehicle.approach)};
   CasePatch& patch = out.patches.front().patch;
   RollingSolution& solution = out.patches.front().solution;
-  if (!forces_wanted(spec) && starts_from_neighbour(spec, placement, out.room, options)) {
-    patch = case_patch_on(options.neighbour->grid, spec, placement, options, target);
-    drive_contact(spec, contact, 0, patch.contact);
+  if (!forces_wanted(spec) && starts_from_neighbour(spec, one, options)) {
+    patch = case_patch_on(options.neighbour->grid, spec, one.placement, options, target);
+    drive_patch(spec, one, 0, patch.contact);
     solution =
         solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling, &options.neighbour->solution);
-    if (!reaches_edge(patch.grid, solution.normal.pressure) && holds(patch.grid, out.room)) return out;
+    if (!reaches_edge(patch.grid, solution.normal.pressure)) return out;
   }
-  patch = make_case_patch(spec, placement, options, target, out.room);
+  patch = make_case_patch(spec, one.placement, options, target, one.room);
   double vertical = std::cos(contact.angle) * patch.frictionless.load;
   for (;; ++out.load_iterations) {
-    drive_contact(spec, contact, vertical, patch.contact);
+    drive_patch(spec, one, vertical, patch.contact);
     solution = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling,
                              out.load_iterations > 1 ? &solution : nullptr);
     const double before = vertical;
@@ -303,18 +355,36 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
   }
 }
 
-BemResult result_of(const CaseSpec& spec, const Placement& placement, const std::vector<PatchOnWheel>& patches) {
+/// The parts of a patch, each at its place.
+std::vector<BemPatch> parts_of(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& p, bool apart) {
+  if (!apart || p.contacts.size() < 2) return {patch_result(spec, placement, p, p.contact)};
+  const std::vector<PatchPiece> pieces = pieces_of(p);
+  std::vector<BemPatch> out;
+  std::shared_ptr<const ContactField> together;
+  if (pieces.size() > 1) together = std::make_shared<ContactField>(patch_result(spec, placement, p, p.contact).field);
+  for (const PatchPiece& piece : pieces) {
+    out.push_back(patch_result(spec, placement, piece.patch, piece.place));
+    out.back().together = together;
+  }
+  return out;
+}
+
+BemResult result_of(const CaseSpec& spec, const Placement& placement, const std::vector<PatchOnWheel>& patches,
+                    bool apart) {
   BemResult r;
   r.wheel = patches.front().patch.wheel;
   r.rail = patches.front().patch.rail;
   r.effort.outer_iterations = 0;
   for (const PatchOnWheel& p : patches) {
-    r.further.push_back(patch_result(spec, placement, p));
-    r.further.back().surroundings.bent_by_others = bending_by_others(spec, patches, p);
+    std::vector<BemPatch> parts = parts_of(spec, placement, p, apart);
+    const double bent = bending_by_others(spec, patches, p), rail_y = parts.front().surroundings.rail_y;
+    for (BemPatch& part : parts) {
+      part.surroundings.bent_by_others = bent;
+      r.further.push_back(std::move(part));
+    }
     for (const std::string& note : p.patch.notes)
       r.notes.push_back(patches.size() < 2 ? note
-                                           : fmt::format("patch at y = {:.1f} mm of the rail: {}",
-                                                         1e3 * r.further.back().surroundings.rail_y, note));
+                                           : fmt::format("patch at y = {:.1f} mm of the rail: {}", 1e3 * rail_y, note));
     r.effort.outer_iterations = std::max(r.effort.outer_iterations, p.solution.outer_iterations);
     r.effort.iterations += p.solution.normal.iterations + p.solution.tangential.iterations;
   }
@@ -340,7 +410,7 @@ double dissipation(const BemResult& result) {
 }
 
 BemResult bem_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& patch) {
-  return result_of(spec, placement, {patch});
+  return result_of(spec, placement, {patch}, true);
 }
 
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
@@ -350,27 +420,35 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   SharedLoad shared =
       spec.vehicle.approach ? press_to_approach(spec, placement, options) : bear_weight(spec, placement, options);
   if (shared.patches.size() > 1) require_same_along(spec, "contact at several places of one wheel");
-  BemResult r = result_of(spec, placement, shared.patches);
+  BemResult r = result_of(spec, placement, shared.patches, options.apart);
   if (options.neighbour) {
     *options.neighbour = {};
     if (shared.patches.size() == 1)
-      *options.neighbour = {shared.patches.front().patch.grid, std::move(shared.patches.front().solution)};
+      *options.neighbour = {shared.patches.front().patch.grid, std::move(shared.patches.front().solution),
+                            shared.patches.front().contacts.size() > 1};
   }
   r.effort.load_iterations = shared.load_iterations;
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return r;
 }
 
+namespace {
+
+const ContactField& pressed_together(const BemPatch& p) { return p.together ? *p.together : p.field; }
+
+}  // namespace
+
 Subsurface rail_interior(const LayeredHalfSpace& rail, const BemPatch& patch) {
-  return {rail, patch.grid, of_cells(patch, patch.field.p), of_cells(patch, patch.field.q_x),
-          of_cells(patch, patch.field.q_y)};
+  const ContactField& f = pressed_together(patch);
+  return {rail, patch.grid, of_cells(patch, f.p), of_cells(patch, f.q_x), of_cells(patch, f.q_y)};
 }
 
 Subsurface wheel_interior(const LayeredHalfSpace& wheel, const BemPatch& patch) {
-  Plane q_x = of_cells(patch, patch.field.q_x), q_y = of_cells(patch, patch.field.q_y);
+  const ContactField& f = pressed_together(patch);
+  Plane q_x = of_cells(patch, f.q_x), q_y = of_cells(patch, f.q_y);
   for (Plane* q : {&q_x, &q_y})
     for (double& v : *q) v = -v;
-  return {wheel, patch.grid, of_cells(patch, patch.field.p), std::move(q_x), std::move(q_y)};
+  return {wheel, patch.grid, of_cells(patch, f.p), std::move(q_x), std::move(q_y)};
 }
 
 Subsurface rail_interior(const BemResult& r) { return rail_interior(r.rail, r); }

@@ -10,6 +10,7 @@
 // result, and forces of the drive count over it. Not in it: inertia, the bodies' shape outside the patches, the layer's
 // edges.
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,11 +50,16 @@ struct SolverEffort {
   double wall_s = 0;
 };
 
-/// One patch in its own contact plane.
+/// One patch in its contact plane.
 struct BemPatch {
   ContactField field;
-  PatchGrid grid;  ///< contact frame: x rolling, y along the common tangent, origin at the rigid contact point
-  RigidContact contact;
+  PatchGrid grid;        ///< contact frame: x rolling, y along the common tangent, origin at the rigid contact point
+  RigidContact contact;  ///< the plane that it was solved in: pressure acts along its normal
+  /// Where the profiles touch. Of a part of a patch of several contacts (patch_pieces.hpp) the contact nearest to it,
+  /// with its own angle; else `contact`. Moments, creepages and spin are of this place.
+  RigidContact place;
+  /// Of such a part: all that was solved in its plane, on the same grid. Stresses inside are under all of it.
+  std::shared_ptr<const ContactField> together;
   PatchTotals patch;
   RailForces force;
   RigidSlip rigid_slip;

@@ -1,5 +1,6 @@
 #pragma once
 // What functions over the C interface share.
+#include <cstddef>
 #include <stdexcept>
 
 #include "bridge/call.hpp"
@@ -16,6 +17,13 @@ namespace railstrata::bridge {
   if (error.code == RS_NUMERICS) throw NumericalError(error.message);
   if (error.code == RS_MACHINE) throw EnvironmentError(error.message);
   throw std::runtime_error(error.message);
+}
+
+template <std::size_t kCount>
+Json array_of(const double (&values)[kCount]) {
+  Json out = Json::array();
+  for (const double value : values) out.push_back(number(value));
+  return out;
 }
 
 }  // namespace railstrata::bridge

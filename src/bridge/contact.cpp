@@ -119,6 +119,32 @@ void patch(Call& call) {
   }
 }
 
+void patch_forces(Call& call) {
+  const auto contact = call.made<Contact>("contact");
+  const std::lock_guard hold(contact->one_at_a_time);
+  const Array about = call.array("about");
+  if (about.shape != std::vector<std::size_t>{3}) throw std::invalid_argument("about: three numbers are wanted");
+  rs_patch p{};
+  p.size = sizeof(rs_patch);
+  rs_error error{};
+  if (rs_patch_forces(contact->at, call.whole("patch"), about.data, &p, &error) != RS_OK) raise(call, error);
+  call.answer = {{"force", array_of(p.force)},
+                 {"moment", array_of(p.moment)},
+                 {"normal_force", number(p.normal_force)},
+                 {"lateral_force", number(p.lateral_force)},
+                 {"spin_moment", number(p.spin_moment)},
+                 {"approach", number(p.approach)},
+                 {"point", array_of(p.point)},
+                 {"on_wheel", array_of(p.on_wheel)},
+                 {"on_rail", array_of(p.on_rail)},
+                 {"contact_angle", number(p.contact_angle)},
+                 {"rolling_radius", number(p.rolling_radius)},
+                 {"p_max", number(p.p_max)},
+                 {"patch_area", number(p.patch_area)},
+                 {"dissipation", number(p.dissipation)},
+                 {"cells", p.cells}};
+}
+
 void stress(Call& call) {
   const auto contact = call.made<Contact>("contact");
   const std::lock_guard hold(contact->one_at_a_time);
@@ -142,11 +168,8 @@ void forget(Call& call) {
 }  // namespace
 
 Functions contact_functions() {
-  return {{"open_contact", open_contact},
-          {"solve_contact", solve},
-          {"patch_of_contact", patch},
-          {"stress_of_contact", stress},
-          {"forget_contact", forget}};
+  return {{"open_contact", open_contact},    {"solve_contact", solve},      {"patch_of_contact", patch},
+          {"forces_of_patch", patch_forces}, {"stress_of_contact", stress}, {"forget_contact", forget}};
 }
 
 }  // namespace railstrata::bridge

@@ -80,13 +80,6 @@ rs_wheelset_state motion_of(const Json& given) {
   return out;
 }
 
-template <std::size_t kCount>
-Json array_of(const double (&values)[kCount]) {
-  Json out = Json::array();
-  for (const double value : values) out.push_back(number(value));
-  return out;
-}
-
 Json answer_of(const rs_wheel& w) {
   return {{"force", array_of(w.force)},
           {"moment", array_of(w.moment)},

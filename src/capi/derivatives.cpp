@@ -93,7 +93,7 @@ void jacobian(rs_contact& contact, const unsigned* inputs, int count, rs_derivat
   BemOptions options = contact.options;
   options.cache = &contact.cache;
   std::optional<ContactDerivatives> derivatives;
-  if (const BemNeighbour& solved = contact.start.last(); !solved.empty())
+  if (const BemNeighbour& solved = contact.start.last(); !solved.empty() && !solved.common)
     derivatives.emplace(spec, placement, options, solved);
   for (int k = 0; k < count; ++k) {
     const capi::Input input = capi::input_of(*contact.state, inputs[k], spec, result);

@@ -33,7 +33,7 @@ Vec3 point_of(const double* about) {
 
 void fill(const rs_contact& contact, const BemPatch& patch, Vec3 about, rs_patch& out) {
   const ContactField& f = patch.field;
-  const RigidContact& c = patch.contact;
+  const RigidContact& c = patch.place;
   const capi::Wrench carried = capi::wrench_of(patch, [&](double x, Vec2 point) {
     return Vec3{x, point.y, point.z} - about;
   });

@@ -170,14 +170,15 @@ RS_API int rs_field(const rs_contact* contact, int patch, int field, double* out
 
 /* One of the patches that share the load, 0 (the largest pressure) to rs_forces.patches - 1. Model axes: x along
  * rolling from the middle of the wheel's tape circle, y to the field side, z up, from the origin of the rail's profile.
- */
+ * Contacts that lie close are solved in one plane, whose normal their pressure acts along; where their patches are not
+ * connected each is one of these, with the place and the contact angle of its own on the profiles. */
 typedef struct rs_patch {
   size_t size;                        /* sizeof(rs_patch), to be set by the caller */
   double force[3];                    /* N, on the wheel */
   double moment[3];                   /* N m, of its tractions on the wheel, sum of (r - about) x dF */
-  double normal_force, lateral_force; /* N, along the contact normal and across it, on the wheel */
-  double spin_moment;                 /* N m, on the wheel about the contact normal through `point` */
-  double approach;                    /* m, along the normal */
+  double normal_force, lateral_force; /* N, along the plane's normal and across it, on the wheel */
+  double spin_moment;                 /* N m, on the wheel about the plane's normal through `point` */
+  double approach;                    /* m, along that normal */
   double point[3];                    /* m, where the rigid bodies touch */
   double on_wheel[2], on_rail[2];     /* m, y and z of it in the profiles' own axes, y to the field side */
   double contact_angle;               /* rad, of the common tangent to y */

@@ -68,14 +68,14 @@ Json array_of(const std::vector<double>& values, std::vector<float>& numbers) {
 }
 
 Json patch_json(const BemPatch& patch, std::vector<float>& numbers) {
-  const ContactField& f = patch.field;
+  const ContactField& f = patch.together ? *patch.together : patch.field;
   Json out{{"stations", f.stations}, {"columns", f.columns}, {"slip_is_distance", f.slip_is_distance}};
   const std::pair<const char*, const std::vector<double>&> fields[] = {
       {"x", f.x},     {"y", f.y}, {"p", f.p},           {"q_x", f.q_x},
       {"q_y", f.q_y}, {"z", f.z}, {"slip_x", f.slip_x}, {"slip_y", f.slip_y}};
   for (const auto& [name, values] : fields) out[name] = array_of(values, numbers);
   out["state"] = array_of(f.state, numbers, [](ContactState s) { return static_cast<int>(s); });
-  const CentreLine line = centre_line(f);
+  const CentreLine line = centre_line(patch.field);
   out["centre_y"] = line.y;
   out["centre_x"] = array_of(line.x, numbers);
   out["centre_p"] = array_of(line.p, numbers);

@@ -391,6 +391,45 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
   return out;
 }
 
+RigidContact common_contact(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                            std::vector<RigidContact> contacts, double offset_z) {
+  constexpr double kPower = 2.5;
+  const auto lower = [](const RigidContact& a, const RigidContact& b) { return a.wheel_offset_z < b.wheel_offset_z; };
+  const RigidContact first = *std::max_element(contacts.begin(), contacts.end(), lower);
+  std::sort(contacts.begin(), contacts.end(),
+            [](const RigidContact& a, const RigidContact& b) { return a.rail_s < b.rail_s; });
+  const Gap gap(wheel, rail, track, first.wheel_offset_y);
+  const GapSamples samples = first.searched ? *first.searched : sample_overlap(gap, rail);
+  const auto depth = [&](std::size_t i) { return -offset_z - samples.gap[i]; };
+  std::size_t at = sample_near(samples, contacts.front().rail_s);
+  while (at > 0 && depth(at - 1) > 0) --at;
+  double total = 0, s = 0, x = 0, angle = 0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const RigidContact& c = contacts[k];
+    const std::size_t middle = sample_near(samples, c.rail_s),
+                      end = k + 1 < contacts.size()
+                                ? ridge_sample(samples, middle, sample_near(samples, contacts[k + 1].rail_s))
+                                : samples.s.size();
+    double weight = 0;
+    for (; at < end && (at <= middle || end < samples.s.size() || depth(at) > 0); ++at)
+      weight += std::pow(std::max(depth(at), 0.0), kPower);
+    total += weight;
+    s += weight * c.rail_s;
+    x += weight * c.x;
+    angle += weight * c.angle;
+  }
+  if (!(total > 0)) return first;
+  RigidContact out = contact_at(gap, wheel, rail, track, first.wheel_offset_y, s / total);
+  out.wheel_offset_z = first.wheel_offset_z;
+  out.axle_height = first.axle_height;
+  out.x = x / total;
+  out.angle = angle / total;
+  out.curvature_wheel_lateral = first.curvature_wheel_lateral;
+  out.curvature_rail_lateral = first.curvature_rail_lateral;
+  out.curvature_rolling = std::cos(out.angle - out.roll) / out.rolling_radius + std::cos(out.angle) * out.rail_turn;
+  return out;
+}
+
 Ridge ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
                     const RigidContact& b) {
   const auto searched =

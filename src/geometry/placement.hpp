@@ -100,6 +100,14 @@ RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackG
 std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
                                            const RigidContact& first, double descent);
 
+/// Contacts of one wheel that are solved in one plane: the means of their places, x and angles. Each has the weight sum
+/// of depth^2.5 over where the wheel, lowered to the height `offset_z` [m] of its tape circle, overlaps the rail around
+/// it up to the ridges beside it: the squared depth, summed along rolling too, as CONTACT combines contacts. Height and
+/// curvatures are those of the one that touches first. Continuous where another becomes the first, and where one
+/// begins.
+RigidContact common_contact(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                            std::vector<RigidContact> contacts, double offset_z);
+
 /// The largest vertical gap between two contacts: where the surface of the one ends and that of the other begins. gap
 /// [m] is that of a wheel with its tape circle at the height 0.
 struct Ridge {

@@ -92,6 +92,7 @@ ContactSummary patch_numbers(const CaseSpec& spec, const BemPatch& r) {
   c.F_y = 0.0 - r.force.y;
   c.F_z = 0.0 - r.force.z;
   turn_into_contact_plane(c, r.contact.angle);
+  c.contact_angle = r.place.angle;
   c.spin_moment = 0.0 - r.force.moment;
   c.approach = r.approach;
   if (spec.drive.friction_coefficient > 0) {
@@ -164,8 +165,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   s.contact.error = cell_errors(spec, r, s.contact);
   if (!r.further.empty()) {
     for (const BemPatch* p : patches_of(r))
-      s.patches.push_back(
-          {p->contact.point.y, p->surroundings.rail_y, p->surroundings.wheel_y, patch_numbers(spec, *p)});
+      s.patches.push_back({p->place.point.y, p->surroundings.rail_y, p->surroundings.wheel_y, patch_numbers(spec, *p)});
     const Vec3 all = force_on_rail(r);
     s.contact.F_x = 0.0 - all.x;
     s.contact.F_y = 0.0 - all.y;

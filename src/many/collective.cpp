@@ -19,7 +19,7 @@ namespace railstrata {
 namespace {
 
 PatchDamage patch_damage(const CaseSpec& spec, const BemPatch& patch, const ContactSummary& contact) {
-  return {patch.contact, streamlines(spec, patch.field), rcf_damage(rcf_damage_15(), t_gamma(contact).without_spin)};
+  return {patch.place, streamlines(spec, patch.field), rcf_damage(rcf_damage_15(), t_gamma(contact).without_spin)};
 }
 
 std::vector<PatchDamage> patch_damages(const CaseSpec& spec, const HalfSpaceSolution& solution) {

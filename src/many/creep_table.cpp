@@ -63,7 +63,9 @@ std::string si_text(const Unit& unit) {
 }
 
 CreepNumbers solved(const CaseSpec& spec, const Placement& placement, const BemOptions& bem) {
-  const BemResult result = solve_bem(spec, placement, bem);
+  BemOptions whole = bem;
+  whole.apart = false;
+  const BemResult result = solve_bem(spec, placement, whole);
   const Solved point{spec, result, bem_contact_summary(spec, result)};
   for (const Check& check : point.summary.checks)
     if (!check.ok)

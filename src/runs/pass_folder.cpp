@@ -57,6 +57,7 @@ class SteadyPasses : public PassJob {
     require_same_along(loaded_.spec, "a series of passes");
     BemOptions bem;
     bem.cell = wanted_.cell;
+    bem.apart = false;
     const StopRequest wish(&control_.stop);
     const std::vector<CaseSpec> specs = cases_of_tractions(loaded_.spec);
     std::vector<Placement> placements;

@@ -17,8 +17,8 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
                              const CaseSpec& spec, const Placement& placement, const HalfSpaceSolution& solution) {
   const BemResult& result = solution.result;
   const Summary& summary = solution.summary;
-  std::vector<LoadedContact> contacts{{result.contact, result.force.normal}};
-  for (const BemPatch& p : result.further) contacts.push_back({p.contact, p.force.normal});
+  std::vector<LoadedContact> contacts{{result.place, result.force.normal}};
+  for (const BemPatch& p : result.further) contacts.push_back({p.place, p.force.normal});
   write_geometry(folder / "geometry.json", solution.moment ? case_of_moment(spec, *solution.moment) : spec, placement,
                  contacts);
   write_placed_surfaces(folder, placement, summary.position);

@@ -156,9 +156,17 @@ TEST(SeveralPatches, OnDifferentRadiiTheirForcesAreOppositeWithoutTraction) {
 /// The load of the patch on the flange's root, of the weight; 0 where there is none.
 double flange_load(const CaseSpec& spec, const BemResult& r) {
   double sum = 0;
-  for (const BemPatch* p : {static_cast<const BemPatch*>(&r), r.further.empty() ? nullptr : &r.further[0]})
-    if (p && p->contact.angle > 0.3) sum += p->force.normal;
+  if (r.contact.angle > 0.3) sum += r.force.normal;
+  for (const BemPatch& p : r.further)
+    if (p.contact.angle > 0.3) sum += p.force.normal;
   return sum / static_load(spec);
+}
+
+/// A patch that was solved in another plane than the first one; null: there is none.
+const BemPatch* in_another_plane(const BemResult& r) {
+  for (const BemPatch& p : r.further)
+    if (p.contact.angle != r.contact.angle) return &p;
+  return nullptr;
 }
 
 // S1002 on UIC60 inclined by 1:20 goes over to the flange within half a millimetre: one patch on the tread (of two
@@ -179,7 +187,7 @@ TEST(SlowSeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
     const double load = flange_load(spec, r);
     EXPECT_GT(load, previous - 1e-9) << shift;
     EXPECT_LT(load, previous + 0.18) << shift;
-    if (!r.further.empty()) {
+    if (in_another_plane(r)) {
       ++shared;
       EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-6) << shift;
       EXPECT_NEAR(force_on_rail(r).x / static_load(spec), -0.02, 1e-6) << shift;
@@ -194,7 +202,7 @@ TEST(SlowSeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
 
 // UIC60 inclined by 1:40: solved apart, the patch in the flange's root at 17 degrees and that on the gauge corner at 7
 // both reach the ridge between them.
-TEST(SlowSeveralPatches, PatchesThatReachTheRidgeBetweenThemAreOneInThePlaneOfTheFirst) {
+TEST(SlowSeveralPatches, PatchesThatReachTheRidgeBetweenThemAreOneInACommonPlane) {
   CaseSpec spec = driven(0);
   spec.geometry.rail_profile = "UIC60";
   spec.geometry.wheel_profile = "S1002";
@@ -207,14 +215,116 @@ TEST(SlowSeveralPatches, PatchesThatReachTheRidgeBetweenThemAreOneInThePlaneOfTh
     return std::abs(c.angle - p.contact.angle) > kAngleOfOnePlane;
   });
   ASSERT_NE(aslant, further.end());
-  EXPECT_TRUE(r.further.empty());
-  EXPECT_EQ(r.contact.rail_s, p.contact.rail_s);
+  EXPECT_FALSE(in_another_plane(r));
+  EXPECT_GT(r.contact.angle, std::min(p.contact.angle, aslant->angle) + 0.02);
+  EXPECT_LT(r.contact.angle, std::max(p.contact.angle, aslant->angle) - 0.02);
+  ASSERT_TRUE(r.together);
+  const ContactField& all = *r.together;
   for (const RigidContact& c : {p.contact, *aslant}) {
     double most = 0;
-    for (std::size_t k = 0; k < r.field.p.size(); ++k)
-      if (std::abs(r.field.y[k] - c.point.y) < 1e-3) most = std::max(most, r.field.p[k]);
+    for (std::size_t k = 0; k < all.p.size(); ++k)
+      if (std::abs(all.y[k] - c.point.y) < 1e-3) most = std::max(most, all.p[k]);
     EXPECT_GT(most, 0.2 * r.patch.largest_pressure) << c.angle;
   }
+}
+
+// Arcs of one radius whose contacts lie by D below the wheel: the sum of (D - u^2/(2 R))^2.5 goes with D^3.
+TEST(SeveralPatches, ACommonPlaneIsTheMeanByTheOverlap) {
+  const Placement p = two_crowns(2e-3, 0);
+  const double descent = 0.1e-3;
+  const std::vector<RigidContact> further = further_contacts(p.wheel, p.rail, p.track, p.contact, descent);
+  ASSERT_EQ(further.size(), 1U);
+  const RigidContact &one = p.contact, &other = further[0];
+  const double below = descent - (one.axle_height - other.axle_height);
+  ASSERT_GT(below, 0.3 * descent);
+  ASSERT_LT(below, 0.7 * descent);
+  const double a = std::pow(descent, 3), b = std::pow(below, 3), distance = std::abs(one.rail_s - other.rail_s);
+  for (const auto& contacts : {std::vector{one, other}, std::vector{other, one}}) {
+    const RigidContact c = common_contact(p.wheel, p.rail, p.track, contacts, one.wheel_offset_z - descent);
+    EXPECT_NEAR(c.rail_s, (a * one.rail_s + b * other.rail_s) / (a + b), 1e-3 * distance);
+    EXPECT_NEAR(c.angle, (a * one.angle + b * other.angle) / (a + b), 1e-9);
+    EXPECT_EQ(c.axle_height, one.axle_height);
+  }
+}
+
+/// The tread and the gauge corner of S1002 on UIC60, some 7 and 17 degrees steep, 4 mm apart.
+CaseSpec tread_and_corner(double shift) {
+  CaseSpec spec = driven(0.1);
+  spec.geometry.rail_profile = "UIC60";
+  spec.geometry.wheel_profile = "S1002";
+  spec.geometry.wheel_radius = 0.46;
+  spec.geometry.back_to_back = 1.36;
+  spec.geometry.gauge_depth = 14e-3;
+  spec.geometry.lateral_shift = shift;
+  spec.geometry.yaw = 8e-3;
+  return spec;
+}
+
+TEST(SeveralPatches, InOnePlaneAreTakenApartWhereTheyAreNotConnected) {
+  const CaseSpec spec = tread_and_corner(5.3e-3);
+  const Placement p = place(spec, {});
+  BemOptions options;
+  options.cell = 1e-3;
+  const BemResult r = solve_bem(spec, p, options);
+  ASSERT_EQ(r.further.size(), 1U);
+  const BemPatch& other = r.further[0];
+  EXPECT_EQ(r.contact.angle, other.contact.angle);
+  EXPECT_GT(std::abs(r.place.angle - other.place.angle), 0.15);
+  for (const BemPatch* piece : {static_cast<const BemPatch*>(&r), &other}) {
+    const Vec2 tangent = rail_to_model(p.track, p.rail.at(piece->place.rail_s).tangent);
+    EXPECT_NEAR(piece->place.angle, std::atan2(tangent.z, tangent.y), 1e-12);
+    EXPECT_NEAR(piece->surroundings.rail_y, p.rail.at(piece->place.rail_s).position.y, 1e-12);
+    double normal = 0, across = 0, turn = 0, low = 1, high = -1;
+    for (std::size_t k = 0; k < piece->field.p.size(); ++k) {
+      const ContactField& f = piece->field;
+      normal += f.p[k] * f.area[k];
+      across += f.q_y[k] * f.area[k];
+      const double t = piece->grid.y(static_cast<int>(k) % piece->grid.ny),
+                   from = dot(piece->place.point - piece->contact.point,
+                              {std::cos(piece->contact.angle), std::sin(piece->contact.angle)});
+      turn += f.area[k] * ((f.x[k] + piece->contact.x - piece->place.x) * f.q_y[k] - (t - from) * f.q_x[k]);
+      if (!(f.p[k] > 0)) continue;
+      low = std::min(low, t - from);
+      high = std::max(high, t - from);
+    }
+    EXPECT_NEAR(piece->force.normal, normal, 1e-9 * normal);
+    EXPECT_NEAR(piece->force.tangential, across, 1e-9 * normal);
+    EXPECT_NEAR(piece->force.moment, turn, 1e-9 * normal);
+    EXPECT_LT(low, 0) << "its place is under it";
+    EXPECT_GT(high, 0);
+    EXPECT_LT(high - low, 10e-3) << "without the gap";
+  }
+  for (std::size_t k = 0; k < r.field.p.size(); ++k) {
+    ASSERT_TRUE(r.field.p[k] == 0 || other.field.p[k] == 0);
+    ASSERT_EQ(r.field.p[k] + other.field.p[k], r.together->p[k]);
+  }
+  EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-4);
+  // the wheel turns as a whole
+  EXPECT_NEAR((1 - r.rigid_slip.x) / r.place.rolling_radius, (1 - other.rigid_slip.x) / other.place.rolling_radius,
+              1e-12);
+}
+
+// Between 5.1 and 5.2 mm of shift the wheel touches first at the gauge corner instead of the tread.
+TEST(SeveralPatches, InOnePlaneAreTheSameWhicheverIsFirst) {
+  constexpr double kCorner = 0.2;  // rad
+  double low = 5.1e-3, high = 5.2e-3;
+  const auto first = [](double shift) { return place(tread_and_corner(shift), {}).contact.angle; };
+  ASSERT_LT(first(low), kCorner);
+  ASSERT_GT(first(high), kCorner);
+  while (high - low > 1e-9) (first(0.5 * (low + high)) < kCorner ? low : high) = 0.5 * (low + high);
+  BemOptions options;
+  options.cell = 1e-3;
+  const auto solved = [&](double shift) {
+    const CaseSpec spec = tread_and_corner(shift);
+    return solve_bem(spec, place(spec, {}), options);
+  };
+  const BemResult before = solved(low), after = solved(high);
+  const double load = static_load(tread_and_corner(low));
+  const Vec3 force = force_on_rail(before), change = force_on_rail(after) - force;
+  EXPECT_NEAR(change.y, 0, 1e-4 * load);
+  EXPECT_NEAR(before.contact.angle, after.contact.angle, 1e-4);
+  EXPECT_NEAR(before.force.normal, after.force.normal, 1e-3 * load);
+  EXPECT_NEAR(before.force.moment, after.force.moment, 1e-3 * std::abs(before.force.moment));
 }
 
 TEST(SeveralPatches, ALateralCreepageIsCommonToAll) {
@@ -266,15 +376,15 @@ TEST(SeveralPatches, AGivenLateralForceClosesOverInclinedOnes) {
   for (const bool creepage : {false, true}) {
     if (creepage) spec.drive.creepage = 0;
     const BemResult r = solve_bem(spec, p, options);
-    ASSERT_EQ(r.further.size(), 1U);
-    EXPECT_GT(std::abs(r.contact.angle - r.further[0].contact.angle), kAngleOfOnePlane);
+    const BemPatch* other = in_another_plane(r);
+    ASSERT_NE(other, nullptr);
+    EXPECT_GT(std::abs(r.contact.angle - other->contact.angle), kAngleOfOnePlane);
     EXPECT_NEAR(lateral_friction(r) / weight, 0.05, 1e-6);
     EXPECT_NEAR(-force_on_rail(r).z / weight, 1, 1e-6);
     if (!creepage) {
       EXPECT_NEAR(force_on_rail(r).x / weight, 0, 1e-6);
     }
-    EXPECT_NEAR(r.rigid_slip.y * std::cos(r.contact.angle),
-                r.further[0].rigid_slip.y * std::cos(r.further[0].contact.angle), 1e-12);
+    EXPECT_NEAR(r.rigid_slip.y * std::cos(r.place.angle), other->rigid_slip.y * std::cos(other->place.angle), 1e-12);
   }
 }
 

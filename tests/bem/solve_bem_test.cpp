@@ -97,7 +97,7 @@ TEST(SolveBem, SpinWithTheSurfacesOwnAnglesHasContactsLateralFriction) {
     return std::abs(solve_bem(spec, place(spec, {})).force.tangential);
   };
   EXPECT_NEAR(lateral_friction(SpinAngle::local) / 2484, 1, 0.015);
-  EXPECT_LT(lateral_friction(SpinAngle::patch) / 2484, 0.75) << "one spin for the patch, of its rigid contact point";
+  EXPECT_LT(lateral_friction(SpinAngle::patch) / 2484, 0.9) << "one spin for the patch, of its plane";
 }
 
 TEST(SolveBem, StiffLayerRaisesThePeakPressureAndSoftLayerLowersIt) {

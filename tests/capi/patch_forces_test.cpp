@@ -60,6 +60,24 @@ TEST(CPatchForces, NameThePlacesOnBothProfiles) {
   EXPECT_EQ(p.p_max, contact.forces.p_max);
 }
 
+// S1002 on UIC60 on tread and gauge corner, 4 mm apart and solved in one plane.
+TEST(CPatchForces, OfTreadAndGaugeCornerAreApart) {
+  Contact contact(
+      {"geometry.wheel_profile=\"S1002\"", "geometry.rail_profile=\"UIC60\"", "geometry.wheel_radius=\"460 mm\""});
+  rs_set_cell(contact.handle, 1e-3, nullptr);
+  ASSERT_EQ(contact.solve(pulling(5.3e-3)), RS_OK) << contact.error.message;
+  ASSERT_EQ(contact.forces.patches, 2);
+  const rs_patch one = patch_of(contact, 0), other = patch_of(contact, 1);
+  EXPECT_GT(std::abs(one.contact_angle - other.contact_angle), 0.15);
+  EXPECT_GT(std::abs(one.on_rail[0] - other.on_rail[0]), 9e-3);
+  double sum = 0;
+  for (const rs_patch& p : {one, other}) {
+    EXPECT_GT(p.normal_force, 0.1 * contact.forces.force_z);
+    sum += p.force[2];
+  }
+  EXPECT_NEAR(sum, contact.forces.force_z, 1e-12 * sum);
+}
+
 TEST(CPatchForces, RefuseWhatIsNotThere) {
   Contact contact;
   rs_patch out{};
