@@ -310,12 +310,12 @@ young_ratio = 2.0
         self.done("bem", self.case(TWO_PATCHES), *COARSE, "--no-report", "--out", self.folder / "two")
         out = self.done("compare", self.folder / "two", self.folder / "one", "--out", self.folder / "d")
         result = json.loads((self.folder / "d" / "compare.json").read_text())
-        self.assertEqual((result["a"]["patches"], result["b"]["patches"]), (2, 1))
+        self.assertEqual((result["a"]["patches"], result["b"]["patches"]), (3, 1))
         self.assertEqual((result["numbers"]["p_max_Pa"]["of_a"], result["numbers"]["p_max_Pa"]["of_b"]),
-                         ("patch 1 of 2", "patch"))
-        self.assertEqual(result["numbers"]["F_x_N"]["of_a"], "2 patches")
-        self.assertEqual(len(result["notes"]), 2, "two patches, and at another place")
-        self.assertIn("A: patch 1 of 2, B: patch", out)
+                         ("patch 1 of 3", "patch"))
+        self.assertEqual(result["numbers"]["F_x_N"]["of_a"], "3 patches")
+        self.assertEqual(len(result["notes"]), 2, "three patches, and at another place")
+        self.assertIn("A: patch 1 of 3, B: patch", out)
 
     def test_compare_refuses_what_is_no_result_folder(self):
         base = self.bem("base")
@@ -433,7 +433,7 @@ young_ratio = 2.0
         one, two = table(out / "sweep.csv")
         self.assertEqual(list(one)[-4:], ["fault", "patches", "checks", "warnings"])
         self.assertEqual([(row["patches"], row["checks"], row["fault"]) for row in (one, two)],
-                         [("1", "ok", ""), ("2", "ok", "")])
+                         [("1", "ok", ""), ("3", "ok", "")])
         self.assertIn("patches_near_each_other", two["warnings"])
         self.assertAlmostEqual(1e3 * float(two["F_z_kN"]) / LOAD, 1, delta=1e-5)
         self.assertLess(1e3 * float(two["normal_force_kN"]), 0.6 * LOAD, "that of one patch")

@@ -746,43 +746,43 @@ class Rest(Page):
 
 
 @slow
-class TwoPatches(Page):
-    """A wheel that touches on the tread and in the flange's root."""
+class ThreePatches(Page):
+    """A wheel that touches on two lobes of the tread, which have one plane, and in the flange's root."""
 
     file = RESULTS / "two" / "report.html"
 
     def test_each_contact_is_in_the_picture_with_its_own_load_and_hertz(self):
         summary = summary_of(RESULTS / "two")
         geometry = json.loads((RESULTS / "two" / "geometry.json").read_text())
-        self.assertEqual(len(geometry["patches"]), 2)
+        self.assertEqual(len(geometry["patches"]), 3)
         self.assertAlmostEqual(sum(p["load_N"] for p in geometry["patches"]),
                                sum(p["normal_force_N"] for p in summary["patches"]), delta=1)
         names = self.js("return document.getElementById('plot-profiles').drawn.data.map(t => t.name)")
-        self.assertEqual(names[-2:], ["rigid contact point, patch 1", "rigid contact point, patch 2"])
+        self.assertEqual(names[-3:], [f"rigid contact point, patch {k}" for k in (1, 2, 3)])
         for k, patch in enumerate(summary["patches"]):
-            self.assertAlmostEqual(self.trace("plot-profiles", len(names) - 2 + k)["x"][0], 1e3 * patch["y_m"],
+            self.assertAlmostEqual(self.trace("plot-profiles", len(names) - 3 + k)["x"][0], 1e3 * patch["y_m"],
                                    delta=1e-3)
         self.assertIsNotNone(self.browser.text("#profiles-near-2"))
         self.assertIn("Near the contact point of patch 1", self.browser.text("#profiles-near"))
         table = self.browser.text("#geometry table")
         for k, patch in enumerate(summary["patches"]):
             self.assertIn(f"{1e-3 * patch['normal_force_N']:.2f} kN", table)
-        self.assertEqual(table.count("p₀"), 2)
+        self.assertEqual(table.count("p₀"), 3)
 
-    def test_the_centre_lines_are_those_of_both_with_hertz_under_the_load_of_each(self):
+    def test_the_centre_lines_are_those_of_all_with_hertz_under_the_load_of_each(self):
         geometry = json.loads((RESULTS / "two" / "geometry.json").read_text())
         names = self.js("return document.getElementById('plot-centre-p').drawn.data.map(t => t.name)")
-        self.assertEqual(names, ["two (half-space), patch 1", "two (half-space), patch 2", "Hertz, no layer, patch 1",
-                                 "Hertz, no layer, patch 2"])
+        self.assertEqual(names, [f"{name}, patch {k}" for name in ("two (half-space)", "Hertz, no layer")
+                                 for k in (1, 2, 3)])
         for k, patch in enumerate(geometry["patches"]):
-            self.assertAlmostEqual(max(self.trace("plot-centre-p", 2 + k)["y"]), 1e-6 * patch["hertz"]["p0_Pa"],
+            self.assertAlmostEqual(max(self.trace("plot-centre-p", 3 + k)["y"]), 1e-6 * patch["hertz"]["p0_Pa"],
                                    delta=1)
         patches = summary_of(RESULTS / "two")["patches"]
         for k, patch in enumerate(patches):
             peak = max(self.trace("plot-centre-p", k)["y"])
             self.assertAlmostEqual(peak / (1e-6 * patch["p_max_Pa"]), 1, delta=0.05)
 
-    def test_the_first_pictures_have_both_where_they_are(self):
+    def test_the_first_pictures_have_all_where_they_are(self):
         patch = read_table(RESULTS / "two" / "patch.csv")
         y = 1e3 * summary_of(RESULTS / "two")["patches"][0]["y_m"]
         wanted = sorted(round(b - y, 3) for b, p in zip(patch["y_mm"], patch["p_MPa"]) if p > 0)
