@@ -16,10 +16,10 @@ import railstrata as rs
 
 # Axle load [N], half the wheelbase [m], frame [kg], speed [m/s], springs of a wheelset sideways [N/m] and in yaw
 # [N m/rad], traction over load, million gross tonnes a year
-VEHICLES = {"wagon, loaded": (220e3, 0.90, 2200, 22, 5e6, 5e6, 0, 9),
+VEHICLES = {"wagon, loaded": (220e3, 0.90, 2200, 22, 5e6, 15e6, 0, 9),
             "wagon, empty": (60e3, 0.90, 2200, 22, 2e6, 2e6, 0, 1.5),
             "locomotive": (210e3, 1.30, 8000, 22, 4e6, 5e6, 0.1, 1.5),
-            "coach": (130e3, 1.25, 2600, 24, 3e6, 6e6, 0, 3)}
+            "coach": (130e3, 1.25, 2600, 24, 4e6, 10e6, 0, 3)}
 CURVE, STRAIGHT, RAMP, CANT, BASE, HEIGHT = 800, 20, 40, 0.08, 1.5, 1.8   # m; height of the centre of gravity
 RADIUS, WHEELSET, YAW_INERTIA, PITCH_INERTIA, GRAVITY = 0.46, 1300, 700, 130, 9.81
 DAMPING, TURNING, STEP, EVERY = 1e5, 1e6, 0.25, 4  # frame against body [N s/m, N m s/rad]; m, steps from row to row

@@ -448,7 +448,7 @@ std::vector<std::string> void_drive(const CaseSpec& spec, const CaseSource& sour
 
 std::vector<std::string> unread_hardening(const CaseSpec& spec) {
   std::vector<std::string> notes;
-  if (spec.run.plasticity) return notes;
+  if (spec.run.plasticity || spec.life.passes > 0) return notes;  // passes of a life take it
   const auto look = [&](const std::string& table, const StrengthSpec& s) {
     const char* const key = !s.hardening.empty()             ? "hardening"
                             : s.isotropic_hardening          ? "isotropic_hardening"

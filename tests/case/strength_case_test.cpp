@@ -204,5 +204,11 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
     }
 }
 
+TEST(StrengthCase, HardeningIsNotedAsUnusedUnlessALifeFollowsPasses) {
+  const std::string card = "[material.rail]\nhardening = \"R260\"\n";
+  EXPECT_EQ(parse_case(card, "a.toml").elastic_notes.size(), 1u);
+  EXPECT_TRUE(parse_case(card + "[life]\npasses = 8\n", "a.toml").elastic_notes.empty());
+}
+
 }  // namespace
 }  // namespace railstrata
