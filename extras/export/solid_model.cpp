@@ -183,6 +183,9 @@ double missed_by_nodes(const SolidModel& model) {
 
 SolidModel solid_model(const Model& m) {
   require_finite_elements(m.spec);
+  if (!m.spec.track.held())
+    throw CaseError("a rail on a track (track.preset) is not exported: the decks hold its foot", "take [track] out",
+                    "track.preset");
   if (m.spec.geometry.rail_radius)
     throw CaseError(
         "a rail that is a ring (geometry.rail_radius) is not exported: the decks have a rail at rest and a "

@@ -319,6 +319,8 @@ void check_track(const CaseSpec& spec, CaseSource& source) {
     if (asked) source.complain("track.preset", fmt::format("track.preset with {} is not computed", with), remedy);
   };
   refuse(spec.geometry.rail_radius.has_value(), "geometry.rail_radius", "a roller turns about a shaft: take it out");
+  refuse(spec.run.time_step_method == TimeStepMethod::local, "run.time_step_method = \"local\"",
+         "inner steps know a held foot: give run.time_step_method = \"auto\"");
   refuse(spec.run.device != ComputeDevice::cpu, "run.device = \"gpu\"", "run.device = \"cpu\"");
   const SleeperTrack& t = spec.track.support;
   if (source.sound({"track.pad_length", "track.spacing"}) && t.pad_length > 0.8 * t.spacing)

@@ -50,9 +50,10 @@ void refuse_irregularities(const CaseSpec& spec, std::vector<BeyondEngine>& out)
   for (std::size_t i = 0; i < spec.irregularities.size(); ++i) {
     const Irregularity& is = spec.irregularities[i];
     const std::string key = fmt::format("irregularity.{}", i);
-    refuse(is.kind == IrregularityKind::dip, key,
+    refuse(is.kind == IrregularityKind::dip && spec.track.held(), key,
            "the forces of a dip are made by the track's springs and masses, and the foot of this rail is held",
-           "give kind = \"indentation\" for a short one, or solve the case with `railstrata bem`, under a given load");
+           "give [track] preset = \"delft\", or kind = \"indentation\" for a short one, or solve the case with "
+           "`railstrata bem`, under a given load");
     if (const auto fault = too_coarse(spec, i, spec.mesh.element_size, "elements", "mesh.element_size"))
       out.push_back({key, fault->message, fault->remedy});
     refuse(spec.run.rolling && is.on == BodyId::rail && extent_of(is).from < spec.run.run_up, key,
@@ -81,10 +82,6 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   beyond(g.in_line(), "geometry.contact", "a line contact", "bodies have ends across, and patches too");
   refuse_on_ring(spec, out);
   refuse_irregularities(spec, out);
-  if (!spec.track.held())
-    out.push_back({"track.preset",
-                   "a track below the rail (track.preset) is not in the steps of a run: its foot is held",
-                   "take [track] out; `railstrata receptance` computes the rail on its track"});
   beyond(g.roll != 0, "geometry.roll", "a roll of the wheelset", "the wheel is meshed upright");
   if (!spec.run.rolling) return out;
   if (spec.friction.law != FrictionForm::coulomb && !(spec.friction.memory_distance > 0))

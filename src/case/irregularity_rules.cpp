@@ -165,6 +165,9 @@ void require_fine_enough(const CaseSpec& spec, double size, const char* what, co
 }
 
 void require_same_along(const CaseSpec& spec, const char* what) {
+  if (!spec.track.held())
+    throw CaseError(fmt::format("{} is of a rail that is the same all along: on sleepers it is not", what),
+                    "take [track] out; `railstrata run` rolls over it", "track.preset");
   if (spec.irregularities.empty()) return;
   throw CaseError(
       fmt::format("{} is of a rail and a wheel that are the same all along: the case has an [[irregularity]]", what),

@@ -46,7 +46,7 @@ class Groups {
   std::vector<std::vector<std::vector<char>>> in_;
 };
 
-// Values that all ranks read: the running surface around the contact, and the ends of open blocks.
+// Values that all ranks read: the running surface around the contact, the base on pads, the ends of open blocks.
 void add_seen_by_all(const SharedLines& body, Groups& groups) {
   constexpr double kTurn = 2 * std::numbers::pi;
   const int contact = body.mesh.contact.block;
@@ -57,6 +57,7 @@ void add_seen_by_all(const SharedLines& body, Groups& groups) {
     if (std::abs(away) > body.half_width) continue;
     for (int c = 0; c <= body.mesh.contact.columns; ++c) groups.add({contact, c}, j);
   }
+  for (const SectionNode& n : body.mesh.on_pads) groups.add_all(n);
   for (int b = 0; b < static_cast<int>(body.layout.blocks.size()); ++b) {
     if (body.layout.blocks[b].closed) continue;
     for (int n : body.lines[b])

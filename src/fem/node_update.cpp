@@ -46,9 +46,11 @@ struct BodyUpdate {
   bool measured;  // with run-up damping and sums
 };
 
+// The run-up damping would drag on the bending of a rail on a track, which travels with the wheel; pads damp it.
 BodyUpdate update_of(RollingBody& b, BodyState& state, const StepScope& scope) {
+  const double rate = b.body.mesh.on_pads.empty() ? scope.damping_rate : 0.0;
   const auto step = b.turns() ? node_step<SweepKind::revolve> : node_step<SweepKind::extrude>;
-  return {b, state, step(b.frame, b.mean, scope.dt, scope.damping_rate, scope.gravity), scope.sums_wanted()};
+  return {b, state, step(b.frame, b.mean, scope.dt, rate, scope.gravity), scope.sums_wanted()};
 }
 
 UpdateSums update_sums(const NodeSums& s) { return {0.5 * s.twice_kinetic, s.power, s.px, s.pz, s.angular}; }

@@ -75,6 +75,7 @@ class Preload {
     if (before_) out.before = before_->u;
     out.history = std::move(history_);
     out.axle_z = u_.axle;
+    out.foot_z = foot_height(sys_, 0, out.u[kRail]);
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
@@ -276,6 +277,8 @@ class Preload {
     StaticVector r = zero_vector(sys_);
     for (std::size_t k = 0; k < r.body.size(); ++k) yield(k);
     share_.internal_force(u_, history_, r);
+    press_on_sleepers(sys_.pads, u_.body[kRail], r.body[kRail]);
+    let_sleepers_sink(sys_.pads, u_.body[kRail], r.body[kRail]);
     share_.for_kept([&](std::size_t k, std::ptrdiff_t begin, std::ptrdiff_t end) {
       for (std::ptrdiff_t i = begin; i < end; ++i) r.body[k][i] = -r.body[k][i];
     });
@@ -288,15 +291,16 @@ class Preload {
     return r;
   }
 
-  // y = K x on the free degrees of freedom; constrained entries of x are not unknowns.
+  // y = K x on the free degrees of freedom, sleepers standing still; constrained entries of x are not unknowns.
   void stiffness(StaticVector& x, StaticVector& y) {
     elastic(x, y);
     reduce(y);
     clear_constrained(x);
   }
-  // y = (K + eps G^T a G) x
+  // y = (K + eps G^T a G) x, sleepers in equilibrium
   void apply(StaticVector& x, StaticVector& y) {
     elastic(x, y);
+    let_sleepers_sink(sys_.pads, x.body[kRail], y.body[kRail]);
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
       if (active_[k]) apply_pressure(k, penalty_ * gap_change(k, x), y);
     reduce(y);
@@ -310,6 +314,7 @@ class Preload {
     }
     for (std::size_t k = 0; k < x.body.size(); ++k) sys_.bodies[k].ties.apply_homogeneous(x.body[k]);
     share_.linear_force(x, y);
+    press_on_sleepers(sys_.pads, x.body[kRail], y.body[kRail]);
     y.axle = 0;
   }
   double gap_change(std::size_t k, const StaticVector& x) const {

@@ -35,6 +35,7 @@ struct PreloadResult {
   Field before;                           ///< m, displacements of the rail without the wheel; empty: none
   double axle_z = 0;  ///< m, displacement of the axle from the rigid contact position, negative: down
   SurfaceTractions tractions{0, 0};
+  double foot_z = 0;                        ///< m, of a rail on a track: displacement of its foot below the wheel
   double residual = 0;                      ///< |r| / |load vector|
   double penetration = 0;                   ///< m, largest of the nodes in contact
   Vec3 contact_force;                       ///< N, on the wheel, with the lateral friction

@@ -26,6 +26,7 @@ Lines lines_of(const SweptBody& body) {
   std::vector<long> slaves(body.blocks.size());
   for (int c = 0; c <= body.contact.columns; ++c) on_line[body.contact.block][c] = 1;
   for (const Tie& t : body.ties) on_line[t.master_block][t.master_node0] = on_line[t.master_block][t.master_node1] = 1;
+  for (const SectionNode& n : body.on_pads) on_line[n.block][n.node] = 1;
   for (const SectionNode& n : body.prescribed) {
     on_line[n.block][n.node] = 0;
     on_axle[n.block][n.node] = body.kind == SweepKind::revolve;

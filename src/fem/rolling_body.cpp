@@ -37,6 +37,7 @@ UpdateSchedule schedule_of(const Body& body, const ContactSurface& surface, cons
     out.at_once[block][node] = 0;
   };
   for (int c = 0; c < surface.columns; ++c) wait(mesh.contact.block, c);
+  for (const SectionNode& n : mesh.on_pads) wait(n.block, n.node);
   for (const Tie& t : mesh.ties) {
     wait(t.master_block, t.master_node0);
     wait(t.master_block, t.master_node1);

@@ -108,6 +108,11 @@ BandSample band_sample(const Body& body, const ContactBand& band, const SampledB
   return s;
 }
 
+double sleeper_below(const Stepper& st) {
+  const RailPads& pads = st.system().pads;
+  return pads.none() ? 0 : st.state().sleepers[sleeper_near(pads, st.position())].z;
+}
+
 }  // namespace
 
 RollingSample take_sample(const RollingSystem& sys, const SampledBody& rail, const SampledBody& wheel,
@@ -151,9 +156,21 @@ RollingSample take_sample(const Stepper& st) {
 HistoryRow history_row(const Stepper& st, const EnergyBalance& start) {
   const RollingState& s = st.state();
   const EnergyBalance& now = st.energy();
-  return {s.time,    st.position(), st.torque(), st.forces(), st.largest_pressure(),       st.creepage(),
-          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total(), st.lateral_creepage(),
-          s.axle.y};
+  return {s.time,
+          st.position(),
+          st.torque(),
+          st.forces(),
+          st.largest_pressure(),
+          st.creepage(),
+          s.axle.vx,
+          s.axle.vz,
+          s.axle.spin,
+          now,
+          now.total() - start.total(),
+          st.lateral_creepage(),
+          s.axle.y,
+          foot_height(st.system(), st.position(), s.bodies[kRail].u),
+          sleeper_below(st)};
 }
 
 }  // namespace railstrata

@@ -25,9 +25,10 @@ struct HistoryRow {
   ContactForces forces;
   double p_max, creepage, axle_vx, axle_vz, spin;
   EnergyBalance energy;
-  double closure;           ///< change of the balance's total since the start, J
-  double lateral_creepage;  ///< in the contact plane
-  double axle_y;            ///< m, travel sideways
+  double closure;            ///< change of the balance's total since the start, J
+  double lateral_creepage;   ///< in the contact plane
+  double axle_y;             ///< m, travel sideways
+  double foot_z, sleeper_z;  ///< m, of a rail on a track: its foot below the wheel, and the nearest sleeper
 };
 
 /// A body as it is sampled.

@@ -19,7 +19,7 @@ struct RollingState {
   long step = 0;
   BodyStates bodies;  ///< by BodyId
   AxleMotion axle;
-  std::vector<MassGroup> groups;
+  std::vector<MassGroup> groups, sleepers;  ///< sprung mass; half sleepers of a rail on a track
   SurfaceTractions tractions{0, 0};
 };
 

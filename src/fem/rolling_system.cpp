@@ -198,6 +198,7 @@ RollingSystem::RollingSystem(const Model& m)
   } else {
     absorbers = end_absorbers(rail());
     end_loads = end_loads_of(rail());
+    pads = rail_pads(rail(), m.spec.track.support);
   }
   surfaces = {rail_surface_of(m, rail()), wheel_surface_of(m, wheel())};
   for (const BodyId id : kBodies) {
@@ -211,6 +212,11 @@ RollingSystem::RollingSystem(const Model& m)
           over_table(across, model_to_rail(m.placement.track, rail_surface().at_contact(c)).y));
   const double yaw_angle = m.placement.contact.yaw;
   surfaces[kWheel].yaw = {std::cos(yaw_angle), std::sin(yaw_angle)};
+}
+
+double foot_height(const RollingSystem& system, double x, const Field& u) {
+  if (system.pads.none()) return 0;
+  return mean_height(spread_along(system.rail(), system.rail().mesh.on_pads, x, 0), u);
 }
 
 void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose,

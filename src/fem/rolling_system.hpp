@@ -17,6 +17,7 @@
 #include "body/body.hpp"
 #include "contact/enforcement.hpp"
 #include "core/body_id.hpp"
+#include "fem/rail_pads.hpp"
 #include "model/model.hpp"
 
 namespace railstrata {
@@ -81,6 +82,7 @@ struct RollingSystem {
   Axle axle;
   std::vector<EndDashpot> absorbers;
   std::vector<EndLoad> end_loads;
+  RailPads pads;                           ///< none: the rail's foot is held
   std::array<ContactSurface, 2> surfaces;  ///< by BodyId
   double gravity = 0;
   double rolling_radius = 0;
@@ -105,5 +107,8 @@ struct RollingSystem {
   void apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose,
                          const std::array<TiedPart*, 2>& parts = {}) const;
 };
+
+/// Displacement of the foot's base at x [m], u of the rail: 0 if it is held.
+double foot_height(const RollingSystem& system, double x, const Field& u);
 
 }  // namespace railstrata

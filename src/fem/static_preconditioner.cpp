@@ -46,6 +46,7 @@ StaticPreconditioner::StaticPreconditioner(const RollingSystem& system, const St
   invert_diagonal();
   probe(stiffness);
   probe_axle(stiffness);
+  add_sleepers();
 }
 
 StaticVector zero_vector(const RollingSystem& system) {
@@ -164,6 +165,26 @@ void StaticPreconditioner::probe_axle(const Operator& stiffness) {
   for (int i = first_mode(kWheel); i < axle; ++i)
     if (c[i] != 0) coarse_.emplace_back(axle, i, c[i]);
   coarse_.emplace_back(axle, axle, y.axle);
+}
+
+// What the pads lose because the sleepers sink, -k k/(k + k_b) s s^T with the shares s of a pad's nodes: it couples
+// clusters that are no neighbours, which probes do not show.
+void StaticPreconditioner::add_sleepers() {
+  const RailPads& pads = sys_.pads;
+  StaticVector shares = zero_vector(sys_);
+  std::vector<double> c(static_cast<std::size_t>(size_));
+  for (const auto& pad : pads.nodes) {
+    for (const NodeShare& n : pad) shares.body[kRail][n.index + 2 * n.stride] = n.share;
+    restrict_to(shares, c.data());
+    for (const NodeShare& n : pad) shares.body[kRail][n.index + 2 * n.stride] = 0;
+    std::vector<int> modes;
+    for (int i = 0; i < size_; ++i)
+      if (c[i] != 0) modes.push_back(i);
+    for (const int row : modes)
+      for (const int column : modes)
+        if (row >= column)
+          coarse_.emplace_back(row, column, -pads.track.pad_stiffness * pads.follows() * c[row] * c[column]);
+  }
 }
 
 void StaticPreconditioner::set_contact(const MortarRows& rows, const std::vector<char>& active, double penalty) {

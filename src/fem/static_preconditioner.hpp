@@ -24,7 +24,7 @@ StaticVector zero_vector(const RollingSystem& system);
 
 class StaticPreconditioner {
  public:
-  /// stiffness(x, y): y = K x on the free degrees of freedom, without contact.
+  /// stiffness(x, y): y = K x on the free degrees of freedom, without contact, sleepers standing still.
   using Operator = std::function<void(StaticVector&, StaticVector&)>;
   /// share: of this rank; vectors are right where it keeps them.
   StaticPreconditioner(const RollingSystem& system, const StaticShare& share, const ClusterSizes& sizes,
@@ -61,6 +61,7 @@ class StaticPreconditioner {
   void invert_diagonal();
   void probe(const Operator& stiffness);
   void probe_axle(const Operator& stiffness);
+  void add_sleepers();
   void gather_gaps(const MortarRows& rows, const std::vector<char>& active, double penalty);
   void factorise_gaps();
   void factorise_coarse();

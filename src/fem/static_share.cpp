@@ -8,6 +8,7 @@ std::vector<std::vector<char>> read_lines(const Body& body, const ContactSurface
   std::vector<std::vector<char>> out;
   for (const BlockLayout& l : body.layout.blocks) out.emplace_back(l.nodes, 0);
   for (int c = 0; c < surface.columns; ++c) out[body.mesh.contact.block][c] = 1;
+  for (const SectionNode& n : body.mesh.on_pads) out[n.block][n.node] = 1;
   for (const Tie& t : body.mesh.ties) {
     out[t.slave_block][t.slave_node] = 1;
     out[t.master_block][t.master_node0] = out[t.master_block][t.master_node1] = 1;

@@ -36,7 +36,8 @@ bool same_sizes(const RestartState& r, const RollingSystem& sys) {
   const ContactSurface& surface = sys.rail_surface();
   const auto surface_nodes = static_cast<std::size_t>(surface.columns) * surface.stations.nodes();
   return r.state.groups.size() == static_cast<std::size_t>(sys.options.vehicle.suspension_groups) &&
-         r.state.tractions.all().size() == surface_nodes && r.state.tractions.stations() == surface.stations.nodes();
+         r.state.sleepers.size() == sys.pads.x.size() && r.state.tractions.all().size() == surface_nodes &&
+         r.state.tractions.stations() == surface.stations.nodes();
 }
 
 RollingBodies rolling_bodies(const RollingSystem& sys, StepPlan& plan, const Ranks& ranks) {
@@ -53,7 +54,9 @@ Stepper::Stepper(const RollingSystem& system, const Ranks& ranks)
     : sys_(system),
       plan_(system),
       bodies_(rolling_bodies(system, plan_, ranks)),
-      contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)) {
+      contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)),
+      track_(system.pads) {
+  require_stable(system.pads, system.rail(), dt(), system.model.spec.run.step_safety);
   if (!ranks.alone() && sys_.on_ring())
     throw CaseError(
         "a rail that is a ring (geometry.rail_radius) is not shared by ranks: they exchange what stands "
@@ -85,7 +88,7 @@ Stepper::Stepper(const RollingSystem& system, RestartState restart, const Ranks&
 
 RestartState Stepper::restart_state() const {
   RestartState out = restart_beside_state();
-  out.state = {state_.time, state_.step, {}, state_.axle, state_.groups, state_.tractions};
+  out.state = {state_.time, state_.step, {}, state_.axle, state_.groups, state_.sleepers, state_.tractions};
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     for (const StateArray& a : kStateArrays)
       if (a.restart) out.state.bodies[k].*a.values = state_.bodies[k].*a.values;
@@ -130,6 +133,7 @@ void Stepper::start(const PreloadResult& preload) {
     if (k == kRail && !preload.before.empty()) add(state.u, -1, preload.before);  // what was there does not travel
     start_velocities(b, rate[k], state);
     state.u = preload.u[k];
+    if (k == kRail) state_.sleepers = sleepers_below(sys_.pads, state.u, state.v);
     if (k == kWheel) b.mean = mean_motion(b, state);  // a ring has nothing to keep: its shaft turns it
   }
 }
@@ -182,6 +186,8 @@ void Stepper::step() {
   if (want_energy_) book_stored_energy(turned);
   const std::array<double, 2> tie_moment = reduce_ties(turned);
   scope.lap(StepPart::tie_forces);
+  if (!sys_.pads.none())
+    track_.press(state_.bodies[kRail].u, state_.bodies[kRail].v, dt(), state_.sleepers, state_.bodies[kRail].f);
   absorb_at_ends();
   const AxleLoads loads = bore_loads(sys_.axle.bore, state_.bodies[kWheel].f, rotation_by(turned[kWheel]),
                                      tie_moment[kWheel], bodies_[kWheel].frame);
@@ -199,13 +205,14 @@ void Stepper::step() {
   scope.lap(StepPart::contact);
 
   update_waiting_nodes(bodies_, state_.bodies, scope);
+  if (!sys_.pads.none()) book_track();
   scope.lap(StepPart::waiting);
   sums_ = update_sums(bodies_, scope, exchange());
   book_update(scope);
   const double axle_kinetic = advance_axle(axle_law(sys_, axle_rest_z_), loads, axle_drive(), scope.dt,
                                            scope.damping_rate, state_.axle, state_.groups, balance_);
   if (want_energy_) {
-    book_kinetic_energy(axle_kinetic);
+    book_kinetic_energy(axle_kinetic + track_.kinetic());
     recorded_ = halfway(before, balance_);
   }
   advance_clock();
@@ -269,12 +276,26 @@ void Stepper::absorb_at_ends() {
   BodyState& rail = state_.bodies[kRail];
   double absorbed = 0;
   for (const EndDashpot& d : sys_.absorbers) {
-    const double v = rail.v[d.index];
+    const double v = sys_.pads.none() ? rail.v[d.index] : absorbing_velocity(d);
     rail.f[d.index] += d.coefficient * v;
     absorbed += d.coefficient * v * v;
   }
   balance_.absorbed += dt() * absorbed;
   for (const EndLoad& l : sys_.end_loads) rail.f[l.index] -= l.force;
+}
+
+// The mean of the velocities before and after the update: stable at any coefficient, hence on coarse ends too.
+double Stepper::absorbing_velocity(const EndDashpot& d) const {
+  const BodyState& rail = state_.bodies[kRail];
+  const double mobility = dt() * sys_.rail().inverse_mass[d.index], half = 0.5 * d.coefficient * mobility;
+  return (rail.v[d.index] - 0.5 * mobility * rail.f[d.index]) / (1 + half);
+}
+
+// Springs and dashpots of the track stand with the suspension's.
+void Stepper::book_track() {
+  const TrackLosses losses = track_.losses(state_.bodies[kRail].v);
+  balance_.dashpot += losses.pads + losses.ballast;
+  if (want_energy_) balance_.spring += track_.elastic();
 }
 
 void Stepper::book_contact(const ContactLosses& losses) {

@@ -29,6 +29,7 @@
 #include "fem/rolling_system.hpp"
 #include "fem/step_engine.hpp"
 #include "fem/step_plan.hpp"
+#include "fem/track_step.hpp"
 
 namespace railstrata {
 
@@ -105,6 +106,8 @@ class Stepper {
   std::array<double, 2> reduce_ties(const std::array<double, 2>& drift);
   void book_ring_drive(double tie_moment);
   void absorb_at_ends();
+  double absorbing_velocity(const EndDashpot& d) const;
+  void book_track();
   void step_on_engine();
   void take_over(const StepRecord& record);
   int steps_until_look() const;
@@ -123,6 +126,7 @@ class Stepper {
   RollingBodies bodies_;
   std::optional<RankExchange> exchange_;  // none: one rank
   ContactStep contact_;
+  TrackStep track_;
   EnergyBalance balance_, recorded_;
   std::array<UpdateSums, 2> sums_;  // of this step
   double axle_rest_z_ = 0, side_force_ = 0;

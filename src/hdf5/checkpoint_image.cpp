@@ -70,6 +70,11 @@ class Writer {
     T sample{};
     table(name, sample, all.data(), all.size(), visit);
   }
+  /// Rows that older formats lack.
+  template <class T, class Visit>
+  void later_rows(const char* name, std::vector<T>& all, Visit&& visit) {
+    rows(name, all, visit);
+  }
   template <class T, class Visit>
   void row(const char* name, T& value, Visit&& visit) {
     table(name, value, &value, 1, visit);
@@ -148,6 +153,10 @@ class Reader {
     all.assign(count, T{});
     const double* next = values.data();
     for (T& one : all) take(one, next, visit);
+  }
+  template <class T, class Visit>
+  void later_rows(const char* name, std::vector<T>& all, Visit&& visit) {
+    if (H5Lexists(at_, name, H5P_DEFAULT) > 0) rows(name, all, visit);
   }
   template <class T, class Visit>
   void row(const char* name, T& value, Visit&& visit) {
@@ -347,6 +356,7 @@ void describe(Archive& a, RestartState& m) {
   }
   a.row("axle", s.axle, visit_axle);
   a.rows("suspension", s.groups, visit_mass);
+  a.later_rows("sleepers", s.sleepers, visit_mass);
   a.row("energy", m.balance, visit_energy);
   a.rows("contact_facets", m.facets, visit_facet);
   std::vector<int> stations{s.tractions.stations()};
@@ -422,6 +432,17 @@ void describe(Archive& a, RunResult& r) {
     on("nodes", v.nodes);
   });
   a.rows("history", r.history, visit_history);
+  std::vector<double> foot{r.preload.foot_z};
+  a.later_rows("preload_foot", foot, [](auto& z, auto&& on) { on("foot_z", z); });
+  if (Archive::reading && !foot.empty()) r.preload.foot_z = foot.front();
+  std::vector<HistoryRow> on_track = Archive::reading ? std::vector<HistoryRow>{} : r.history;
+  a.later_rows("track_history", on_track,
+               [](auto& h, auto&& on) { on("foot_z", h.foot_z), on("sleeper_z", h.sleeper_z); });
+  if (Archive::reading)
+    for (std::size_t k = 0; k < std::min(on_track.size(), r.history.size()); ++k) {
+      r.history[k].foot_z = on_track[k].foot_z;
+      r.history[k].sleeper_z = on_track[k].sleeper_z;
+    }
   each(a, "positions", r.positions, [](auto& part, PositionSamples& p) {
     part.row("wanted", p, [](auto& v, auto&& on) { on("position", v.position); });
     each(part, "samples", p.samples, [](auto& inner, RollingSample& s) { describe(inner, s); });

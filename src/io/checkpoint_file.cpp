@@ -22,25 +22,26 @@ using Damage = CheckpointDamage;
 constexpr std::size_t kHeader = 512;  // HDF5 looks for its superblock at 0, 512, 1024, …
 
 /// The first kHeader bytes of a file with this image.
-std::string header_of(std::string_view image) {
+std::string header_of(std::string_view image, int format = kCheckpointFormat) {
   std::string text = fmt::format(
       "RailStrata checkpoint\nformat {}\nbytes {}\nsha256 {}\nHDF5 from byte {} on; go on with: railstrata run "
       "--resume <this folder>\n",
-      kCheckpointFormat, image.size(), sha256_of(image), kHeader);
+      format, image.size(), sha256_of(image), kHeader);
   text.resize(kHeader, ' ');
   text.back() = '\n';
   return text;
 }
 
-/// The fault of a checkpoint in another format.
-Damage of_another_program(std::string_view format) {
+/// The number of a format that is read. Throws Damage for any other.
+int readable_format(std::string_view format) {
   int number = 0;
   const auto [end, error] = std::from_chars(format.data(), format.data() + format.size(), number);
   if (error != std::errc{} || end != format.data() + format.size())
-    return {fmt::format("its format is {}, this program's is {}", format.substr(0, 20), kCheckpointFormat)};
-  return {fmt::format("it was written by {} RailStrata (its format is {}, this program's is {})",
-                      number < kCheckpointFormat ? "an older" : "a newer", number, kCheckpointFormat),
-          "start the run anew with --force, or go on with the program that wrote it"};
+    throw Damage{fmt::format("its format is {}, this program's is {}", format.substr(0, 20), kCheckpointFormat)};
+  if (number >= kOldestCheckpointFormat && number <= kCheckpointFormat) return number;
+  throw Damage{fmt::format("it was written by {} RailStrata (its format is {}, this program's is {})",
+                           number < kCheckpointFormat ? "an older" : "a newer", number, kCheckpointFormat),
+               "start the run anew with --force, or go on with the program that wrote it"};
 }
 
 /// Throws Damage unless every byte is as it was written.
@@ -49,13 +50,9 @@ void verify(std::string_view bytes) {
   if (bytes.empty()) throw Damage{"it is empty"};
   if (!bytes.starts_with(kStart)) throw Damage{"it does not start as a checkpoint does"};
   if (bytes.size() <= kHeader) throw Damage{"it is cut off"};
-  const std::string expected = header_of(bytes.substr(kHeader));
-  const auto format = [&](std::string_view text) {
-    return text.substr(kStart.size(), text.find('\n', kStart.size()) - kStart.size());
-  };
-  if (const std::string_view found = format(bytes.substr(0, kHeader)); found != format(expected))
-    throw of_another_program(found);
-  if (bytes.substr(0, kHeader) != expected)
+  const std::string_view header = bytes.substr(0, kHeader);
+  const int format = readable_format(header.substr(kStart.size(), header.find('\n', kStart.size()) - kStart.size()));
+  if (header != header_of(bytes.substr(kHeader), format))
     throw Damage{"its checksum does not agree with its bytes: it is cut off or was changed"};
 }
 

@@ -16,7 +16,9 @@ namespace railstrata {
 
 /// 2: the columns of contact_facets have their own names. A checkpoint of another format is refused, the message gives
 /// which program wrote it.
-inline constexpr int kCheckpointFormat = 6;
+inline constexpr int kCheckpointFormat = 7;
+/// Those from this one on are read too; 6 has no sleepers.
+inline constexpr int kOldestCheckpointFormat = 6;
 
 /// The file's bytes, and back. checkpoint_of throws CaseError with the fault in the bytes; `file`: their name in the
 /// message.

@@ -238,7 +238,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
   return mesh;
 }
 
-Columns<HistoryRow> history_columns() {
+Columns<HistoryRow> history_columns(bool on_track) {
   using H = HistoryRow;
   Columns<H> out{{"time", unit::kMilliseconds, &H::time},
                  {"position", unit::kMillimetres, &H::position},
@@ -258,6 +258,9 @@ Columns<HistoryRow> history_columns() {
   for (const EnergyEntry& e : kEnergyEntries)
     out.push_back({e.name, unit::kJoules, [value = e.value](const H& h) { return h.energy.*value; }});
   out.push_back({"closure", unit::kJoules, &H::closure});
+  if (!on_track) return out;
+  out.push_back({"foot_z", unit::kMillimetres, &H::foot_z});
+  out.push_back({"sleeper_z", unit::kMillimetres, &H::sleeper_z});
   return out;
 }
 

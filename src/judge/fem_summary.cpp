@@ -33,7 +33,7 @@ ContactSummary contact_summary(const RollingSystem& sys, const RunResult& run, c
   c.F_z = m.F_z;
   turn_into_contact_plane(c, sys.model.placement.contact.angle);
   c.lateral_force = m.patch.force_y;
-  c.approach = -run.preload.axle_z;
+  c.approach = run.preload.foot_z - run.preload.axle_z;
   c.penetration_max = run.penetration;
   if (!sys.model.spec.run.rolling) return c;
   c.creepage_x = m.creepage;

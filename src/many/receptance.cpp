@@ -104,11 +104,9 @@ Receptance beam_receptances(const Model& model, const std::vector<double>& frequ
 std::vector<BlowEnergy> add_hammer_receptances(const Model& model, double time,
                                                const std::function<void(double)>& progress, Receptance& r) {
   const SleeperTrack& track = model.spec.track.support;
-  SweptBody mesh = model.rail;
-  const std::vector<SectionNode> base = std::exchange(mesh.prescribed, {});
-  const Body rail(mesh, model.rail_materials, element_options(model.spec));
-  const RailPads pads = rail_pads(rail, base, track);
-  const std::vector<double>& at = mesh.blocks[mesh.contact.block].stations.at;
+  const Body rail(model.rail, model.rail_materials, element_options(model.spec));
+  const RailPads pads = rail_pads(rail, track);
+  const std::vector<double>& at = model.rail.blocks[model.rail.contact.block].stations.at;
   const double middle = 0.5 * (at.front() + at.back());
   std::vector<BlowEnergy> out;
   for (const ForcePlace& place : kForcePlaces) {

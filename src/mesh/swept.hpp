@@ -95,6 +95,8 @@ struct SweptBody {
   ContactBand contact;
   /// Rail: nodes of the foot's base (fixed); wheel: nodes of the bore (they move with the rigid axle).
   std::vector<SectionNode> prescribed;
+  /// Nodes of the base of a rail on a track: free, pads press on them.
+  std::vector<SectionNode> on_pads;
   std::vector<std::string> materials;  ///< names; 0 is the matrix, then the layers from the surface down
   std::vector<int> material_layer;     ///< of each material: 0 the matrix, k the k-th layer; the rows of a graded layer
                                        ///< share theirs. Empty: every material is a layer

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/body_id.hpp"
 #include "core/faults.hpp"
@@ -285,6 +286,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   m.rail = meshed_rail     ? *meshed_rail
            : g.rail_radius ? mesh_ring_rail(m.placement.rail, *g.rail_radius, rail, sizes)
                            : mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
+  if (!spec.track.held() && m.rail.on_pads.empty()) m.rail.on_pads = std::exchange(m.rail.prescribed, {});
 
   WheelMeshSpec wheel;
   wheel.shape = g.wheel_shape;

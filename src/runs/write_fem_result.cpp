@@ -123,8 +123,9 @@ struct FemWriter::GrowingFiles {
   std::optional<RecordLog<HistoryRow>> history;
   std::optional<PatchSeries> series;
 
-  RecordLog<HistoryRow>& history_in(const fs::path& folder, const std::vector<std::string>& provenance) {
-    if (!history) history.emplace(folder / "history.csv", provenance, history_columns());
+  RecordLog<HistoryRow>& history_in(const fs::path& folder, const RollingSystem& system,
+                                    const std::vector<std::string>& provenance) {
+    if (!history) history.emplace(folder / "history.csv", provenance, history_columns(!system.pads.none()));
     return *history;
   }
   PatchSeries& series_in(const fs::path& folder, const RollingSystem& system,
@@ -140,7 +141,7 @@ FemWriter::FemWriter(const RollingSystem& system, fs::path folder, CheckpointOri
       origin_(std::move(origin)),
       growing_(std::make_unique<GrowingFiles>()) {
   if (!begun) return;
-  RecordLog<HistoryRow>& history = growing_->history_in(folder_, origin_.provenance);
+  RecordLog<HistoryRow>& history = growing_->history_in(folder_, system_, origin_.provenance);
   for (const HistoryRow& row : begun->result.history) history.add(row);
   const CaseSpec& spec = system_.model.spec;
   if (spec.run.rolling && spec.output.patch_series)
@@ -150,7 +151,9 @@ FemWriter::FemWriter(const RollingSystem& system, fs::path folder, CheckpointOri
 FemWriter::~FemWriter() = default;
 
 void FemWriter::observe(RunObserver& observer, const Control& control) {
-  observer.history = [this](const HistoryRow& row) { growing_->history_in(folder_, origin_.provenance).add(row); };
+  observer.history = [this](const HistoryRow& row) {
+    growing_->history_in(folder_, system_, origin_.provenance).add(row);
+  };
   const CaseSpec& spec = system_.model.spec;
   if (spec.run.rolling && spec.output.patch_series)
     observer.frame = [this](const RollingSample& sample) {
@@ -162,7 +165,7 @@ void FemWriter::observe(RunObserver& observer, const Control& control) {
 }
 
 void FemWriter::write(const FemSolution& solution) {
-  growing_->history_in(folder_, origin_.provenance);
+  growing_->history_in(folder_, system_, origin_.provenance);
   for (const FemPosition& position : solution.positions) {
     const bool last = !solution.stopped && &position == &solution.positions.back();
     const fs::path folder = last ? folder_ : folder_ / position_folder(position.contact.position);

@@ -104,7 +104,13 @@ TEST(IrregularityCaseFile, FiniteElementsSayWhatTheyDoNotTake) {
   EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\n[[irregularity]]\nkind = \"dip\"\nat = \"2 m\"\nangle = \"10 mrad\"\n"),
             Keys{"irregularity.0"})
       << "no track";
+  const std::string on_track = "[track]\npreset = \"delft\"\n";
+  EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\n[[irregularity]]\nkind = \"dip\"\nat = \"2 m\"\nangle = \"10 mrad\"\n" +
+                   on_track),
+            Keys{});
   EXPECT_THROW(require_same_along(parse_case(hollow, "a.toml").spec, "steady rolling"), CaseError);
+  EXPECT_THROW(require_same_along(parse_case(on_track, "a.toml").spec, "steady rolling"), CaseError);
+  EXPECT_THROW(parse_case(on_track + "[run]\ntime_step_method = \"local\"\n", "a.toml"), CaseError);
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ void expect_same_state(const RestartState& a, const RestartState& b, const std::
   }
   EXPECT_TRUE(same_bits(a.state.tractions.all(), b.state.tractions.all())) << where;
   EXPECT_TRUE(same_bits(a.state.groups, b.state.groups)) << where;
+  EXPECT_TRUE(same_bits(a.state.sleepers, b.state.sleepers)) << where;
   EXPECT_EQ(std::memcmp(&a.state.axle, &b.state.axle, sizeof a.state.axle), 0) << where;
   EXPECT_EQ(std::memcmp(&a.balance, &b.balance, sizeof a.balance), 0) << where;
   EXPECT_EQ(std::memcmp(&a.mean, &b.mean, sizeof a.mean), 0) << where;
@@ -117,6 +118,11 @@ void expect_bits_of_one_rank(const CaseSpec& spec, const std::vector<int>& count
 }  // namespace
 
 TEST(Ranks, ComputeTheBitsOfOne) { expect_bits_of_one_rank(damped_case()); }
+
+TEST(Ranks, OnATrackToo) {
+  expect_bits_of_one_rank(on_track(damped_case()), {3}, 32);
+  expect_preload_of_one_rank(on_track(small_case()), {{3, 2}});
+}
 
 TEST(SlowRanks, WithAThinLayerAndScaledMassesToo) {
   expect_bits_of_one_rank(thinly_layered(damped_case(), TimeStepMethod::mass_scaling));

@@ -46,6 +46,7 @@ void expect_same_bits(const CaseSpec& spec) {
   EXPECT_TRUE(same_bits(a.bodies[1].v, b.bodies[1].v));
   EXPECT_TRUE(same_bits(a.tractions.all(), b.tractions.all()));
   EXPECT_TRUE(same_bits(a.groups, b.groups));
+  EXPECT_TRUE(same_bits(a.sleepers, b.sleepers));
   EXPECT_EQ(std::memcmp(&a.axle, &b.axle, sizeof a.axle), 0);
   EXPECT_EQ(whole.energy().total(), second.energy().total());
   EXPECT_NE(whole.energy().total(), 0);
@@ -60,6 +61,8 @@ CaseSpec damped_case() {
 }
 
 }  // namespace
+
+TEST(Resume, OnATrackGivesTheBitsOfARunInOneGo) { expect_same_bits(on_track(damped_case())); }
 
 TEST(Resume, AStepperFromMemoryComputesTheSameBits) { expect_same_bits(damped_case()); }
 

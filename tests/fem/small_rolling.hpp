@@ -51,6 +51,16 @@ inline CaseSpec thinly_layered(CaseSpec s, TimeStepMethod method) {
   return s;
 }
 
+/// On three sleepers, with hard ballast: a bar of 60 mm by 60 mm is no rail.
+inline CaseSpec on_track(CaseSpec s) {
+  s.track.preset = TrackSet::medium;
+  s.track.support.spacing = 0.2;
+  s.track.support.pad_length = 0.06;
+  s.track.support.ballast_stiffness = 80e6;
+  s.track.support.bays = 3;
+  return s;
+}
+
 inline RollingSystem small_system(const CaseSpec& spec) { return RollingSystem(build_model(spec, ".")); }
 
 }  // namespace railstrata::fem_checks

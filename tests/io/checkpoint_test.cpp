@@ -34,6 +34,7 @@ RunState small_run(double time) {
   r.stepper.state.tractions = SurfaceTractions(2, 3);
   r.stepper.state.tractions.at(1, 2) = {1, 2, 3, 4, 5, 6, 0.5, 11, 12, 2, 8, 9};
   r.stepper.state.groups = {{0.5, -0.5}};
+  r.stepper.state.sleepers = {{-6e-4, 0.01}, {-7e-4, 0}};
   r.stepper.facets = {{3, 4, {{1, 2}, {3, 4}, {5, 6}, {7, 8}}}};
   r.stepper.reached_edge = true;
   r.result.history.resize(2);
@@ -281,6 +282,28 @@ TEST_F(Checkpoints, NumbersAreTakenFromThisFileAndAsTheyWereWrittenOnly) {
     H5Lcreate_soft("/state/v_wheel", file, "state/u_rail", H5P_DEFAULT, H5P_DEFAULT);
   });
   EXPECT_NE(refused_for(linked).find("u_rail is a link"), std::string::npos);
+}
+
+TEST_F(Checkpoints, OfTheFormatBeforeSleepersAreRead) {
+  RunState run = small_run(1);
+  run.result.history[0].foot_z = -8e-4;
+  run.result.preload.foot_z = -9e-4;
+  const std::string whole = checkpoint_bytes(kOrigin, run);
+  const Checkpoint now = checkpoint_of(whole, "x");
+  ASSERT_EQ(now.run.stepper.state.sleepers.size(), 2u);
+  EXPECT_EQ(now.run.stepper.state.sleepers[0].z, -6e-4);
+  EXPECT_EQ(now.run.result.history[0].foot_z, -8e-4);
+  EXPECT_EQ(now.run.result.preload.foot_z, -9e-4);
+  std::string before = edited(whole, [](hid_t file) {
+    for (const char* part : {"state/sleepers", "result/track_history", "result/preload_foot"})
+      ASSERT_GE(H5Ldelete(file, part, H5P_DEFAULT), 0);
+  });
+  const std::string format = fmt::format("format {}\n", kCheckpointFormat);
+  before.replace(before.find(format), format.size(), fmt::format("format {}\n", kOldestCheckpointFormat));
+  const Checkpoint then = checkpoint_of(before, "x");
+  EXPECT_TRUE(then.run.stepper.state.sleepers.empty());
+  EXPECT_EQ(then.run.result.history.size(), 2u);
+  EXPECT_EQ(then.run.stepper.state.time, 1);
 }
 
 TEST_F(Checkpoints, ThoseOfAnotherCaseOrFormatAreRefused) {
