@@ -112,7 +112,7 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
 void require_half_spaces(const CaseSpec& spec) {
   if (!spec.track.held())
     throw CaseError("half-spaces have no inertia, and no track below them",
-                    "take [track] out, or compute the rail on it with `railstrata receptance`", "track.preset");
+                    "take [track] out, or roll over it with `railstrata run`", "track.preset");
 }
 
 void require_finite_elements(const CaseSpec& spec) {

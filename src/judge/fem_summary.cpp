@@ -97,7 +97,9 @@ std::vector<Check> finite_element_checks(const Model& model, const RunResult& ru
   const CaseSpec& spec = model.spec;
   std::vector<Check> out;
   out.push_back(at_most("preload_residual", run.preload.residual, spec.run.preload_tolerance));
-  out.push_back(fem_check("F_z_relative_to_weight", std::abs(m.F_z / model.load - 1)));
+  // over heights and sleepers masses move up and down, and no moment is like another
+  const bool steady = !spec.run.rolling || (spec.irregularities.empty() && spec.track.held());
+  if (steady) out.push_back(fem_check("F_z_relative_to_weight", std::abs(m.F_z / model.load - 1)));
   if (const double wanted = spec.drive.traction().value_or(0); spec.run.rolling && wanted != 0)
     out.push_back(fem_check("traction_coefficient_reached", std::abs(along_wheel(model, m) / m.F_z / wanted - 1)));
   if (const double wanted = spec.drive.lateral_traction_coefficient.value_or(0); spec.run.rolling && wanted != 0)
@@ -105,7 +107,7 @@ std::vector<Check> finite_element_checks(const Model& model, const RunResult& ru
   out.push_back(fem_check("penetration_over_approach", run.penetration / model.hertz.approach));
   if (spec.run.rolling) {
     out.push_back(fem_check("energy_closure", run.closure));
-    out.push_back(fem_check("p_max_scatter", m.p_max_scatter));
+    if (steady) out.push_back(fem_check("p_max_scatter", m.p_max_scatter));
   }
   if (spec.mesh.element == ElementFormulation::one_point)
     out.push_back(fem_check("hourglass_share", run.hourglass_share));
