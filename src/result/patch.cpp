@@ -4,44 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/patch_extent.hpp"
 #include "core/parabola.hpp"
 #include "result/front_of_slip.hpp"
 
 namespace railstrata {
 namespace {
-
-struct Chord {
-  double begin = 0, end = 0;
-  bool any = false;
-  double length() const { return end - begin; }
-};
-
-// Where the pressure of points t[i] vanishes beyond its last value above the noise: p² is linear near the edge of a
-// smooth contact.
-double edge(double t_in, double p_in, double t_last, double p_last, double t_out) {
-  const double slope = (p_in * p_in - p_last * p_last) / (t_last - t_in);  // decrease of p² per length
-  const double distance = slope * (t_last - t_in) > 0 ? p_last * p_last / slope : t_out - t_last;
-  return t_out > t_last ? std::min(t_last + distance, t_out) : std::max(t_last + distance, t_out);
-}
-
-template <class T, class P>
-Chord chord(int n, double noise, T&& t, P&& p) {
-  int first = -1, last = -1;
-  for (int i = 0; i < n; ++i)
-    if (p(i) > noise) {
-      if (first < 0) first = i;
-      last = i;
-    }
-  if (first < 0) return {};
-  Chord c{t(first), t(last), true};
-  if (last + 1 < n)
-    c.end =
-        last > first ? edge(t(last - 1), p(last - 1), t(last), p(last), t(last + 1)) : 0.5 * (t(last) + t(last + 1));
-  if (first > 0)
-    c.begin = last > first ? edge(t(first + 1), p(first + 1), t(first), p(first), t(first - 1))
-                           : 0.5 * (t(first) + t(first - 1));
-  return c;
-}
 
 /// The point of largest pressure; of several beside one another with the same, as along a line contact, the middle one.
 int point_of_largest_pressure(const ContactField& f) {
@@ -102,8 +70,7 @@ double slipping_share_of_chords(const ContactField& f) {
   std::vector<Strip> strips;
   for (int c = 0; c < f.columns; ++c) {
     const auto at = [&](int s) { return s * f.columns + c; };
-    const Chord along = chord(
-        f.stations, f.p_noise, [&](int s) { return f.x[at(s)]; }, [&](int s) { return f.p[at(s)]; });
+    const Chord along = chord_along(f, c);
     if (along.any) strips.push_back({f.y[at(0)], along.length(), slipping_length(f, c, along)});
   }
   double touching = 0, slipping = 0;
@@ -113,7 +80,8 @@ double slipping_share_of_chords(const ContactField& f) {
     slipping += half * (strips[k].slipping + strips[k - 1].slipping);
   }
   const auto add_side = [&](const Strip& inner, const Strip& last) {
-    const double step = last.y - inner.y, side = edge(inner.y, inner.length, last.y, last.length, last.y + step),
+    const double step = last.y - inner.y,
+                 side = vanishing_place(inner.y, inner.length, last.y, last.length, last.y + step),
                  area = last.length * std::abs(side - last.y), share = last.slipping / last.length;
     touching += 2.0 / 3.0 * area;
     slipping += (share - share * share * share / 3) * area;
@@ -137,42 +105,22 @@ double slipping_share(const ContactField& f) {
 
 /// Length, width and area from the chords of columns and stations; y at the station of largest pressure.
 void find_extent(const ContactField& f, int peak_station, PatchMeasures& m) {
-  const int nc = f.columns, ns = f.stations;
-  const auto at = [nc](int c, int s) { return s * nc + c; };
-  std::vector<Chord> along(nc);
-  int first = -1, last = -1;
-  for (int c = 0; c < nc; ++c) {
-    along[c] = chord(
-        ns, f.p_noise, [&](int s) { return f.x[at(c, s)]; }, [&](int s) { return f.p[at(c, s)]; });
-    m.length = std::max(m.length, along[c].length());
-    if (along[c].any) {
-      if (first < 0) first = c;
-      last = c;
-    }
-  }
-  double y_begin = 0, y_end = 0;
-  for (int s = 0; s < ns; ++s) {
-    const Chord c = chord(
-        nc, f.p_noise, [&](int k) { return f.y[at(k, s)]; }, [&](int k) { return f.p[at(k, s)]; });
-    if (c.length() > m.width) {
-      m.width = c.length();
-      y_begin = c.begin;
-      y_end = c.end;
-    }
-  }
-  if (first < 0) return;
+  const PatchExtent e = patch_extent(f);
+  m.length = e.length;
+  m.width = e.width;
+  if (e.first < 0) return;
   if (f.line_length > 0) {
     m.width = std::numeric_limits<double>::quiet_NaN();
     m.area = m.length * f.line_length;
     return;
   }
-  const int s = peak_station;
-  for (int c = first; c < last; ++c)
-    m.area += 0.5 * (along[c].length() + along[c + 1].length()) * (f.y[at(c + 1, s)] - f.y[at(c, s)]);
+  const auto y = [&](int c) { return f.y[peak_station * f.columns + c]; };
+  for (int c = e.first; c < e.last; ++c)
+    m.area += 0.5 * (e.along[c].length() + e.along[c + 1].length()) * (y(c + 1) - y(c));
   // the rounded ends beyond the outermost columns: a parabola's segment
   m.area += 2.0 / 3.0 *
-            (along[first].length() * std::max(0.0, f.y[at(first, s)] - y_begin) +
-             along[last].length() * std::max(0.0, y_end - f.y[at(last, s)]));
+            (e.along[e.first].length() * std::max(0.0, y(e.first) - e.widest.begin) +
+             e.along[e.last].length() * std::max(0.0, e.widest.end - y(e.last)));
 }
 
 }  // namespace

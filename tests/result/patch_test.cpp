@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/patch_extent.hpp"
+
 using namespace railstrata;
 
 namespace {
@@ -43,6 +45,15 @@ TEST(Patch, AxesAreaAndPeakOfAnEllipseOnMillimetrePointsWhereverItLies) {  // cl
     EXPECT_NEAR(m.p_max / kPeak, 1, 2e-3) << shift;
     EXPECT_NEAR(m.p_max_x, shift, 0.05e-3);
   }
+}
+
+TEST(Patch, TwoPartsAreTwoRegionsWithTheGapBetweenThemInTheLength) {
+  ContactField f = hertz_field(0.25e-3, 0, 0);
+  EXPECT_EQ(contact_regions(f), 1);
+  for (int i = 0; i < f.size(); ++i)
+    if (std::abs(f.x[i]) < 1e-3) f.p[i] = 0;
+  EXPECT_EQ(contact_regions(f), 2);
+  EXPECT_NEAR(patch_extent(f).length, 2 * kA, 0.1e-3);
 }
 
 TEST(Patch, MeasuresConvergeWithTheSpacing) {

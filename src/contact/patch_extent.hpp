@@ -1,0 +1,48 @@
+#pragma once
+// How far a patch reaches, and in how many parts: from the pressures of a field of either engine.
+#include <vector>
+
+#include "contact/contact_field.hpp"
+
+namespace railstrata {
+
+/// Of the largest pressure: points of finite elements below it are left out of areas and ratios.
+inline constexpr double kPressureNoise = 0.025;
+
+/// A row of points from the first to the last in contact, between the edges where p² extrapolates to zero, as Hertz's
+/// pressure does; gaps between them included.
+struct Chord {
+  double begin = 0, end = 0;  ///< m
+  bool any = false;
+  double length() const { return end - begin; }
+};
+
+/// Where a quantity of points t_in, t_last vanishes beyond its last value, t_out at most: its square is linear near the
+/// edge of a smooth contact.
+double vanishing_place(double t_in, double p_in, double t_last, double p_last, double t_out);
+
+/// Along x, of a column.
+Chord chord_along(const ContactField& field, int column);
+
+struct PatchExtent {
+  double length = 0, width = 0;  ///< m, of the longest chords along x and across
+  std::vector<Chord> along;      ///< of every column
+  Chord widest;                  ///< across
+  int first = -1, last = -1;     ///< outermost columns in contact; -1: none
+};
+PatchExtent patch_extent(const ContactField& field);
+
+/// A patch on a wheel's way over heights of rail or wheel.
+struct PatchOnWay {
+  double length = 0, width = 0;  ///< m, as of PatchExtent
+  double p_max_x = 0;            ///< m, along the rail from where the wheel began
+  int patches = 0;               ///< connected regions
+  double height = 0;             ///< m, of rail and wheel together below the axle
+  double lowering = 0;           ///< m, of the wheel below where it would run (half-spaces) or began (finite elements)
+                                 ///< on the smooth rail
+};
+
+/// Connected regions of points in contact: a wheel that bridges a hollow has two. Points touch at corners too.
+int contact_regions(const ContactField& field);
+
+}  // namespace railstrata
