@@ -10,7 +10,6 @@
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "fem/rolling_system.hpp"
-#include "mesh/beam_section.hpp"
 #include "record/output_file.hpp"
 #include "report/page.hpp"
 
@@ -67,13 +66,6 @@ ReceptanceCurve over_force(const ForcePlace& place, const char* of, const BlowRe
 }
 
 }  // namespace
-
-RailBeam rail_beam(const Model& model) {
-  const BeamSection s = beam_section(model.rail);
-  const MaterialSpec& m = model.spec.rail_material;
-  return {m.young * s.inertia, s.shear_share * s.area * m.young / (2 * (1 + m.poisson)), m.density * s.area,
-          m.density * s.inertia};
-}
 
 std::vector<double> receptance_frequencies(double largest) {
   std::vector<double> out{0};

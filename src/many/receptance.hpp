@@ -8,14 +8,10 @@
 #include <vector>
 
 #include "fem/rail_on_track.hpp"
-#include "model/model.hpp"
+#include "model/rail_beam.hpp"
 #include "record/csv.hpp"
-#include "track/beam_receptance.hpp"
 
 namespace railstrata {
-
-/// The meshed rail of a model as a beam.
-RailBeam rail_beam(const Model& model);
 
 struct ReceptanceCurve {
   std::string name;                          ///< "beam_midspan"
