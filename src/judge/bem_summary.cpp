@@ -60,14 +60,13 @@ std::vector<const BemPatch*> patches_of(const BemResult& r) {
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
   const bool load_given = !spec.vehicle.approach;
   const double load = load_given ? static_load(spec) : -force_on_rail(r).z;
-  double force_x = 0, force_y = 0, reached = 0, cut_off = 0, cell = 0, film = 0;
+  double force_x = 0, force_y = 0, reached = 0, cut_off = 0, film = 0;
   for (const BemPatch* p : patches_of(r)) {
     const PatchMeasures m = measure_patch(p->field);
     force_x += m.force_x;
     force_y += m.force_y;
     if (reaches_edge(p->field)) reached = 1;
     if (p->surroundings.cut_off) cut_off = 1;
-    cell = std::max(cell, p->grid.dx / shorter_axis(m));
     film = std::max(film, film_shear(spec, m));
   }
   std::vector<Check> out;
@@ -79,7 +78,7 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
     out.push_back(bem_check("lateral_traction_reached", std::abs(force_y / load / wanted - 1)));
   out.push_back(bem_check("patch_reaches_edge_of_grid", reached));
   out.push_back(bem_check("patch_cut_off", cut_off));
-  out.push_back(bem_check("cell_of_patch", cell));
+  out.push_back(bem_check("cell_of_patch", cell_of_patch(r)));
   if (spec.third_body.thickness) out.push_back(bem_check("film_of_patch", film));
   return out;
 }
@@ -134,9 +133,13 @@ SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSumma
 }
 
 double cell_of_patch(const BemResult& r) {
-  double cell = 0;
-  for (const BemPatch* p : patches_of(r)) cell = std::max(cell, p->grid.dy / shorter_axis(measure_patch(p->field)));
-  return cell;
+  double cells = 0, force = 0;
+  for (const BemPatch* p : patches_of(r)) {
+    const double of_patch = -p->force.z;
+    cells += of_patch * std::max(p->grid.dx, p->grid.dy) / shorter_axis(measure_patch(p->field));
+    force += of_patch;
+  }
+  return cells / force;
 }
 
 std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& r, double coarsest) {

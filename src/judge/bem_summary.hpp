@@ -26,7 +26,8 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& result);
 std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& result,
                                   double coarsest = 0);
 
-/// A cell, of the shorter axis of the result's smallest patch: of a transient each state has its own.
+/// A cell, of the patch's shorter axis; of several patches the mean by their forces, since one that has just split off
+/// is a cell wide and carries next to nothing. Of a transient each state has its own.
 double cell_of_patch(const BemResult& result);
 /// The check cell_of_patch of the worst state instead of the last.
 void judge_coarsest_state(double coarsest, Summary& summary);

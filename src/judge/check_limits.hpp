@@ -120,7 +120,7 @@ inline constexpr std::array kCheckRows{
              .bem_limit = 0},
     CheckRow{.key = "cell_of_patch",
              .name = "Patch resolved",
-             .what = "a cell, of the patch's shorter axis",
+             .what = "a cell, of the patch's shorter axis; of several patches the mean by their forces",
              .bem_limit = kUnresolvedPatch},
     CheckRow{.key = "film_of_patch",
              .name = "Film holds together",
