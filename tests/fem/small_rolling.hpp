@@ -55,6 +55,7 @@ inline CaseSpec thinly_layered(CaseSpec s, TimeStepMethod method) {
 inline CaseSpec on_track(CaseSpec s) {
   s.track.preset = TrackSet::medium;
   s.track.support.spacing = 0.2;
+  s.track.support.phase = 0;
   s.track.support.pad_length = 0.06;
   s.track.support.ballast_stiffness = 80e6;
   s.track.support.bays = 3;
