@@ -92,6 +92,15 @@ bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded
   });
 }
 
+/// Of loads whose passes were asked for and cannot be followed.
+void warn_of_passes(const std::vector<CollectiveRow>& rows) {
+  const auto lacks = [](const CollectiveRow& row) { return !row.not_followed.empty(); };
+  const auto first = std::find_if(rows.begin(), rows.end(), lacks);
+  if (first == rows.end()) return;
+  spdlog::warn("{} of {} loads without passes, which lives by ductility and low-cycle fatigue leave out; {}: {}",
+               std::count_if(first, rows.end(), lacks), rows.size(), first->name, first->not_followed);
+}
+
 ExitCode command_collective(const CommandOptions& options) {
   const LoadedCase loaded = load_half_space_case_of(options);
   std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
@@ -121,6 +130,7 @@ ExitCode command_collective(const CommandOptions& options) {
   else
     print_collective(rows, damage);
   const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage);
+  warn_of_passes(rows);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
   return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;

@@ -397,6 +397,12 @@ BemResult result_of(const CaseSpec& spec, const Placement& placement, const std:
 
 }  // namespace
 
+std::vector<const BemPatch*> patches_of(const BemResult& r) {
+  std::vector<const BemPatch*> out{&r};
+  for (const BemPatch& p : r.further) out.push_back(&p);
+  return out;
+}
+
 Vec3 force_on_rail(const BemResult& result) {
   Vec3 sum{result.force.x, result.force.y, result.force.z};
   for (const BemPatch& p : result.further) sum = sum + Vec3{p.force.x, p.force.y, p.force.z};

@@ -80,6 +80,8 @@ struct BemResult : BemPatch {
   std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
 };
 
+/// Its own patch first, then the further ones.
+std::vector<const BemPatch*> patches_of(const BemResult& result);
 /// N, model frame: of all patches together.
 Vec3 force_on_rail(const BemResult& result);
 /// W, of all patches together.

@@ -50,13 +50,6 @@ bool reaches_edge(const ContactField& f) {
 
 Check bem_check(std::string_view name, double value) { return at_most(name, value, check_row(name).bem_limit); }
 
-/// The patches' own, the result's first.
-std::vector<const BemPatch*> patches_of(const BemResult& r) {
-  std::vector<const BemPatch*> out{&r};
-  for (const BemPatch& p : r.further) out.push_back(&p);
-  return out;
-}
-
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
   const bool load_given = !spec.vehicle.approach;
   const double load = load_given ? static_load(spec) : -force_on_rail(r).z;
@@ -136,7 +129,7 @@ double cell_of_patch(const BemResult& r) {
   double cells = 0, force = 0;
   for (const BemPatch* p : patches_of(r)) {
     const double of_patch = -p->force.z;
-    cells += of_patch * std::max(p->grid.dx, p->grid.dy) / shorter_axis(measure_patch(p->field));
+    cells += of_patch * p->grid.dx / shorter_axis(measure_patch(p->field));
     force += of_patch;
   }
   return cells / force;

@@ -224,9 +224,16 @@ bool yields(const LifeZone& z, const LifeLoad& load) {
   return false;
 }
 
-double flow_at(const LifeZone& z, const LifeLoad& load, const std::vector<double>& values, double s, double depth) {
-  const PassedSection& p = *load.passed;
-  const LifeSection section{&p.y, &p.depth, &p.zone, middle_of(load, z.across.body, 0)};
+/// Of the patch that is nearest to a place.
+const PassedSection& passed_at(const LifeLoad& load, double s) {
+  const auto away = [&](const PassedSection& p) { return std::abs(s - middle_of(load, BodyId::rail, p.patch)); };
+  return *std::min_element(load.passed->begin(), load.passed->end(),
+                           [&](const PassedSection& a, const PassedSection& b) { return away(a) < away(b); });
+}
+
+double flow_at(const LifeZone& z, const LifeLoad& load, const PassedSection& p, const std::vector<double>& values,
+               double s, double depth) {
+  const LifeSection section{&p.y, &p.depth, &p.zone, middle_of(load, z.across.body, p.patch)};
   const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
   return rows ? value_at(section, values, *rows, s) : 0;
 }
@@ -239,9 +246,10 @@ AddKind by_fatigue(const LifeZone& z) {
     if (!found || found->fatigue.dang_van_used.empty()) return;
     const LifeSection section{&found->y, &found->depth, &found->zone, middle_of(load, z.across.body, found->patch)};
     const SigmaN line{*z.strength().fatigue.exponent, z.strength().fatigue.cycles};
+    const PassedSection* passed = load.followed() ? &passed_at(load, s) : nullptr;
     for (const double depth : z.depth) {
       const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
-      const bool flows = load.passed && flow_at(z, load, load.passed->accumulated, s, depth) >= kNoFlow;
+      const bool flows = passed && flow_at(z, load, *passed, passed->accumulated, s, depth) >= kNoFlow;
       const double used = rows && !flows ? value_at(section, found->fatigue.dang_van_used, *rows, s) : 0;
       kind.rate.push_back(1 / cycles_to_failure(used, line, kBelow[variant]) / kSums[variant]);
     }
@@ -251,9 +259,10 @@ AddKind by_fatigue(const LifeZone& z) {
 AddKind by_closed_cycles(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
     constexpr std::array kExponents{0.7, 0.6, 0.5};  // [Suresh1998]; 0.6: [Manson1965]
-    if (!load.passed) return;
+    if (!load.followed()) return;
+    const PassedSection& passed = passed_at(load, s);
     for (const double depth : z.depth) {
-      const double flow = flow_at(z, load, load.passed->accumulated, s, depth);
+      const double flow = flow_at(z, load, passed, passed.accumulated, s, depth);
       kind.rate.push_back(
           flow < kNoFlow ? 0 : 1 / std::max(low_cycle_life(flow, *z.spec.passes.ductility, kExponents[variant]), 1.0));
     }
@@ -262,25 +271,41 @@ AddKind by_closed_cycles(const LifeZone& z) {
 
 AddKind by_ductility(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
-    if (!load.passed) return;
+    if (!load.followed()) return;
+    const PassedSection& passed = passed_at(load, s);
     const double bears = *z.spec.passes.ductility;
-    kind.from = load.passed->passes;
+    kind.from = passed.passes;
     for (const double depth : z.depth) {
       std::array<double, 3> trends{};
       for (std::size_t k = 0; k < trends.size(); ++k)
-        trends[k] = std::max(flow_at(z, load, load.passed->trend[k], s, depth), 0.0);
+        trends[k] = std::max(flow_at(z, load, passed, passed.trend[k], s, depth), 0.0);
       const auto [least, most] = std::minmax_element(trends.begin(), trends.end());
-      kind.rate.push_back(flow_at(z, load, load.passed->net, s, depth) / bears);
-      kind.begun.push_back(flow_at(z, load, load.passed->reached, s, depth) / bears);
+      kind.rate.push_back(flow_at(z, load, passed, passed.net, s, depth) / bears);
+      kind.begun.push_back(flow_at(z, load, passed, passed.reached, s, depth) / bears);
       kind.trend.push_back(variant == 0 ? *least : variant == 2 ? *most : trends[1]);
     }
   };
 }
 
+/// Loads that a life by plastic strain lacks.
+std::string without_passes(const std::vector<LifeLoad>& loads) {
+  double all = 0, lacking = 0;
+  int count = 0;
+  for (const LifeLoad& load : loads) {
+    all += load.passages;
+    if (load.followed()) continue;
+    lacking += load.passages;
+    ++count;
+  }
+  if (count == 0) return {};
+  return fmt::format(", without {} of {} loads ({:.2g} % of the wheels)", count, loads.size(), 100 * lacking / all);
+}
+
 void add_damages(const LifeZone& z, FoundLives& out) {
   const FatigueSpec& f = z.strength().fatigue;
   const bool yielding = std::any_of(z.loads.begin(), z.loads.end(), [&](const LifeLoad& l) { return yields(z, l); });
-  const bool passed = z.across.body == BodyId::rail && z.loads.front().passed;
+  const bool passed = z.across.body == BodyId::rail &&
+                      std::any_of(z.loads.begin(), z.loads.end(), [](const LifeLoad& l) { return l.followed(); });
   if (!f.limit || !f.dang_van || !f.exponent)
     out.rows.push_back(missing(z, "fatigue",
                                fmt::format("{0}.{1}", z.key,
@@ -300,7 +325,8 @@ void add_damages(const LifeZone& z, FoundLives& out) {
     out.rows.push_back(missing(z, "ductility exhausted", "passes.ductility"));
     return;
   }
-  const std::string ductility = fmt::format("passes.ductility = {}", *z.spec.passes.ductility);
+  const std::string ductility =
+      fmt::format("passes.ductility = {}{}", *z.spec.passes.ductility, without_passes(z.loads));
   add_row(z, by_closed_cycles(z), "low-cycle fatigue", ductility + "; Coffin and Manson, exponents 0.7 to 0.5", out);
   add_row(z, by_ductility(z), "ductility exhausted",
           fmt::format("{}; {} passes of each load and their trend", ductility, z.spec.life.passes), out);

@@ -29,10 +29,11 @@ namespace railstrata {
 /// m, the upper part of a body that counts as its surface.
 inline constexpr double kSkin = 0.2e-3;
 
-/// Plastic strain of a rail's section after so many passes of one load. Rows by depth, columns by y from the rigid
-/// contact point; point row * columns + column.
+/// Plastic strain of a rail's section after so many passes of one load's patch. Rows by depth, columns by y from the
+/// patch's rigid contact point; point row * columns + column.
 struct PassedSection {
   int passes = 0;
+  std::size_t patch = 0;  ///< of the load
   std::vector<double> y, depth;
   std::vector<int> zone;             ///< of rows
   std::vector<double> accumulated;   ///< dp of the last pass
@@ -46,7 +47,8 @@ struct LifeLoad {
   double force = 0;     ///< N, on this rail
   const std::vector<PatchDamage>* patches = nullptr;
   const std::vector<SectionShakedown>* sections = nullptr;
-  const PassedSection* passed = nullptr;  ///< null: no passes were followed
+  const std::vector<PassedSection>* passed = nullptr;  ///< of its patches; null or empty: no passes were followed
+  bool followed() const { return passed && !passed->empty(); }
 };
 
 struct LifeRow {

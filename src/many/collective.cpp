@@ -31,6 +31,17 @@ std::vector<PatchDamage> patch_damages(const CaseSpec& spec, const HalfSpaceSolu
   return out;
 }
 
+/// A rail that passes cannot be followed on keeps its wear, rolling contact fatigue and shakedown.
+void follow_passes(CollectiveRow& row, const BemResult& result, const CollectiveOptions& options) {
+  try {
+    row.passed = passed_sections(row.spec, result, options.control);
+  } catch (const CaseError& e) {
+    row.not_followed = fault_line(e);
+  } catch (const NumericalError& e) {
+    row.not_followed = fault_line(e);
+  }
+}
+
 void solve(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
   const Placement placement = place(row.spec, folder);
   row.track = placement.track;
@@ -41,7 +52,7 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
     s.shakedown = shakedown_summary(row.spec, sections);
     for (const SectionShakedown& section : sections) s.fatigue.push_back(section.fatigue);
     row.sections = sections;
-    if (row.spec.life.passes > 0) row.passed = passed_section(row.spec, solution.result, options.control);
+    if (row.spec.life.passes > 0) follow_passes(row, solution.result, options);
   }
   s.warnings = bem_warnings(s, row.spec, solution.result);
   row.patches = patch_damages(row.spec, solution);
@@ -117,9 +128,7 @@ Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& r
                        const WheelDamage& wheel) {
   std::vector<LifeLoad> loads;
   for (const CollectiveRow& row : rows)
-    if (row.sound())
-      loads.push_back(
-          {row.passages, row.summary.contact.F_z, &row.patches, &row.sections, row.passed ? &*row.passed : nullptr});
+    if (row.sound()) loads.push_back({row.passages, row.summary.contact.F_z, &row.patches, &row.sections, &row.passed});
   return zone_lives(spec, loads, rail, wheel);
 }
 

@@ -2,7 +2,6 @@
 // A load collective: half-space solutions of the case's rows of [[load]], and what all their passages do to the rail.
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +28,8 @@ struct CollectiveRow {
   nlohmann::ordered_json summary_json;  ///< the same; null: there is none
   std::vector<PatchDamage> patches;
   std::vector<SectionShakedown> sections;  ///< of the bodies with strengths
-  std::optional<PassedSection> passed;     ///< by life.passes
+  std::vector<PassedSection> passed;       ///< by life.passes, of its patches
+  std::string not_followed;                ///< why there are none though life.passes asks for them
   std::string fault;                       ///< empty: solved, and its checks hold
   bool done = false;
   bool solved() const { return !summary_json.is_null(); }

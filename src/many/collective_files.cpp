@@ -84,6 +84,7 @@ Json row_json(const CollectiveRow& row) {
           {"passages", row.passages},
           {"shakedown_wandering", json_number(factor)},
           {"warnings", warnings},
+          {"passes_not_followed", row.not_followed.empty() ? Json(nullptr) : Json(row.not_followed)},
           {"fault", row.fault.empty() ? Json(nullptr) : Json(row.fault)}};
 }
 

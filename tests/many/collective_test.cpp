@@ -55,6 +55,45 @@ TEST(Collective, ARowThatCannotBeSolvedIsToldAndTheOthersGoOn) {
   EXPECT_EQ(json["loads"][1]["name"], "beside the rail");
 }
 
+// Tread and gauge corner of one wheel, each with passes of its own.
+TEST(Collective, PassesAreFollowedUnderEachOfTwoContacts) {
+  const CaseSpec spec =
+      parse_case(
+          "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\n"
+          "wheel_radius = \"460 mm\"\n[material.rail]\nyield_strength = \"1000 MPa\"\n[drive]\n"
+          "traction_coefficient = 0\nfriction_coefficient = 0.3\n[life]\npasses = 8\n[passes]\nductility = 5\n"
+          "[[load]]\npassages = 10\nlateral_shift = \"5.3 mm\"\nwheel_load = \"20 kN\"\n",
+          "a.toml")
+          .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(rows[0].fault, "");
+  ASSERT_EQ(rows[0].not_followed, "");
+  ASSERT_EQ(rows[0].patches.size(), 2u);
+  ASSERT_EQ(rows[0].passed.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const PassedSection& p = rows[0].passed[k];
+    EXPECT_EQ(p.patch, k);
+    EXPECT_LT(p.y.front(), 0);
+    EXPECT_GT(p.y.back(), 0);
+  }
+  const std::vector<double>& reached = rows[0].passed.front().reached;
+  EXPECT_GT(*std::max_element(reached.begin(), reached.end()), 1e-4) << "the gauge corner, 1.9 GPa";
+}
+
+// Friction beyond the strength of the surface has no passes, but it wears.
+TEST(Collective, ALoadWhosePassesCannotBeFollowedKeepsItsWear) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[material.rail]\nyield_strength = \"100 MPa\"\n[life]\npasses = 8\n[passes]\n"
+                                       "ductility = 5\n[[load]]\npassages = 10\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  EXPECT_NE(rows[0].not_followed.find("friction on the surface"), std::string::npos) << rows[0].not_followed;
+  EXPECT_TRUE(rows[0].sound()) << rows[0].fault;
+  EXPECT_TRUE(rows[0].passed.empty());
+  EXPECT_GT(streamline_area(rows, WearLaw::usfd), 0);
+}
+
 // A layer of t lasts t over the depth that a collective wears, grinding of t at once ends it, in MGT of 2 F/g a wheel.
 TEST(Collective, ALayerWornThroughHasItsLifeInGrossTonnes) {
   const auto life = [](const char* more) {
