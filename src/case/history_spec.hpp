@@ -87,6 +87,7 @@ struct PassesSpec {
   double patch_rows = 8;            ///< over its shorter half-axis
   std::optional<double> first_row;  ///< m, at the surface; below it rows grow by a quarter each; not given: as those
   std::optional<double> window;     ///< half-lengths behind the load where flow is followed; not given: by the contact
+  double window_tolerance = 1e-3;   ///< of the largest flow: what may come in the last quarter of the window
 };
 
 }  // namespace railstrata

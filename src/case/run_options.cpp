@@ -155,9 +155,16 @@ OptionTable passes_table() {
        option("first_row", at<&C::passes, &P::first_row>,
               "Thickness of its row at the surface; those below grow by a quarter each; not given: as the others",
               kLength, above(0, 0.1)),
-       option("window", at<&C::passes, &P::window>,
-              "Half-lengths of the patch behind the load where flow is followed; not given: 4, of a line contact 6",
-              kNumber, {2, 100})}};
+       option(
+           "window", at<&C::passes, &P::window>,
+           "Half-lengths of the patch behind the load where flow is followed; not given: 4, of a line contact 6, and "
+           "as many more as the flow of pass 1 asks for",
+           kNumber, {2, 100}),
+       option(
+           "window_tolerance", at<&C::passes, &P::window_tolerance>,
+           "Flow in the last quarter of the window over the largest of the pass: above it a window that is not given "
+           "grows by half, to four times its usual length at most; where it is given, there is a warning",
+           kNumber, above(0, 1))}};
 }
 
 OptionTable output_table() {

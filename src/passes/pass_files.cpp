@@ -107,6 +107,7 @@ Json grid_json(const SteadyGrid& g) {
           {"rows", g.rows()},
           {"dx_m", g.dx},
           {"dy_m", g.dy},
+          {"behind_m", g.active},
           {"row_m", g.thickness.front()},
           {"deepest_m", g.depth(g.rows() - 1)}};
 }
@@ -154,6 +155,13 @@ void write_pass_state(const std::filesystem::path& file, const std::vector<std::
   std::vector<std::size_t> points(grid.points());
   std::iota(points.begin(), points.end(), 0U);
   write_csv(file, provenance, points, state_columns(grid, series));
+}
+
+int active_stations(const std::filesystem::path& state) {
+  const CsvTable values = read_csv(state);
+  const auto strains = std::count_if(values.columns.begin(), values.columns.end(),
+                                     [](const CsvColumn& c) { return c.name.rfind("strain_", 0) == 0; });
+  return static_cast<int>(strains / 6);
 }
 
 PassSeries read_pass_series(const std::filesystem::path& state, const std::filesystem::path& table,

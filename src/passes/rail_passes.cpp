@@ -90,19 +90,20 @@ std::vector<double> thicknesses(const LayeredHalfSpace& body, double deepest, do
   return out;
 }
 
-SteadyGrid plan_grid(const Footprint& f, const PassesSpec& passes) {
+/// Half-lengths: fields of a line die away as 1/distance.
+double usual_window(bool line) { return line ? 6 : 4; }
+
+SteadyGrid plan_grid(const Footprint& f, const PassesSpec& passes, double window) {
   const double a = f.x.half();
   SteadyGrid g;
   g.dx = a / passes.patch_cells;
-  if (f.line) {  // fields of a line die away as 1/distance
-    const double window = passes.window.value_or(6);
+  if (f.line) {
     g.nx = static_cast<int>(std::lround((42 + window) * passes.patch_cells));
     g.front = 10 * a;
     g.active = window * a;
     g.hold = 6 * a;
     return g;
   }
-  const double window = passes.window.value_or(4);
   g.nx = static_cast<int>(std::lround((14 + window) * passes.patch_cells));
   g.front = 4 * a;
   g.active = window * a;
@@ -287,7 +288,8 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
   RailPasses out;
   out.notes = rows.notes();
   out.middle_x = f.x.middle();
-  out.grid = plan_grid(f, spec.passes);
+  out.window = spec.passes.window.value_or(usual_window(f.line));
+  out.grid = plan_grid(f, spec.passes, out.window);
   const std::vector<double> all = thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / spec.passes.patch_rows,
                                               spec.passes.first_row.value_or(0));
   RowsOfContact contact(solutions, f, out.grid);
@@ -318,6 +320,14 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
   for (const BemResult& one : solutions) require_surface_bears(one.field, out.rows.front());
   out.contact_stress = contact.fields(out.grid);
   return out;
+}
+
+std::optional<double> longer_window(const PassesSpec& passes, const RailPasses& rail, double late_flow) {
+  constexpr double kGrowth = 1.5, kMost = 4;
+  if (passes.window || late_flow <= passes.window_tolerance) return {};
+  const double longest = kMost * usual_window(rail.grid.ny == 1);
+  if (rail.window >= longest) return {};
+  return std::min(kGrowth * rail.window, longest);
 }
 
 SteadyBody body_of(const RailPasses& passes) { return {passes.grid, passes.rows, passes.below, passes.initial_stress}; }

@@ -4,6 +4,7 @@
 //
 // Assumptions of the half-space remain: layers without lateral ends; one patch, which rolls along a straight rail.
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace railstrata {
 struct RailPasses {
   SteadyGrid grid;        ///< x from the middle of the patch, y in the contact frame
   double middle_x = 0;    ///< m, of the patch in the contact frame
+  double window = 0;      ///< half-lengths of the patch behind the load where flow is followed
   std::vector<int> zone;  ///< of rows: 0 the rail, then its layers from the surface down
   std::vector<SteadyRow> rows;
   RowModuli below;                                    ///< of what lies under the rows
@@ -29,6 +31,10 @@ struct RailPasses {
 /// solutions: of cases_of_tractions (passes/pass_plan.hpp), the grid is that of the first one's patch, as wide as the
 /// wheels wander. Throws CaseError: no strength of rail or layers, several patches, wheels that wander too far.
 RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions);
+
+/// The next longer window for a rail whose first pass flows on behind this one (passes.window_tolerance); none if it
+/// does not, if the case gives the window, or if it is four times the usual one.
+std::optional<double> longer_window(const PassesSpec& passes, const RailPasses& rail, double late_flow);
 
 /// Stress in the rail under another contact of the same wheel, Pa, as contact_stress.
 Field contact_stress(const RailPasses& passes, const BemResult& contact);

@@ -43,9 +43,8 @@ class SteadyPasses : public PassJob {
   SteadyPasses(LoadedCase loaded, const PassOrder& order, Control& control)
       : PassJob("the case, the --set, the --cell, the grid and the version it began with", std::move(loaded), order,
                 control),
-        rail_(with_places(loaded_, [&] { return rail_of(); })),
-        body_(body_of(rail_)) {
-    series_.state = body_.virgin();
+        rail_(with_places(loaded_, [&] { return rail_of(); })) {
+    renew_body();
     series_.cycle = passes_per_cycle(loaded_.spec.passes);
     if (loaded_.spec.passes.jump != PassJump::off) series_.jump.length = kShortestJump;
     limits_.control = &control_;
@@ -61,18 +60,33 @@ class SteadyPasses : public PassJob {
     const StopRequest wish(&control_.stop);
     const std::vector<CaseSpec> specs = cases_of_tractions(loaded_.spec);
     std::vector<Placement> placements;
-    std::vector<BemResult> solutions;
     for (const CaseSpec& spec : specs) {
       placements.push_back(place(spec, loaded_.folder()));
       HalfSpaceSolution solution = solve_half_space_contact(spec, placements.back(), bem);
       doubt(solution.summary);
-      if (solutions.empty()) judge_elastic(solution);
+      if (solutions_.empty()) judge_elastic(solution);
       const ContactSummary& c = solution.summary.contact;
       contacts_.push_back({c.F_x / c.F_z, solution.result.patch.largest_pressure, solution.result.rigid_slip.x});
-      solutions.push_back(std::move(solution.result));
+      solutions_.push_back(std::move(solution.result));
     }
     if (loaded_.spec.passes.pressure == PassPressure::following) following_.emplace(specs, placements, bem);
-    return rail_passes(loaded_.spec, solutions);
+    return rail_passes(loaded_.spec, solutions_);
+  }
+
+  /// Begins anew with a longer window behind the load.
+  void lengthen(double window) {
+    CaseSpec spec = loaded_.spec;
+    spec.passes.window = window;
+    std::vector<std::string> notes = std::move(rail_.notes);
+    rail_ = rail_passes(spec, solutions_);
+    rail_.notes = std::move(notes);
+    renew_body();
+    strain_.clear();
+  }
+
+  void renew_body() {
+    body_.emplace(rail_.grid, rail_.rows, rail_.below, rail_.initial_stress);
+    series_.state = body_->virgin();
   }
 
   /// Collects failed checks and warnings of the contact that all passes use, each once.
@@ -113,6 +127,12 @@ class SteadyPasses : public PassJob {
   void resume() override {
     report_contact();
     if (!std::filesystem::exists(folder() / kPassState)) return;
+    const int stations = active_stations(folder() / kPassState);
+    while (rail_.grid.active_stations() < stations) {
+      const std::optional<double> window = longer_window(loaded_.spec.passes, rail_, 1);
+      if (!window) break;  // a state of another grid, which is refused below
+      lengthen(*window);
+    }
     series_ = read_pass_series(folder() / kPassState, folder() / kPassTable, rail_.grid, series_.cycle);
     if (series_.state.passes > 0) stand(place_of(series_.state.passes));
   }
@@ -134,7 +154,7 @@ class SteadyPasses : public PassJob {
     return {columns_to(rail_.grid, plan.lateral), plan.traction};
   }
   void stand(Place place) {
-    strain_ = contact_strain(rail_, body_, rail_.contact_stress.at(place.solution), place.column);
+    strain_ = contact_strain(rail_, *body_, rail_.contact_stress.at(place.solution), place.column);
     place_ = place;
   }
 
@@ -149,13 +169,13 @@ class SteadyPasses : public PassJob {
   /// The next pass, where drive() has put it.
   FollowedPass roll() {
     if (following_) {
-      FollowedPass pass = following_->run_pass(rail_, body_, place_.solution, place_.column, series_.state, limits_);
+      FollowedPass pass = following_->run_pass(rail_, *body_, place_.solution, place_.column, series_.state, limits_);
       strain_ = std::move(pass.contact_strain);
       return pass;
     }
     const Contact& contact = contacts_[place_.solution];
     FollowedPass pass;
-    pass.result = body_.run_pass(strain_, series_.state, limits_);
+    pass.result = body_->run_pass(strain_, series_.state, limits_);
     pass.largest_pressure = contact.largest_pressure;
     pass.creepage = contact.creepage;
     return pass;
@@ -259,11 +279,21 @@ class SteadyPasses : public PassJob {
 
   bool one_pass() {
     const int pass = series_.state.passes + 1;
-    const Kept kept = keep_all();
+    Kept kept = keep_all();
     report(pass, 0);
     drive(pass);
     try {
       FollowedPass rolled = roll();
+      while (pass == 1) {
+        const std::optional<double> window = longer_window(loaded_.spec.passes, rail_, rolled.result.late_flow);
+        if (!window) break;
+        control_.info("flow goes on behind the load: followed over {:.3g} half-lengths instead of {:.3g}", *window,
+                      rail_.window);
+        lengthen(*window);
+        kept = keep_all();
+        drive(pass);
+        rolled = roll();
+      }
       last_ = std::move(rolled.result);
       keep(pass_row(rail_.grid, pass, *last_), rolled);
     } catch (const Interrupted&) {
@@ -288,12 +318,12 @@ class SteadyPasses : public PassJob {
       control_.warn("pass {}: contact and yielding have not settled: pressure still changes by {:.2g} of its largest",
                     row.pass, pass.change);
     }
-    if (constexpr double kMuch = 1e-3; row.late_flow > kMuch && !late_) {
+    if (row.late_flow > loaded_.spec.passes.window_tolerance && !late_) {
       late_ = true;
       control_.warn(
-          "pass {}: {:.2g} % of the largest flow comes in the last quarter of the window behind the load: give "
-          "a longer passes.window",
-          row.pass, 100 * row.late_flow);
+          "pass {}: {:.2g} % of the largest flow comes in the last quarter of the window of {:.3g} half-lengths behind "
+          "the load: give a longer passes.window",
+          row.pass, 100 * row.late_flow, rail_.window);
     }
     if (!row.converged) {
       sound_ = false;
@@ -329,7 +359,7 @@ class SteadyPasses : public PassJob {
   std::string how_far() const override { return fmt::format("after pass {}", passes()); }
 
   void write_results() {
-    const PassWay way = pass_way(rail_, body_, strain_, *last_, series_.state);
+    const PassWay way = pass_way(rail_, *body_, strain_, *last_, series_.state);
     const std::size_t governing = way.points.front().point / static_cast<std::size_t>(rail_.grid.ny);
     PassProgress progress = progress_of(verdict_of(series_), series_.strains, last_row_);
     progress.ductility = loaded_.spec.passes.ductility;
@@ -350,9 +380,10 @@ class SteadyPasses : public PassJob {
   std::vector<Contact> contacts_;    ///< of each solution, elastic
   std::vector<std::string> doubts_;  ///< of the contact
   std::optional<FollowingContact> following_;
-  RailPasses rail_;  ///< fills those before
-  SteadyBody body_;
-  Field strain_;  ///< of the contact at place_
+  std::vector<BemResult> solutions_;
+  RailPasses rail_;                 ///< fills those before
+  std::optional<SteadyBody> body_;  ///< of rail_
+  Field strain_;                    ///< of the contact at place_
   Place place_;
   PassSeries series_;
   PassLimits limits_;

@@ -133,6 +133,7 @@ void require_rolled(const PassesSpec& passes) {
   refuse(passes.patch_rows != usual.patch_rows, "passes.patch_rows", of_elements);
   refuse(passes.first_row.has_value(), "passes.first_row", of_elements);
   refuse(passes.window.has_value(), "passes.window", of_elements);
+  refuse(passes.window_tolerance != usual.window_tolerance, "passes.window_tolerance", of_elements);
 }
 
 }  // namespace

@@ -126,6 +126,20 @@ class Passes(FromOutside):
                      "passes.patch_cells", "2")
 
     @slow
+    def test_the_window_grows_while_the_flow_lasts_and_resumes_to_the_same_bits(self):
+        keys = ("drive.friction_coefficient=0.01", "drive.traction_coefficient=0.005", "passes.patch_cells=4",
+                'material.rail.kinematic_hardening=[{modulus="11.5 GPa", recall=0}]')
+        flows = [*strength(200), *(word for key in keys for word in ("--set", key)), "--no-report"]
+        line = SOURCE / "cases" / "line" / "carter.toml"
+        whole = self.passes("whole", *flows, "--passes", 2, case=line)
+        grid = json.loads((whole / "passes.json").read_text())["grid"]
+        self.assertGreater(grid["behind_m"], 7 * 4 * grid["dx_m"])
+        self.assertLessEqual(max(float(row["late_flow"]) for row in rows(whole / "passes.csv")), 1e-3)
+        self.passes("cut", *flows, "--passes", 1, case=line)
+        cut = self.passes("cut", *flows, "--passes", 2, "--resume", case=line)
+        self.same_numbers(whole, cut)
+
+    @slow
     def test_wheels_that_wander_and_pull_in_turn_run_where_the_case_says_and_resume_to_the_same_bits(self):
         plan = [*strength(450), "--set", 'passes.lateral_positions=["0 mm", "4 mm"]', "--set",
                 "passes.traction_coefficients=[0.05, -0.05]", "--no-report"]
