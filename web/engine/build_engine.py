@@ -23,6 +23,7 @@ SRC = ROOT / "src"
 ENTRY = "explore/calls.cpp"
 # Rooms whose headers others include for the types, and whose functions nobody calls here: the linker would say.
 TYPES_ALONE = ("body/", "element/", "fem/", "mesh/", "contact/", "io/provenance.cpp")
+CALLED_HERE = ("contact/patch_extent.cpp",)  # of these, what is called here
 # Headers whose functions are in several sources.
 DEFINED_IN = {"fft/fft.hpp": ("fft/fft_lengths.cpp", "fft/fft_kiss.cpp"),
               "case/case_tables.hpp": ("case/*_options.cpp",), "bem/subsurface.hpp": ("bem/subsurface_*.cpp",)}
@@ -60,7 +61,7 @@ def sources():
         for header in includes(file):
             todo.append(header)
             own = header.removesuffix(".hpp") + ".cpp"
-            if (SRC / own).exists() and not own.startswith(TYPES_ALONE):
+            if (SRC / own).exists() and (own in CALLED_HERE or not own.startswith(TYPES_ALONE)):
                 todo.append(own)
         todo += (str(f.relative_to(SRC)) for pattern in DEFINED_IN.get(file, ()) for f in SRC.glob(pattern))
     return sorted(f for f in seen if f.endswith(".cpp")), sorted(seen)
