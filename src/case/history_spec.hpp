@@ -40,6 +40,9 @@ enum class WearLaw {
   archard  ///< Archard with the rail's wear_coefficient
 };
 
+/// Tonnes over the track by an axle of two such wheels; N, gravity m/s².
+inline double gross_tonnes(double wheel_force, double gravity) { return 2e-3 * wheel_force / gravity; }
+
 /// A row of a load collective: what it does not give is the case's (case/load_rows.hpp).
 struct LoadSpec {
   std::string name;     ///< empty: "load 1", "load 2", … by its place
@@ -53,11 +56,13 @@ struct LoadSpec {
 struct CollectiveSpec {
   std::string file;  ///< empty once it is read into the rows
   WearLaw wear_law = WearLaw::usfd;
+  double lateral_deviation = 0;  ///< m across, of the wheels of each row about their place
 };
 
 /// What lives are computed from beside the strengths (judge/zone_life.hpp).
 struct LifeSpec {
-  int passes = 0;  ///< of every load, by the stationary method; 0: none
+  int passes = 0;               ///< of every load, by the stationary method; 0: none
+  double strength_scatter = 0;  ///< coefficient of variation of the strengths
 };
 /// Grinding of the rail.
 struct GrindingSpec {

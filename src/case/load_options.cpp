@@ -20,10 +20,11 @@ bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(i
 double passages_of(const CaseSpec& spec, std::size_t index, double million_tonnes) {
   const VehicleSpec& v = spec.vehicle;
   const double wheel = spec.loads.at(index).wheel_load.value_or((v.wheel_mass + v.sprung_mass) * v.gravity);
-  return million_tonnes * 1e9 * v.gravity / (2 * wheel);
+  return 1e6 * million_tonnes / gross_tonnes(wheel, v.gravity);
 }
 
 bool follows_passes(const CaseSpec& spec, std::size_t) { return spec.life.passes > 0; }
+bool has_life(const CaseSpec& spec, std::size_t i) { return has_loads(spec, i) || follows_passes(spec, i); }
 bool grinds(const CaseSpec& spec, std::size_t) { return spec.grinding.every.has_value(); }
 
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
@@ -92,7 +93,15 @@ OptionTable collective_table() {
           "Jendel's map, Archard with the rail's wear_coefficient",
           {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}})
           .where(has_loads);
-  return {"collective", "All rows of [[load]] together", {file, law}};
+  const Option deviation =
+      option(
+          "lateral_deviation", at<&CaseSpec::collective, &C::lateral_deviation>,
+          "Standard deviation of the places across where the wheels of a row run, about its own: wear, rolling contact "
+          "fatigue and damage are spread by a normal distribution, cut at three of it; some 2 to 6 mm on straight "
+          "track",
+          kLength, {0, 0.03})
+          .where(has_life);
+  return {"collective", "All rows of [[load]] together", {file, law, deviation}};
 }
 
 OptionTable life_table() {
@@ -103,7 +112,12 @@ OptionTable life_table() {
               "Passes of every load over a new rail by the stationary method (`railstrata passes`): the strain that "
               "they leave gives the life of what yields; 0: none, else some 40, at least 8",
               kNumber, {0, 10000})
-           .where(follows_passes)}};
+           .where(follows_passes),
+       option("strength_scatter", at<&CaseSpec::life, &LifeSpec::strength_scatter>,
+              "Coefficient of variation of the strengths of rail, wheel and layers: the range of a life has those of "
+              "strengths two deviations lower and higher; three times the passes are followed",
+              kNumber, {0, 0.2})
+           .where(has_life)}};
 }
 
 OptionTable grinding_table() {
@@ -112,7 +126,7 @@ OptionTable grinding_table() {
           "Grinding of the rail, for the lives of `railstrata collective`",
           {option("every", at<&CaseSpec::grinding, &G::every>,
                   "Gross traffic from one grinding to the next, a mass: \"15 Mt\" are 15 million tonnes", kMass,
-                  above(0, 1e13)),
+                  {1e6, 1e13}),
            option("depth", at<&CaseSpec::grinding, &G::depth>, "What is ground off each time, everywhere", kLength,
                   {0, 0.01})
                .where(grinds)}};

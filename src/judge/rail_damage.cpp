@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace railstrata {
 namespace {
@@ -54,6 +55,42 @@ void add_passages(RailDamage& damage, const Profile& rail, const TrackGeometry& 
       damage.rcf_damage[i] += passages * patch.rcf_damage * length / damage.cell;
     });
   }
+}
+
+std::vector<AsideShare> aside_shares(double deviation, double step) {
+  constexpr double kCut = 3;  // deviations
+  if (!(deviation > 0)) return {{}};
+  const int n = static_cast<int>(std::ceil(kCut * deviation / step));
+  std::vector<AsideShare> out;
+  double sum = 0;
+  for (int k = -n; k <= n; ++k) {
+    const double offset = k * (kCut * deviation / n), in_deviations = offset / deviation;
+    out.push_back({offset, std::exp(-0.5 * in_deviations * in_deviations)});
+    sum += out.back().share;
+  }
+  for (AsideShare& a : out) a.share /= sum;
+  return out;
+}
+
+void spread_aside(std::vector<double>& cells, double cell, double deviation) {
+  std::vector<double> spread(cells.size(), 0.0);
+  const double last = static_cast<double>(cells.size()) - 1;
+  for (const AsideShare& a : aside_shares(deviation, cell))
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      // between the two cells beside it
+      const double to = std::clamp(static_cast<double>(i) + a.offset / cell, 0.0, last);
+      const auto left = static_cast<std::size_t>(to);
+      const double right = to - static_cast<double>(left);
+      spread[left] += a.share * (1 - right) * cells[i];
+      if (right > 0) spread[left + 1] += a.share * right * cells[i];
+    }
+  cells = std::move(spread);
+}
+
+void spread_aside(RailDamage& d, double deviation) {
+  if (!(deviation > 0)) return;
+  for (auto* a : {&d.passages, &d.friction_energy, &d.usfd, &d.archard, &d.kth, &d.rcf_damage})
+    spread_aside(*a, d.cell, deviation);
 }
 
 double worn_area(const RailDamage& damage, const std::vector<double>& depth) {

@@ -62,6 +62,18 @@ struct PatchDamage {
 void add_passages(RailDamage& damage, const Profile& rail, const TrackGeometry& track, const PatchDamage& patch,
                   double passages);
 
+/// Shares of wheels that run so far aside of their mean place, by a normal distribution cut at three deviations; one
+/// without a deviation. At most `step` [m] apart. The shares add up to one.
+struct AsideShare {
+  double offset = 0, share = 1;  ///< m
+};
+std::vector<AsideShare> aside_shares(double deviation, double step);
+
+/// Spreads values of cells of one length so; what would lie beyond the profile stays in its last cell, the sum stays.
+void spread_aside(std::vector<double>& cells, double cell, double deviation);
+/// All that the damage has.
+void spread_aside(RailDamage& damage, double deviation);
+
 /// m²: the sum over the cells of a depth [m].
 double worn_area(const RailDamage& damage, const std::vector<double>& depth);
 

@@ -36,6 +36,11 @@ void add_distance(WheelDamage& damage, const PatchDamage& patch, double share) {
   }
 }
 
+void spread_aside(WheelDamage& d, double deviation) {
+  if (!(deviation > 0)) return;
+  for (auto* a : {&d.share, &d.usfd, &d.archard, &d.kth}) spread_aside(*a, d.cell, deviation);
+}
+
 double worn_area(const WheelDamage& damage, const std::vector<double>& depth) {
   return damage.cell * std::accumulate(depth.begin(), depth.end(), 0.0);
 }

@@ -32,6 +32,9 @@ WheelDamage unworn_wheel(const Profile& wheel, double cell);
 /// Adds a patch of a wheel that runs so for this share of its distance.
 void add_distance(WheelDamage& damage, const PatchDamage& patch, double share);
 
+/// As spread_aside of a rail (judge/rail_damage.hpp).
+void spread_aside(WheelDamage& damage, double deviation);
+
 /// m² per m rolled: the sum over the cells of a depth [m per m].
 double worn_area(const WheelDamage& damage, const std::vector<double>& depth);
 

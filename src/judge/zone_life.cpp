@@ -123,8 +123,9 @@ struct LifeZone {
   const LifeAcross& across;
   int zone = 0;
   double top = 0, bottom = kNever;
-  std::vector<double> depth{};  // of the tables
-  std::string key{};            // of the material in the case
+  std::vector<AsideShare> aside{};  // where the wheels of a load run
+  std::vector<double> depth{};      // of the tables
+  std::string key{};                // of the material in the case
 
   const StrengthSpec& strength() const { return zone_material(spec, across.body, zone).strength; }
   LifeRow row(const char* place, const char* mechanism) const {
@@ -136,12 +137,35 @@ struct LifeZone {
 /// Adds at every depth of a place what one load does there, in one of the three variants.
 using AddKind = std::function<void(const LifeLoad&, double s, std::size_t variant, KindDamage&)>;
 
+/// Adds a share of the wheels of a kind, which run aside; the trend is summed by its rate.
+void add_share(const KindDamage& one, double share, KindDamage& sum) {
+  sum.from = one.from;
+  sum.rate.resize(one.rate.size());
+  sum.begun.resize(one.begun.size());
+  sum.trend.resize(one.trend.size());
+  for (std::size_t j = 0; j < one.rate.size(); ++j) sum.rate[j] += share * one.rate[j];
+  for (std::size_t j = 0; j < one.begun.size(); ++j) sum.begun[j] += share * one.begun[j];
+  for (std::size_t j = 0; j < one.trend.size(); ++j) sum.trend[j] += share * one.rate[j] * one.trend[j];
+}
+
+/// What the wheels of a kind do, mean over where they run.
+KindDamage damage_of_kind(const LifeZone& z, const LifeLoad& load, double s, std::size_t variant, const AddKind& add) {
+  KindDamage out;
+  for (const AsideShare& aside : z.aside) {
+    KindDamage one;
+    add(load, s - aside.offset, variant, one);
+    add_share(one, aside.share, out);
+  }
+  for (std::size_t j = 0; j < out.trend.size(); ++j)
+    if (out.rate[j] > 0) out.trend[j] /= out.rate[j];
+  out.wheels = load.passages;
+  return out;
+}
+
 DamagedPlace damaged_place(const LifeZone& z, std::size_t cell, std::size_t variant, const AddKind& add) {
   DamagedPlace out{.depth = z.depth, .kinds = {}, .top = z.top, .bottom = z.bottom};
   for (const LifeLoad& load : z.loads) {
-    KindDamage kind;
-    kind.wheels = load.passages;
-    add(load, z.across.s[cell], variant, kind);
+    KindDamage kind = damage_of_kind(z, load, z.across.s[cell], variant, add);
     if (!kind.rate.empty()) out.kinds.push_back(std::move(kind));
   }
   return out;
@@ -225,9 +249,11 @@ bool yields(const LifeZone& z, const LifeLoad& load) {
 }
 
 /// Of the patch that is nearest to a place.
-const PassedSection& passed_at(const LifeLoad& load, double s) {
+const PassedSection& passed_at(const LifeLoad& load, double s, std::size_t variant) {
+  const PassedSections& all = *load.passed;
+  const std::vector<PassedSection>& sections = all[variant].empty() ? all[1] : all[variant];
   const auto away = [&](const PassedSection& p) { return std::abs(s - middle_of(load, BodyId::rail, p.patch)); };
-  return *std::min_element(load.passed->begin(), load.passed->end(),
+  return *std::min_element(sections.begin(), sections.end(),
                            [&](const PassedSection& a, const PassedSection& b) { return away(a) < away(b); });
 }
 
@@ -246,12 +272,13 @@ AddKind by_fatigue(const LifeZone& z) {
     if (!found || found->fatigue.dang_van_used.empty()) return;
     const LifeSection section{&found->y, &found->depth, &found->zone, middle_of(load, z.across.body, found->patch)};
     const SigmaN line{*z.strength().fatigue.exponent, z.strength().fatigue.cycles};
-    const PassedSection* passed = load.followed() ? &passed_at(load, s) : nullptr;
+    const double strength = strength_factor(z.spec, variant);
+    const PassedSection* passed = load.followed() ? &passed_at(load, s, variant) : nullptr;
     for (const double depth : z.depth) {
       const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
       const bool flows = passed && flow_at(z, load, *passed, passed->accumulated, s, depth) >= kNoFlow;
       const double used = rows && !flows ? value_at(section, found->fatigue.dang_van_used, *rows, s) : 0;
-      kind.rate.push_back(1 / cycles_to_failure(used, line, kBelow[variant]) / kSums[variant]);
+      kind.rate.push_back(1 / cycles_to_failure(used / strength, line, kBelow[variant]) / kSums[variant]);
     }
   };
 }
@@ -260,7 +287,7 @@ AddKind by_closed_cycles(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
     constexpr std::array kExponents{0.7, 0.6, 0.5};  // [Suresh1998]; 0.6: [Manson1965]
     if (!load.followed()) return;
-    const PassedSection& passed = passed_at(load, s);
+    const PassedSection& passed = passed_at(load, s, variant);
     for (const double depth : z.depth) {
       const double flow = flow_at(z, load, passed, passed.accumulated, s, depth);
       kind.rate.push_back(
@@ -272,7 +299,7 @@ AddKind by_closed_cycles(const LifeZone& z) {
 AddKind by_ductility(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
     if (!load.followed()) return;
-    const PassedSection& passed = passed_at(load, s);
+    const PassedSection& passed = passed_at(load, s, variant);
     const double bears = *z.spec.passes.ductility;
     kind.from = passed.passes;
     for (const double depth : z.depth) {
@@ -285,6 +312,12 @@ AddKind by_ductility(const LifeZone& z) {
       kind.trend.push_back(variant == 0 ? *least : variant == 2 ? *most : trends[1]);
     }
   };
+}
+
+/// ", strengths ± 20 %", or nothing.
+std::string scatter_text(const CaseSpec& spec) {
+  const double scatter = spec.life.strength_scatter;
+  return scatter > 0 ? fmt::format(", strengths ± {:.3g} %", 100 * (strength_factor(spec, 2) - 1)) : "";
 }
 
 /// Loads that a life by plastic strain lacks.
@@ -313,10 +346,11 @@ void add_damages(const LifeZone& z, FoundLives& out) {
                                            : !f.dang_van ? "dang_van_coefficient"
                                                          : "fatigue_exponent")));
   else
-    add_row(z, by_fatigue(z), "fatigue",
-            fmt::format("Dang Van, {:.0f} MPa at {:.3g} cycles, exponent {}; Miner's sum 1/3 to 3", 1e-6 * *f.limit,
-                        f.cycles, *f.exponent),
-            out);
+    add_row(
+        z, by_fatigue(z), "fatigue",
+        fmt::format("Dang Van{}, {:.0f} MPa at {:.3g} cycles, exponent {}{}; Miner's sum 1/3 to 3",
+                    passed ? " where nothing flows" : "", 1e-6 * *f.limit, f.cycles, *f.exponent, scatter_text(z.spec)),
+        out);
   if (!passed && yielding)
     out.rows.push_back(missing(z, "ductility exhausted",
                                z.across.body == BodyId::rail ? "life.passes" : "passes over a wheel are not computed"));
@@ -326,7 +360,7 @@ void add_damages(const LifeZone& z, FoundLives& out) {
     return;
   }
   const std::string ductility =
-      fmt::format("passes.ductility = {}{}", *z.spec.passes.ductility, without_passes(z.loads));
+      fmt::format("passes.ductility = {}{}{}", *z.spec.passes.ductility, scatter_text(z.spec), without_passes(z.loads));
   add_row(z, by_closed_cycles(z), "low-cycle fatigue", ductility + "; Coffin and Manson, exponents 0.7 to 0.5", out);
   add_row(z, by_ductility(z), "ductility exhausted",
           fmt::format("{}; {} passes of each load and their trend", ductility, z.spec.life.passes), out);
@@ -366,8 +400,11 @@ void add_strengths(const LifeZone& z, std::vector<LifeRow>& out) {
       if (i.above == cracks.zone) bond = std::fmax(bond, i.delamination);
   }
   const auto judge = [&](LifeRow row, double share, const std::string& words, const std::string& key) {
-    if (!std::isnan(share)) row.wheels.low = row.wheels.best = row.wheels.high = share >= 1 ? 0 : kNever;
-    row.rests_on = std::isnan(share) ? key : fmt::format("{} {:.2f}; not of many cycles", words, share);
+    for (std::size_t v = 0; v < kVariants.size() && !std::isnan(share); ++v)
+      row.wheels.*kVariants[v] = share / strength_factor(z.spec, v) >= 1 ? 0 : kNever;
+    row.rests_on = std::isnan(share) ? key
+                                     : fmt::format("{} {:.2f}{}; {}", words, share, scatter_text(z.spec),
+                                                   share >= 1 ? "the first wheel reaches it" : "not of many cycles");
     out.push_back(row);
   };
   judge(cracks, tension, "σ₁ with the stress of the process over tensile_strength", z.key + ".tensile_strength");
@@ -420,6 +457,7 @@ void add_body(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const Li
                .zone = layer ? static_cast<int>(k) + 1 : 0,
                .top = top,
                .bottom = layer ? top + spec.layers[layers[k]].thickness : kNever};
+    z.aside = aside_shares(spec.collective.lateral_deviation, 0.5 * spec.collective.lateral_deviation);
     z.key = layer ? fmt::format("layer.{}", layers[k]) : fmt::format("material.{}", body_word(across.body));
     if (deepest > top) {
       z.depth = table_depths(top, z.bottom, deepest);
@@ -447,6 +485,10 @@ std::string number_text(double v) {
 }
 
 }  // namespace
+
+double strength_factor(const CaseSpec& spec, std::size_t variant) {
+  return 1 + 2 * spec.life.strength_scatter * (static_cast<double>(variant) - 1);
+}
 
 Lives zone_lives(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const RailDamage& rail,
                  const WheelDamage& wheel) {

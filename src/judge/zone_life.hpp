@@ -15,6 +15,8 @@
 // Ranges. Fatigue: Miner's sum from 1/3 to 3 [Haibach2006], and below the limit the line as above it, flatter, or none.
 // Low-cycle fatigue: exponents 0.7, 0.6 and 0.5. Ductility: the trends of the two halves of the passes and of all.
 // Worn through: the wear laws that the case has data for.
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -41,14 +43,21 @@ struct PassedSection {
   std::vector<double> trend[3];  ///< s of net ~ n^-s: from a quarter to half of the passes, over both, from there on
 };
 
+/// Of the patches of a load, with strengths low, as given and high (strength_factor); low and high are empty where
+/// nothing scatters.
+using PassedSections = std::array<std::vector<PassedSection>, 3>;
+
+/// Of the strengths in the low (0), best (1) and high (2) value of a life: two deviations of life.strength_scatter.
+double strength_factor(const CaseSpec& spec, std::size_t variant);
+
 /// A kind of wheels.
 struct LifeLoad {
   double passages = 1;  ///< in a unit of traffic, one collective
   double force = 0;     ///< N, on this rail
   const std::vector<PatchDamage>* patches = nullptr;
   const std::vector<SectionShakedown>* sections = nullptr;
-  const std::vector<PassedSection>* passed = nullptr;  ///< of its patches; null or empty: no passes were followed
-  bool followed() const { return passed && !passed->empty(); }
+  const PassedSections* passed = nullptr;  ///< null or empty: no passes were followed
+  bool followed() const { return passed && !(*passed)[1].empty(); }
 };
 
 struct LifeRow {
@@ -73,9 +82,6 @@ struct Lives {
   double tonnes = 0, wheels = 0;  ///< of a unit of traffic
   LifeCurve curve;                ///< of the rail's shortest life by damage; empty without one
 };
-
-/// Tonnes over the track by axles of two such wheels; gravity m/s².
-inline double gross_tonnes(double wheel_force, double gravity) { return 2e-3 * wheel_force / gravity; }
 
 /// rail, wheel: damage of one collective, and of the wheel per metre.
 Lives zone_lives(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const RailDamage& rail,

@@ -32,9 +32,10 @@ std::vector<PatchDamage> patch_damages(const CaseSpec& spec, const HalfSpaceSolu
 }
 
 /// A rail that passes cannot be followed on keeps its wear, rolling contact fatigue and shakedown.
-void follow_passes(CollectiveRow& row, const BemResult& result, const CollectiveOptions& options) {
+void follow_passes(CollectiveRow& row, const Placement& placement, const BemResult& result,
+                   const CollectiveOptions& options) {
   try {
-    row.passed = passed_sections(row.spec, result, options.control);
+    row.passed = passed_sections(row.spec, placement, result, options.bem, options.control);
   } catch (const CaseError& e) {
     row.not_followed = fault_line(e);
   } catch (const NumericalError& e) {
@@ -52,7 +53,7 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
     s.shakedown = shakedown_summary(row.spec, sections);
     for (const SectionShakedown& section : sections) s.fatigue.push_back(section.fatigue);
     row.sections = sections;
-    if (row.spec.life.passes > 0) follow_passes(row, solution.result, options);
+    if (row.spec.life.passes > 0) follow_passes(row, placement, solution.result, options);
   }
   s.warnings = bem_warnings(s, row.spec, solution.result);
   row.patches = patch_damages(row.spec, solution);
@@ -112,6 +113,7 @@ RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& 
   for (const CollectiveRow& row : rows)
     for (const PatchDamage& patch : patches_of(row))
       add_passages(out, placement.rail, placement.track, patch, row.passages);
+  if (!rows.empty()) spread_aside(out, rows.front().spec.collective.lateral_deviation);
   return out;
 }
 
@@ -121,6 +123,7 @@ WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement
   for (const CollectiveRow& row : rows) all += row.sound() ? row.passages : 0;
   for (const CollectiveRow& row : rows)
     for (const PatchDamage& patch : patches_of(row)) add_distance(out, patch, row.passages / all);
+  if (!rows.empty()) spread_aside(out, rows.front().spec.collective.lateral_deviation);
   return out;
 }
 

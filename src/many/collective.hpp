@@ -28,7 +28,7 @@ struct CollectiveRow {
   nlohmann::ordered_json summary_json;  ///< the same; null: there is none
   std::vector<PatchDamage> patches;
   std::vector<SectionShakedown> sections;  ///< of the bodies with strengths
-  std::vector<PassedSection> passed;       ///< by life.passes, of its patches
+  PassedSections passed;                   ///< by life.passes, of its patches
   std::string not_followed;                ///< why there are none though life.passes asks for them
   std::string fault;                       ///< empty: solved, and its checks hold
   bool done = false;

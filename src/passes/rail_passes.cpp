@@ -131,7 +131,7 @@ RowModuli moduli_of(const HalfSpaceMaterial& m) {
 /// Rows with their material from the case.
 class Rows {
  public:
-  Rows(const CaseSpec& spec, const LayeredHalfSpace& body) : body_(body) {
+  Rows(const CaseSpec& spec, const LayeredHalfSpace& body, double strength) : body_(body), strength_(strength) {
     const int layers = static_cast<int>(layer_extents(body).size());
     for (int zone = 0; zone <= layers; ++zone) {
       const MaterialSpec& material = zone_material(spec, BodyId::rail, zone);
@@ -157,7 +157,8 @@ class Rows {
     row.law.yield = kInfinite;
     if (const auto& law = laws_.at(static_cast<std::size_t>(zone))) {
       const auto extents = layer_extents(body_);
-      row.law = law->at(zone == 0 ? depth : depth - extents[static_cast<std::size_t>(zone - 1)].top).plastic;
+      row.law = scaled(law->at(zone == 0 ? depth : depth - extents[static_cast<std::size_t>(zone - 1)].top).plastic,
+                       strength_);
     }
     row.law.mu = row.moduli.mu;
     return row;
@@ -165,6 +166,7 @@ class Rows {
 
  private:
   const LayeredHalfSpace& body_;
+  const double strength_;
   std::vector<std::optional<PlasticLaw>> laws_;
   std::vector<std::string> notes_;
   bool any_ = false;
@@ -280,9 +282,9 @@ class RowsOfContact {
 
 }  // namespace
 
-RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions) {
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, double strength) {
   const BemResult& result = solutions.front();
-  const Rows rows(spec, result.rail);
+  const Rows rows(spec, result.rail, strength);
   const Footprint f = footprint_of(result);
   require_known(spec, solutions, rows, f);
   RailPasses out;
@@ -315,8 +317,8 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
   section.depth.resize(keep);
   section.zone.resize(keep);
   out.below = moduli_of(interior.material_at(keep < all.size() ? top : top + all.back()));
-  const RowStrength strength = row_strength(spec, BodyId::rail, section);
-  for (std::size_t r = 0; r < keep; ++r) out.initial_stress.push_back({strength.residual_x[r], strength.residual_y[r]});
+  const RowStrength process = row_strength(spec, BodyId::rail, section);
+  for (std::size_t r = 0; r < keep; ++r) out.initial_stress.push_back({process.residual_x[r], process.residual_y[r]});
   for (const BemResult& one : solutions) require_surface_bears(one.field, out.rows.front());
   out.contact_stress = contact.fields(out.grid);
   return out;

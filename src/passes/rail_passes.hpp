@@ -29,8 +29,9 @@ struct RailPasses {
 };
 
 /// solutions: of cases_of_tractions (passes/pass_plan.hpp), the grid is that of the first one's patch, as wide as the
-/// wheels wander. Throws CaseError: no strength of rail or layers, several patches, wheels that wander too far.
-RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions);
+/// wheels wander. strength: factor of all strengths (scaled in material/plastic.hpp). Throws CaseError: no strength of
+/// rail or layers, several patches, wheels that wander too far.
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, double strength = 1);
 
 /// The next longer window for a rail whose first pass flows on behind this one (passes.window_tolerance); none if it
 /// does not, if the case gives the window, or if it is four times the usual one.

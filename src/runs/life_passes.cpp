@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "bem/contact_places.hpp"
 #include "case/case_spec.hpp"
+#include "core/faults.hpp"
 #include "material/strain_claim.hpp"
+#include "passes/following_contact.hpp"
 #include "passes/rail_passes.hpp"
 
 namespace railstrata {
@@ -27,33 +30,79 @@ BemResult alone(const BemResult& result, const BemPatch& patch) {
   return out;
 }
 
-PassedSection passed_section(const CaseSpec& spec, const BemResult& result, const Control* control) {
-  const RailPasses rail = rail_passes(spec, {result});
-  const SteadyBody body = body_of(rail);
-  const Field strain = contact_strain(rail, body, rail.contact_stress.front());
-  PassState state = body.virgin();
-  PassLimits limits;
-  limits.control = control;
+/// A new rail under one patch, pass after pass.
+class PassesOfPatch {
+ public:
+  PassesOfPatch(const CaseSpec& spec, const BemResult& patch, double strength, const Control* control,
+                FollowingContact* following)
+      : spec_(spec),
+        patch_(patch),
+        strength_(strength),
+        following_(following),
+        rail_(rail_passes(spec, {patch}, strength)) {
+    limits_.control = control;
+    stand();
+  }
+
+  PassResult next() {
+    PassResult out = one();
+    while (state_.passes == 1) {
+      const std::optional<double> window = longer_window(spec_.passes, rail_, out.late_flow);
+      if (!window) break;
+      CaseSpec longer = spec_;
+      longer.passes.window = window;
+      rail_ = rail_passes(longer, {patch_}, strength_);
+      stand();
+      out = one();
+    }
+    return out;
+  }
+  const RailPasses& rail() const { return rail_; }
+
+ private:
+  void stand() {
+    body_.emplace(rail_.grid, rail_.rows, rail_.below, rail_.initial_stress);
+    strain_ = contact_strain(rail_, *body_, rail_.contact_stress.front());
+    state_ = body_->virgin();
+  }
+  PassResult one() {
+    if (following_) return following_->run_pass(rail_, *body_, 0, 0, state_, limits_).result;
+    return body_->run_pass(strain_, state_, limits_);
+  }
+
+  const CaseSpec& spec_;
+  const BemResult& patch_;
+  const double strength_;
+  FollowingContact* following_;
+  RailPasses rail_;
+  std::optional<SteadyBody> body_;  // of rail_
+  Field strain_;
+  PassState state_;
+  PassLimits limits_;
+};
+
+PassedSection passed_section(int wanted, const BemResult& patch, PassesOfPatch& passes) {
   PassedSection out;
-  out.passes = spec.life.passes;
-  const int quarter = out.passes / 4, half = out.passes / 2;
+  out.passes = wanted;
+  const int quarter = wanted / 4, half = wanted / 2;
   std::array<std::vector<double>, 2> earlier;  // net strain of those passes
-  for (std::vector<double>& net : earlier) net.assign(body.grid().points(), 0);
   PassResult last;
-  for (int n = 1; n <= out.passes; ++n) {
-    last = body.run_pass(strain, state, limits);
+  for (int n = 1; n <= wanted; ++n) {
+    last = passes.next();
+    if (n == 1) earlier.fill(std::vector<double>(last.net.size(), 0.0));
     if (*std::max_element(last.accumulated.begin(), last.accumulated.end()) == 0) break;  // nor do the passes after it
     if (n == quarter) earlier[0] = last.net;
     if (n == half) earlier[1] = last.net;
   }
-  const double place = along_plane(result.contact, result.place.point);
+  const RailPasses& rail = passes.rail();
+  const double place = along_plane(patch.contact, patch.place.point);
   for (int j = 0; j < rail.grid.ny; ++j) out.y.push_back(rail.grid.y(j) - place);
   for (int r = 0; r < rail.grid.rows(); ++r) out.depth.push_back(rail.grid.depth(r));
   out.zone = rail.zone;
   out.accumulated = last.accumulated;
   out.net = last.net;
   for (const std::array<double, 6>& e : last.plastic_strain) out.reached.push_back(equivalent_strain(e.data()));
-  const double first = static_cast<double>(half) / quarter, second = static_cast<double>(out.passes) / half;
+  const double first = static_cast<double>(half) / quarter, second = static_cast<double>(wanted) / half;
   for (std::size_t p = 0; p < last.net.size(); ++p) {
     out.trend[0].push_back(trend_between(earlier[0][p], earlier[1][p], first));
     out.trend[1].push_back(trend_between(earlier[0][p], last.net[p], first * second));
@@ -64,11 +113,25 @@ PassedSection passed_section(const CaseSpec& spec, const BemResult& result, cons
 
 }  // namespace
 
-std::vector<PassedSection> passed_sections(const CaseSpec& spec, const BemResult& result, const Control* control) {
-  std::vector<PassedSection> out;
-  for (const BemPatch* patch : patches_of(result)) {
-    out.push_back(passed_section(spec, alone(result, *patch), control));
-    out.back().patch = out.size() - 1;
+PassedSections passed_sections(const CaseSpec& spec, const Placement& placement, const BemResult& result,
+                               const BemOptions& bem, const Control* control) {
+  std::optional<FollowingContact> following;
+  if (spec.passes.pressure == PassPressure::following) {
+    if (!result.further.empty())
+      throw CaseError("passes.pressure: two contacts, and pressure follows the surface of one alone",
+                      "passes.pressure = \"elastic\"");
+    following.emplace(std::vector<CaseSpec>{spec}, std::vector<Placement>{placement}, bem);
+  }
+  PassedSections out;
+  for (std::size_t v = 0; v < out.size(); ++v) {
+    const double strength = strength_factor(spec, v);
+    if (v != 1 && strength == 1) continue;
+    for (const BemPatch* one : patches_of(result)) {
+      const BemResult patch = alone(result, *one);
+      PassesOfPatch passes(spec, patch, strength, control, following ? &*following : nullptr);
+      out[v].push_back(passed_section(spec.life.passes, patch, passes));
+      out[v].back().patch = out[v].size() - 1;
+    }
   }
   return out;
 }

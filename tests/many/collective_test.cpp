@@ -69,14 +69,14 @@ TEST(Collective, PassesAreFollowedUnderEachOfTwoContacts) {
   ASSERT_EQ(rows[0].fault, "");
   ASSERT_EQ(rows[0].not_followed, "");
   ASSERT_EQ(rows[0].patches.size(), 2u);
-  ASSERT_EQ(rows[0].passed.size(), 2u);
+  ASSERT_EQ(rows[0].passed[1].size(), 2u);
   for (std::size_t k = 0; k < 2; ++k) {
-    const PassedSection& p = rows[0].passed[k];
+    const PassedSection& p = rows[0].passed[1][k];
     EXPECT_EQ(p.patch, k);
     EXPECT_LT(p.y.front(), 0);
     EXPECT_GT(p.y.back(), 0);
   }
-  const std::vector<double>& reached = rows[0].passed.front().reached;
+  const std::vector<double>& reached = rows[0].passed[1].front().reached;
   EXPECT_GT(*std::max_element(reached.begin(), reached.end()), 1e-4) << "the gauge corner, 1.9 GPa";
 }
 
@@ -90,7 +90,7 @@ TEST(Collective, ALoadWhosePassesCannotBeFollowedKeepsItsWear) {
   const std::vector<CollectiveRow> rows = solved(spec);
   EXPECT_NE(rows[0].not_followed.find("friction on the surface"), std::string::npos) << rows[0].not_followed;
   EXPECT_TRUE(rows[0].sound()) << rows[0].fault;
-  EXPECT_TRUE(rows[0].passed.empty());
+  EXPECT_TRUE(rows[0].passed[1].empty());
   EXPECT_GT(streamline_area(rows, WearLaw::usfd), 0);
 }
 
@@ -117,6 +117,71 @@ TEST(Collective, ALayerWornThroughHasItsLifeInGrossTonnes) {
   const auto [worn, expected] = life("");
   EXPECT_NEAR(worn / expected, 1, 1e-9);
   EXPECT_NEAR(life("[grinding]\nevery = \"0.01 Mt\"\ndepth = \"0.2 mm\"\n").first, 0.01, 1e-9);
+}
+
+// The wheels of a row run aside by a normal distribution: the sum stays, the variance grows by theirs, which the cut at
+// three deviations takes 2.7 % off.
+TEST(Collective, WheelsThatRunAsideSpreadTheirWear) {
+  const auto wear_of = [](const char* more) {
+    const CaseSpec spec =
+        parse_case(std::string(kArcs) + more + "[[load]]\npassages = 1e4\nwheel_load = \"60 kN\"\n", "a.toml").spec;
+    const RailDamage damage = rail_damage(solved(spec), place(spec, {}), 0.25e-3);
+    double sum = 0, mean = 0, square = 0;
+    for (std::size_t k = 0; k < damage.s.size(); ++k) {
+      sum += damage.usfd[k];
+      mean += damage.usfd[k] * damage.s[k];
+      square += damage.usfd[k] * damage.s[k] * damage.s[k];
+    }
+    return std::array{sum, mean / sum, square / sum - mean * mean / (sum * sum)};
+  };
+  const auto straight = wear_of(""), aside = wear_of("[collective]\nlateral_deviation = \"4 mm\"\n");
+  EXPECT_NEAR(aside[0] / straight[0], 1, 1e-9);
+  EXPECT_NEAR(aside[1], straight[1], 1e-6);
+  EXPECT_NEAR((aside[2] - straight[2]) / (0.973 * 16e-6), 1, 0.01);
+}
+
+// Dang Van's line with the exponent k: the low life has strengths two deviations lower and a third of Miner's sum.
+TEST(Collective, TheRangeOfALifeHasTheScatterOfStrengths) {
+  const auto life = [](const char* more) {
+    const CaseSpec spec = parse_case(std::string(kArcs) +
+                                         "[material.rail]\nyield_strength = \"2000 MPa\"\nfatigue_limit = \"100 MPa\"\n"
+                                         "dang_van_coefficient = 0.1\nfatigue_exponent = 6\n" +
+                                         more + "[[load]]\npassages = 1e4\nwheel_load = \"60 kN\"\n",
+                                     "a.toml")
+                              .spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    const Placement placement = place(spec, {});
+    const Lives lives =
+        collective_lives(spec, rows, rail_damage(rows, placement, 0.5e-3), wheel_damage(rows, placement, 0.5e-3));
+    for (const LifeRow& row : lives.rows)
+      if (row.body == "rail" && row.place == "below" && row.mechanism == "fatigue") return row;
+    return LifeRow{};
+  };
+  const LifeRow given = life(""), scattered = life("[life]\nstrength_scatter = 0.05\n");
+  ASSERT_TRUE(given.known() && std::isfinite(given.wheels.best));
+  EXPECT_DOUBLE_EQ(scattered.wheels.best, given.wheels.best);
+  EXPECT_NEAR(scattered.wheels.low / given.wheels.low, std::pow(0.9, 6), 1e-3);
+  EXPECT_NE(scattered.rests_on.find("strengths ± 10 %"), std::string::npos) << scattered.rests_on;
+  EXPECT_GT(life("[collective]\nlateral_deviation = \"6 mm\"\n").wheels.best, 1.3 * given.wheels.best);
+}
+
+// Yield two deviations lower flows more, higher less.
+TEST(Collective, PassesAreFollowedWithScatteredStrengths) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "friction_coefficient = 0.15\n[material.rail]\nhardening = \"R260\"\n"
+                                       "[passes]\npatch_cells = 3\npatch_rows = 4\n[life]\npasses = 8\n"
+                                       "strength_scatter = 0.05\n[[load]]\npassages = 10\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(rows[0].not_followed, "");
+  std::array<double, 3> most{};
+  for (std::size_t v = 0; v < 3; ++v) {
+    const std::vector<double>& reached = rows[0].passed[v].front().reached;
+    most[v] = *std::max_element(reached.begin(), reached.end());
+  }
+  EXPECT_GT(most[0], 1.1 * most[1]);
+  EXPECT_GT(most[1], 1.1 * most[2]);
 }
 
 TEST(Collective, NamesTheLoadThatDecidesAndDoubtsTheWearOfOneProfile) {
