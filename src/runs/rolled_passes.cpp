@@ -76,27 +76,27 @@ RailBefore endless_rail_with(const RollingSystem& system, const PlasticSection& 
   return out;
 }
 
-/// F_x over F_z, mean from a position of the wheel on: single rows vibrate.
-double mean_traction(const std::vector<HistoryRow>& history, double from) {
+/// F_x over F_z where the wheel runs over the stations of the result, mean, as single rows vibrate. Before them the
+/// traction of a constant creepage still grows.
+double mean_traction(const std::vector<HistoryRow>& history, const PassRoll& roll) {
   double along = 0, down = 0;
   for (const HistoryRow& row : history) {
-    if (row.position < from) continue;
+    if (row.position < roll.from || row.position > roll.to) continue;
     along += row.forces.x;
     down += row.forces.z;
   }
   return along / down;
 }
 
-/// Correction of the creepage for the wanted traction, from an elastic wheel that rolls half of a pass. None if
-/// stopped.
+/// Correction of the creepage for the wanted traction, from an elastic wheel that rolls over the stations of the
+/// result. None if stopped.
 std::optional<double> measured_shift(Model model, double traction, const PassRoll& roll, const FemOptions& options) {
   model.spec.run.plasticity = false;
-  model.spec.run.positions = {roll.from};
+  model.spec.run.positions = {roll.to};
   const RollingSystem system(model);
   const FemSolution solution = solve_fem(system, {}, options);
   if (solution.stopped) return std::nullopt;
-  return estimated_creepage(model, traction) -
-         estimated_creepage(model, mean_traction(solution.history, 2.0 / 3 * roll.from));
+  return estimated_creepage(model, traction) - estimated_creepage(model, mean_traction(solution.history, roll));
 }
 
 }  // namespace
@@ -167,7 +167,7 @@ std::optional<RolledPasses::Pass> RolledPasses::next(RolledSeries& series, const
   out.row.error = out.uneven;
   out.row.iterations = static_cast<int>(summary.run.steps);
   PassContact contact;
-  contact.traction = mean_traction(solution.history, roll_.from);
+  contact.traction = mean_traction(solution.history, roll_);
   contact.creepage = summary.contact.creepage_x;
   contact.p_max = summary.contact.patch.p_max;
   contact.lateral = system.model.spec.geometry.lateral_shift - base_.spec.geometry.lateral_shift;
