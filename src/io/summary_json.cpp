@@ -78,6 +78,10 @@ Json summary_json(const Summary& s) {
     out["fatigue"] = fatigue_json(s);
     add_numbers(kLayersGroup, s, out[kLayersGroup]);
   }
+  if (!s.life.text.empty()) {
+    add_numbers(kLifeGroup, s, out["life"]);
+    out["life"]["text"] = s.life.text;
+  }
   if (std::isfinite(s.plastic.strain)) out["plastic"] = plastic(s);
   add_numbers("energy", s, out["energy"]);
   Json& run = out["run"];

@@ -421,8 +421,11 @@ std::vector<double> table_depths(double top, double bottom, double deepest) {
 
 double deepest_of(const std::vector<LifeLoad>& loads, BodyId body) {
   double out = 0;
-  for (const LifeLoad& load : loads)
+  for (const LifeLoad& load : loads) {
     if (const SectionShakedown* s = section_of(load, body)) out = std::max(out, s->depth.back());
+    if (body != BodyId::rail || !load.followed()) continue;
+    for (const PassedSection& p : (*load.passed)[1]) out = std::max(out, p.depth.back());
+  }
   return out;
 }
 

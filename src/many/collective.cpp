@@ -7,29 +7,16 @@
 
 #include "case/load_rows.hpp"
 #include "core/faults.hpp"
-#include "damage/wear_indices.hpp"
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
 #include "many/each_case.hpp"
 #include "many/result_columns.hpp"
 #include "runs/life_passes.hpp"
+#include "runs/load_life.hpp"
 #include "runs/solve_half_space.hpp"
 
 namespace railstrata {
 namespace {
-
-PatchDamage patch_damage(const CaseSpec& spec, const BemPatch& patch, const ContactSummary& contact) {
-  return {patch.place, streamlines(spec, patch.field), rcf_damage(rcf_damage_15(), t_gamma(contact).without_spin)};
-}
-
-std::vector<PatchDamage> patch_damages(const CaseSpec& spec, const HalfSpaceSolution& solution) {
-  const Summary& s = solution.summary;
-  std::vector<PatchDamage> out{
-      patch_damage(spec, solution.result, s.patches.empty() ? s.contact : s.patches.front().contact)};
-  for (std::size_t k = 0; k < solution.result.further.size(); ++k)
-    out.push_back(patch_damage(spec, solution.result.further[k], s.patches.at(k + 1).contact));
-  return out;
-}
 
 /// A rail that passes cannot be followed on keeps its wear, rolling contact fatigue and shakedown.
 void follow_passes(CollectiveRow& row, const Placement& placement, const BemResult& result,
@@ -53,8 +40,8 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
     s.shakedown = shakedown_summary(row.spec, sections);
     for (const SectionShakedown& section : sections) s.fatigue.push_back(section.fatigue);
     row.sections = sections;
-    if (row.spec.life.passes > 0) follow_passes(row, placement, solution.result, options);
   }
+  if (row.spec.life.passes > 0) follow_passes(row, placement, solution.result, options);
   s.warnings = bem_warnings(s, row.spec, solution.result);
   row.patches = patch_damages(row.spec, solution);
   row.summary = std::move(s);

@@ -10,6 +10,7 @@
 #include "judge/shakedown_summary.hpp"
 #include "many/each_case.hpp"
 #include "record/csv.hpp"
+#include "runs/load_life.hpp"
 #include "runs/solve_half_space.hpp"
 
 namespace railstrata {
@@ -19,13 +20,16 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
   if (!c.loaded) return;
   try {
     const CaseSpec spec = half_space_case(c.loaded->spec);
-    const HalfSpaceSolution solution = solve_half_space_contact(spec, place(spec, c.loaded->folder()), bem);
+    const Placement placement = place(spec, c.loaded->folder());
+    HalfSpaceSolution solution = solve_half_space_contact(spec, placement, bem);
     const BemResult& result = solution.result;
     Summary summary = solution.summary;
     if (stresses) {
       summary.rail = bem_rail_stress(result, summary.contact);
       summary.warnings = bem_warnings(summary, spec, result);
-      summary.shakedown = shakedown_summary(spec, half_space_shakedown(spec, result));
+      solution.shakedown = half_space_shakedown(spec, result);
+      summary.shakedown = shakedown_summary(spec, solution.shakedown);
+      if (spec.life.passes > 0) summary.life = life_summary(spec, placement, solution, bem);
     }
     c.summary = summary_json(summary);
     c.fault = failed_check(c.summary);

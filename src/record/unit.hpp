@@ -43,6 +43,8 @@ inline constexpr Unit kShare{"", "", 1, "%", kToPercent};
 inline constexpr Unit kPerMille{"", "", 1, "10⁻³", kToMilli};
 inline constexpr Unit kInside = si("", "inside|outside");  ///< 0 or 1, shown as one of two words
 inline constexpr Unit kMPa = both("_Pa", "_MPa", kToMega, "MPa");
+/// Million gross tonnes of traffic.
+inline constexpr Unit kMGT = both("_kg", "_MGT", 1e-9, "MGT");
 inline constexpr Unit kMillimetres = both("_m", "_mm", kToMilli, "mm");
 inline constexpr Unit kMicrometres = both("_m", "_um", kToMicro, "µm");
 inline constexpr Unit kNanometres = both("_m", "_nm", 1e9, "nm");

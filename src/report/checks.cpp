@@ -193,14 +193,19 @@ std::vector<ReportAnswer> run_answers(const std::vector<ReportRun>& runs) {
   const nlohmann::json::json_pointer at("/shakedown/answer");
   std::vector<ReportAnswer> out;
   for (const ReportRun& run : runs) {
-    if (!run.result.summary.contains(at) || !run.result.summary[at].is_object()) continue;
-    const nlohmann::json& answer = run.result.summary[at];
     const std::string whose =
         runs.size() > 1
             ? fmt::format("{} ({}), ", run.name,
                           engine_title(is_engine(run.result.engine, Engine::fem) ? Engine::fem : Engine::bem))
             : "";
-    out.push_back({answer.value("tone", ""), answer.value("title", ""), whose + answer.value("reason", "")});
+    const nlohmann::json& summary = run.result.summary;
+    if (summary.contains(at) && summary[at].is_object()) {
+      const nlohmann::json& answer = summary[at];
+      out.push_back({answer.value("tone", ""), answer.value("title", ""), whose + answer.value("reason", "")});
+    }
+    if (summary.contains(kLifeGroup))
+      out.push_back({summary[kLifeGroup]["best_kg"].is_number() ? "open" : "plain", "Life, of such wheels",
+                     whose + summary[kLifeGroup].value("text", "")});
   }
   return out;
 }

@@ -345,6 +345,19 @@ std::vector<ResultNumber> heat_numbers() {
               kShown)};
 }
 
+template <auto Member>
+constexpr auto life = &at<&Summary::life, Member>;
+
+/// Left out of summary.json where the case does not ask for passes of a life; null: never, or not known.
+std::vector<ResultNumber> life_numbers() {
+  using L = LifeSummary;
+  return {
+      row("best", kMGT, life<&L::best>, "life", "Life of the rail",
+          "Gross traffic of wheels like this one until the first zone of the rail ends, best value", kColumn),
+      row("low", kMGT, life<&L::low>, "life, low", "Life of the rail, low", "The lower end of its range", kColumn),
+      row("high", kMGT, life<&L::high>, "life, high", "Life of the rail, high", "The upper end of its range", kColumn)};
+}
+
 /// The stresses that tables hold, in their order.
 struct StressColumn {
   std::string_view body, zone, measure, number;
@@ -362,7 +375,9 @@ const Row& row_of(const std::vector<Row>& rows, std::string_view key) {
   return *std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.key == key; });
 }
 
-bool of_strength(const ResultNumber& n) { return n.group == kShakedownGroup || n.group == kLayersGroup; }
+bool of_strength(const ResultNumber& n) {
+  return n.group == kShakedownGroup || n.group == kLayersGroup || n.group == kLifeGroup;
+}
 
 ResultColumn column_of(const ResultNumber& n) {
   const bool same = n.unit.factor == n.unit.column_factor;
@@ -401,7 +416,10 @@ ResultColumn column_of(const StressColumn& c) {
 
 std::string ResultNumber::path() const { return fmt::format("{}{}/{}", group.empty() ? "" : "/", group, key()); }
 std::string ResultNumber::column_name() const {
-  const std::string_view prefix = group == kShakedownGroup ? "shakedown_" : group == kLayersGroup ? "layers_" : "";
+  const std::string_view prefix = group == kShakedownGroup ? "shakedown_"
+                                  : group == kLayersGroup  ? "layers_"
+                                  : group == kLifeGroup    ? "life_"
+                                                           : "";
   return fmt::format("{}{}{}", prefix, symbol, unit.column_ending);
 }
 
@@ -427,6 +445,7 @@ const std::vector<ResultNumber>& result_numbers() {
     add("damage", {damage_numbers(), heat_numbers()});
     add(kShakedownGroup, {shakedown_numbers()});
     add(kLayersGroup, {layer_numbers()});
+    add(kLifeGroup, {life_numbers()});
     add("plastic", {plastic_numbers(), plastic_place_numbers()});
     add("energy", {energy_numbers()});
     add("run", {time_numbers(), step_numbers(), effort_numbers()});

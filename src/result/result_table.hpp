@@ -24,6 +24,9 @@ enum class AvailableIn { both_engines, finite_elements, half_spaces };
 /// Place of layers and interfaces in summary.json.
 inline constexpr std::string_view kLayersGroup = "layers";
 
+/// Place of the life in summary.json.
+inline constexpr std::string_view kLifeGroup = "life";
+
 /// Below which size a number is what round-off and the solvers' tolerances leave, and screen and page show 0: `share`
 /// times the numbers at these paths of the same result ("" none). Files keep every digit.
 struct RoundOff {

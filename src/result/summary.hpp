@@ -209,6 +209,12 @@ struct Warning {
   std::string text;
 };
 
+/// How long the rail lasts if every wheel were this one (judge/zone_life.hpp); where the case asks for it.
+struct LifeSummary {
+  double best = kNotApplicable, low = kNotApplicable, high = kNotApplicable;  ///< kg of gross traffic; infinite: never
+  std::string text;                                                           ///< in words; empty: it was not asked for
+};
+
 struct Summary {
   std::string title;
   std::string state;  ///< of a transient: which of its states this is
@@ -220,6 +226,7 @@ struct Summary {
   PlasticSummary plastic;
   ShakedownSummary shakedown;
   DamageSummary damage;
+  LifeSummary life;
   std::vector<BodyFatigue> fatigue;  ///< of the bodies whose strength or fatigue limits are known
   RunSummary run;
   std::vector<Check> checks;

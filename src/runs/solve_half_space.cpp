@@ -7,6 +7,7 @@
 #include "io/provenance.hpp"
 #include "judge/bem_summary.hpp"
 #include "judge/half_space_track.hpp"
+#include "runs/load_life.hpp"
 #include "runs/process_memory.hpp"
 
 namespace railstrata {
@@ -92,6 +93,7 @@ HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placem
   out.shakedown = half_space_shakedown(spec, out.result);
   s.shakedown = shakedown_summary(spec, out.shakedown);
   for (const SectionShakedown& section : out.shakedown) s.fatigue.push_back(section.fatigue);
+  if (spec.life.passes > 0) s.life = life_summary(spec, placement, out, options);
   s.run.commit = commit_text();
   s.run.threads = max_threads();
   s.run.peak_memory_bytes = peak_memory();

@@ -12,6 +12,7 @@
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
 #include "many/collective_files.hpp"
+#include "runs/solve_half_space.hpp"
 
 namespace railstrata {
 namespace {
@@ -163,6 +164,25 @@ TEST(Collective, TheRangeOfALifeHasTheScatterOfStrengths) {
   EXPECT_NEAR(scattered.wheels.low / given.wheels.low, std::pow(0.9, 6), 1e-3);
   EXPECT_NE(scattered.rests_on.find("strengths ± 10 %"), std::string::npos) << scattered.rests_on;
   EXPECT_GT(life("[collective]\nlateral_deviation = \"6 mm\"\n").wheels.best, 1.3 * given.wheels.best);
+}
+
+// bem, sweep and study give the life of their one load: that of a collective of it.
+TEST(Collective, TheLifeOfOneLoadIsThatOfItsCollective) {
+  std::string text = kArcs;
+  text +=
+      "friction_coefficient = 0.15\n[material.rail]\nhardening = \"R260\"\n[passes]\npatch_cells = 3\n"
+      "patch_rows = 4\nductility = 5\n[life]\npasses = 8\n[vehicle]\nwheel_load = \"60 kN\"\n";
+  const CaseSpec one = parse_case(text, "a.toml").spec,
+                 many = parse_case(text + "[[load]]\npassages = 1\n", "a.toml").spec;
+  const Placement placement = place(one, {});
+  const HalfSpaceSolution alone = solve_half_space(one, placement, coarse().bem);
+  const std::vector<CollectiveRow> rows = solved(many);
+  const double cell = coarse().bem.cell;
+  const Lives lives =
+      collective_lives(many, rows, rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell));
+  EXPECT_EQ(alone.summary.life.text, life_text(lives.rows));
+  EXPECT_DOUBLE_EQ(alone.summary.life.best, 1e9 * shortest(lives.rows)->mgt.best);
+  EXPECT_GT(alone.summary.life.best, 0);
 }
 
 // Yield two deviations lower flows more, higher less.

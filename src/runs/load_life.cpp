@@ -1,0 +1,61 @@
+#include "runs/load_life.hpp"
+
+#include "case/case_spec.hpp"
+#include "core/faults.hpp"
+#include "damage/wear_indices.hpp"
+#include "runs/life_passes.hpp"
+
+namespace railstrata {
+namespace {
+
+PatchDamage patch_damage(const CaseSpec& spec, const BemPatch& patch, const ContactSummary& contact) {
+  return {patch.place, streamlines(spec, patch.field), rcf_damage(rcf_damage_15(), t_gamma(contact).without_spin)};
+}
+
+}  // namespace
+
+std::vector<PatchDamage> patch_damages(const CaseSpec& spec, const HalfSpaceSolution& solution) {
+  const Summary& s = solution.summary;
+  std::vector<PatchDamage> out{
+      patch_damage(spec, solution.result, s.patches.empty() ? s.contact : s.patches.front().contact)};
+  for (std::size_t k = 0; k < solution.result.further.size(); ++k)
+    out.push_back(patch_damage(spec, solution.result.further[k], s.patches.at(k + 1).contact));
+  return out;
+}
+
+Lives life_of_load(const CaseSpec& spec, const Placement& placement, const HalfSpaceSolution& solution,
+                   const BemOptions& bem, const Control* control) {
+  const std::vector<PatchDamage> patches = patch_damages(spec, solution);
+  RailDamage rail = undamaged(placement.rail, bem.cell);
+  WheelDamage wheel = unworn_wheel(placement.wheel, bem.cell);
+  for (const PatchDamage& patch : patches) {
+    add_passages(rail, placement.rail, placement.track, patch, 1);
+    add_distance(wheel, patch, 1);
+  }
+  spread_aside(rail, spec.collective.lateral_deviation);
+  spread_aside(wheel, spec.collective.lateral_deviation);
+  const PassedSections passed = passed_sections(spec, placement, solution.result, bem, control);
+  return zone_lives(spec, {{1, solution.summary.contact.F_z, &patches, &solution.shakedown, &passed}}, rail, wheel);
+}
+
+LifeSummary life_summary(const CaseSpec& spec, const Placement& placement, const HalfSpaceSolution& solution,
+                         const BemOptions& bem, const Control* control) {
+  LifeSummary out;
+  try {
+    const Lives lives = life_of_load(spec, placement, solution, bem, control);
+    out.text = life_text(lives.rows);
+    if (const LifeRow* row = shortest(lives.rows)) {
+      constexpr double kKilograms = 1e9;  // of a million tonnes
+      out.best = kKilograms * row->mgt.best;
+      out.low = kKilograms * row->mgt.low;
+      out.high = kKilograms * row->mgt.high;
+    }
+  } catch (const CaseError& e) {
+    out.text = std::string("not known: ") + e.what();
+  } catch (const NumericalError& e) {
+    out.text = std::string("not known: ") + e.what();
+  }
+  return out;
+}
+
+}  // namespace railstrata
