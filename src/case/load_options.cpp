@@ -70,7 +70,14 @@ OptionTable load_table() {
        option("yaw", load<&LoadSpec::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}),
        option("curve_radius", load<&LoadSpec::curve_radius>, "Positive with the centre on the field side", kLength,
               {-1e6, 1e6}),
-       option("speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200))},
+       option("speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200)),
+       option("guiding_force", load<&LoadSpec::guiding_force>,
+              "Y of the vehicle code, of the wheel on the rail, positive to the field side: compared with what comes "
+              "out, not "
+              "used",
+              kForce, {-1e6, 1e6}),
+       option("t_gamma", load<&LoadSpec::t_gamma>,
+              "T-gamma of the vehicle code, without spin: compared with what comes out, not used", kForce, {0, 1e6})},
       list_of<&CaseSpec::loads>(),
       {{"wheel_load", "axle_load"},
        {"passages", "mgt"},

@@ -57,6 +57,9 @@ constexpr std::array kColumnWords{ColumnWord{"name", "Name"},
                                   ColumnWord{"curve_radius", "Rayon de courbe"},
                                   ColumnWord{"curve_radius", "Kurvradie"},
                                   ColumnWord{"curve_radius", "曲线半径"},
+                                  ColumnWord{"guiding_force", "Y"},
+                                  ColumnWord{"guiding_force", "Führungskraft"},
+                                  ColumnWord{"t_gamma", "T-gamma"},
                                   ColumnWord{"speed", "Geschwindigkeit"},
                                   ColumnWord{"speed", "Vitesse"},
                                   ColumnWord{"speed", "Hastighet"},
@@ -182,8 +185,14 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
   if (!series) return {};
   const std::size_t samples = spec.loads.size();
   spec.loads = binned(spec.loads);
-  return fmt::format("{}: {} samples of a wheel became {} loads; not read: {}", file.string(), samples,
-                     spec.loads.size(), fmt::join(table.ignored, ", "));
+  std::string note = fmt::format("{}: {} samples of a wheel became {} loads; not read: {}", file.string(), samples,
+                                 spec.loads.size(), fmt::join(table.ignored, ", "));
+  const auto lacks = [](const LoadSpec& l) { return !l.lateral_creepage && !l.lateral_traction_coefficient; };
+  if (std::any_of(spec.loads.begin(), spec.loads.end(), lacks))
+    note +=
+        "; without a column lateral_creepage the yaw alone slides the wheel sideways, which doubles T-gamma where the "
+        "wheel moves across as it turns";
+  return note;
 }
 
 void check_loads(const CaseSpec& spec, CaseSource& source) {

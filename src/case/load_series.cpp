@@ -29,6 +29,8 @@ const std::array kAxes{Axis{&LoadSpec::wheel_load, 10e3},
                        Axis{&LoadSpec::lateral_traction_coefficient, 0.02},
                        Axis{&LoadSpec::creepage, 5e-4},
                        Axis{&LoadSpec::lateral_creepage, 5e-4}};
+/// Means alone, which part no samples.
+const std::array kMeans{&LoadSpec::guiding_force, &LoadSpec::t_gamma};
 using Bin = std::array<std::optional<long>, kAxes.size()>;
 
 double on_axis(const Axis& axis, double value) { return axis.inverse ? 1 / value : value; }
@@ -46,6 +48,8 @@ void add(const LoadSpec& sample, LoadSpec& sums) {
   for (const Axis& axis : kAxes)
     if (const auto& value = sample.*axis.member)
       sums.*axis.member = (sums.*axis.member).value_or(0) + sample.passages * on_axis(axis, *value);
+  for (const auto member : kMeans)
+    if (const auto& value = sample.*member) sums.*member = (sums.*member).value_or(0) + sample.passages * *value;
 }
 
 /// A curvature of zero is straight track: no radius.
@@ -56,6 +60,8 @@ LoadSpec mean_of(LoadSpec sums) {
       if (axis.inverse && !(std::abs(*value) > 1e-6)) value.reset();
       if (value && axis.inverse) *value = 1 / *value;
     }
+  for (const auto member : kMeans)
+    if (auto& value = sums.*member) *value /= sums.passages;
   return sums;
 }
 

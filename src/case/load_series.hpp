@@ -13,8 +13,8 @@ bool names_series(std::string_view text);
 
 /// Samples in the same bin become one load: the means of their numbers, each weighted by its passages, which are added
 /// up. Bins are 10 kN, 1 mm, 1 mrad, 5 m/s, 0.001 1/m of curvature, 0.02 of friction and traction and 0.0005 of
-/// creepage wide, about 0; of what a sample does not give there is none. The bins follow in the order of their
-/// passages, most first.
+/// creepage wide, about 0; of what a sample does not give there is none. Forces to compare with part no samples. The
+/// bins follow in the order of their passages, most first.
 std::vector<LoadSpec> binned(const std::vector<LoadSpec>& samples);
 
 }  // namespace railstrata

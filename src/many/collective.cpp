@@ -77,6 +77,7 @@ std::vector<CollectiveRow> plan_collective(const CaseSpec& spec) {
     CollectiveRow& row = rows.emplace_back();
     row.name = load_name(spec, i);
     row.passages = spec.loads[i].passages;
+    row.given = spec.loads[i];
     row.spec = with_load(spec, spec.loads[i]);
   }
   return rows;

@@ -28,6 +28,7 @@ struct CollectiveRow {
   nlohmann::ordered_json summary_json;  ///< the same; null: there is none
   std::vector<PatchDamage> patches;
   std::vector<SectionShakedown> sections;  ///< of the bodies with strengths
+  LoadSpec given;                          ///< of the case
   PassedSections passed;                   ///< by life.passes, of its patches
   std::string not_followed;                ///< why there are none though life.passes asks for them
   std::string fault;                       ///< empty: solved, and its checks hold

@@ -129,6 +129,35 @@ ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const Collectiv
   return out;
 }
 
+/// What the vehicle code has for the same wheels, mean over those that give it.
+ReportAnswer comparison_answer(const std::vector<CollectiveRow>& rows) {
+  constexpr double kFar = 0.2;  // of the vehicle code's
+  std::string text;
+  bool far = false;
+  const auto compare = [&](const char* name, const Unit& unit, std::optional<double> LoadSpec::*given, auto&& here) {
+    double wheels = 0, theirs = 0, ours = 0;
+    for (const CollectiveRow& row : rows) {
+      if (!row.sound() || !(row.given.*given)) continue;
+      wheels += row.passages;
+      theirs += row.passages * *(row.given.*given);
+      ours += row.passages * here(row.summary);
+    }
+    if (!(wheels > 0)) return;
+    far = far || std::abs(ours - theirs) > kFar * std::abs(theirs);
+    text += fmt::format("{}{} {} here, {} there", text.empty() ? "" : "; ", name, with_unit(unit, ours / wheels, 3),
+                        with_unit(unit, theirs / wheels, 3));
+  };
+  compare("T-gamma", unit::kNewtons, &LoadSpec::t_gamma, [](const Summary& s) { return s.damage.t_gamma; });
+  compare("Y", unit::kKilonewtons, &LoadSpec::guiding_force, [](const Summary& s) { return -s.contact.F_y; });
+  if (text.empty()) return {};
+  const auto two = std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return r.patches.size() > 1; });
+  if (far && two > 0)
+    text += fmt::format(
+        "; {} of {} loads touch at two places, where some µm of the shift move the load from tread to flange", two,
+        rows.size());
+  return {far ? "open" : "plain", "Beside the vehicle code", "mean of the wheels: " + text};
+}
+
 /// Where the damage function grows most, and when it comes to a visible crack.
 ReportAnswer rcf_answer(const CollectiveDamage& both) {
   const std::vector<double>& damage = both.rail.rcf_damage;
@@ -404,9 +433,9 @@ std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& r
       out.push_back({std::string(words.tone), std::string(words.title),
                      fmt::format("load \"{}\", {}", worst->name, answer->reason)});
     }
-  if (ReportAnswer life = life_answer(both.lives); !life.text.empty()) out.push_back(std::move(life));
-  if (ReportAnswer rcf = rcf_answer(both); !rcf.text.empty()) out.push_back(std::move(rcf));
-  if (ReportAnswer wear = wear_answer(rows, both); !wear.text.empty()) out.push_back(std::move(wear));
+  for (const ReportAnswer& answer :
+       {life_answer(both.lives), rcf_answer(both), wear_answer(rows, both), comparison_answer(rows)})
+    if (!answer.text.empty()) out.push_back(answer);
   return out;
 }
 

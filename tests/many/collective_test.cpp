@@ -242,6 +242,24 @@ TEST(Collective, AnswersGiveWearAndTheFirstCrackByGrossTonnes) {
       << answers[1].text;
 }
 
+TEST(Collective, PutsTheVehicleCodesForcesBesideItsOwn) {
+  const auto answer = [](const char* given) {
+    const CaseSpec spec =
+        parse_case(std::string(kArcs) + "[[load]]\npassages = 1\nwheel_load = \"60 kN\"\n" + given, "a.toml").spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    const std::vector<ReportAnswer> all =
+        collective_answers(rows, {rail_damage(rows, place(spec, {}), 0.5e-3), {}, {}});
+    return std::pair{all.back(), rows[0].summary};
+  };
+  const auto [far, own] = answer("t_gamma = \"1 kN\"\n");
+  EXPECT_EQ(far.title, "Beside the vehicle code");
+  EXPECT_EQ(far.tone, "open");
+  EXPECT_EQ(far.text, fmt::format("mean of the wheels: T-gamma {:.3g} N here, 1000 N there", own.damage.t_gamma));
+  const std::string same = fmt::format("guiding_force = \"{} N\"\n", -own.contact.F_y);
+  EXPECT_EQ(answer(same.c_str()).first.tone, "plain");
+  EXPECT_EQ(answer("").first.title, "Wear");
+}
+
 TEST(Collective, SumsTheRowsTimesTheirPassages) {
   const CaseSpec spec = parse_case(std::string(kArcs) +
                                        "[material.rail]\nhardness = \"280 HV\"\n"
