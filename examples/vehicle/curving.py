@@ -93,7 +93,7 @@ def rows(vehicle, case, begin, end):
         for i, axle in enumerate(("leading", "trailing")):
             place, w = x + bogie.places[i], bogie.found[i].left
             if k % EVERY == 0 and begin <= place <= end:
-                energy = abs(w.force[0] * w.creepage_x + w.lateral_force * w.creepage_y)
+                energy = w.dissipation / bogie.speed
                 curve = f"{-CURVE / bogie.into(place):.1f}" if place > STRAIGHT else ""
                 y, yaw = 1e3 * (q[2 * i] - bogie.rail(place)), 1e3 * q[2 * i + 1]
                 yield (f"{place:.2f};{vehicle}, {axle};{1e-3 * w.force[2]:.2f};{y:.3f};{yaw:.3f};"

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
@@ -10,6 +11,7 @@
 #include "app/summary_text.hpp"
 #include "app/waiting.hpp"
 #include "bem/film_capacity.hpp"
+#include "case/track_facts.hpp"
 #include "core/faults.hpp"
 #include "io/folder_kind.hpp"
 #include "io/output_folder.hpp"
@@ -41,6 +43,14 @@ HalfSpaceJob job_of(const CommandOptions& options) {
   job.need = half_space_need(job.loaded.spec, job.placement, job.bem.cell);
   require_memory(job.need, job.bem.cell);
   return job;
+}
+
+/// Wheelset and track that the case stands on, with where they come from.
+std::string track_text(const CaseSpec& spec) {
+  std::vector<std::string> facts;
+  for (const TrackFact& f : track_facts(spec.geometry))
+    facts.push_back(fmt::format("{}: {} ({})", f.label, f.value, f.from));
+  return fmt::format("{}", fmt::join(facts, "; "));
 }
 
 HalfSpaceSolution solve_steady(const HalfSpaceJob& job, const ShakedownOptions& wanted) {
@@ -101,6 +111,7 @@ ExitCode command_bem(const CommandOptions& options) {
     if (!e.remedy.empty()) e.remedy += ", then start it again with --force";
     throw;
   }
+  if (const std::string track = track_text(job.loaded.spec); !track.empty()) spdlog::info("{}", track);
   for (const std::string& note : solution.result.notes) spdlog::info("{}", note);
   print_summary(solution.summary, options.json);
   spdlog::info("results are in {}", job.out.string());
