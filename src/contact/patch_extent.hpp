@@ -36,10 +36,9 @@ PatchExtent patch_extent(const ContactField& field);
 struct PatchOnWay {
   double length = 0, width = 0;  ///< m, as of PatchExtent
   double p_max_x = 0;            ///< m, along the rail from where the wheel began
-  int patches = 0;               ///< connected regions
+  double patches = 0;            ///< connected regions
   double height = 0;             ///< m, of rail and wheel together below the axle
-  double lowering = 0;           ///< m, of the wheel below where it would run (half-spaces) or began (finite elements)
-                                 ///< on the smooth rail
+  double lowering = 0;           ///< m, of the axle below where the wheel would touch the smooth rail without load
 };
 
 /// Connected regions of points in contact: a wheel that bridges a hollow has two. Points touch at corners too.

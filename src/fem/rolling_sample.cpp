@@ -113,6 +113,46 @@ double sleeper_below(const Stepper& st) {
   return pads.none() ? 0 : st.state().sleepers[sleeper_near(pads, st.position())].z;
 }
 
+/// The pressures of the rail's nodes around the wheel; x along the rail.
+ContactField pressures_around(const Stepper& st) {
+  const ContactSurface& surface = st.system().rail_surface();
+  const std::vector<double>& at = surface.stations.at;
+  const double middle = st.pose().x, half = sample_half_length(st.system());
+  const auto station = [&](double x) {
+    return static_cast<int>(std::lower_bound(at.begin(), at.end(), x) - at.begin());
+  };
+  const int first = station(middle - half);
+  ContactField out;
+  out.resize(surface.columns, std::min(station(middle + half), surface.stations.nodes()) - first);
+  for (int k = 0; k < out.stations; ++k)
+    for (int c = 0; c < out.columns; ++c) {
+      const int i = k * out.columns + c;
+      out.x[i] = at[first + k];
+      out.y[i] = surface.at_contact(c).y;
+      out.p[i] = st.state().tractions.at(c, first + k).p;
+    }
+  out.p_noise = kPressureNoise * st.largest_pressure();
+  return out;
+}
+
+PatchOnWay patch_on_way(const Stepper& st) {
+  const RollingSystem& sys = st.system();
+  const ContactSurface &rail = sys.rail_surface(), &wheel = sys.wheel_surface();
+  if (!sys.over_heights()) return {};
+  PatchOnWay out;
+  const AxlePose pose = st.pose();
+  out.lowering = -pose.z;
+  out.height = rail.heights.at(pose.x, 0).z + wheel.heights.at(wheel.radius * pose.psi, 0).z;
+  const ContactField f = pressures_around(st);
+  const PatchExtent extent = patch_extent(f);
+  out.length = extent.length;
+  out.width = extent.width;
+  out.patches = contact_regions(f);
+  const auto most = std::max_element(f.p.begin(), f.p.end());
+  if (most != f.p.end() && *most > 0) out.p_max_x = f.x[static_cast<std::size_t>(most - f.p.begin())];
+  return out;
+}
+
 }  // namespace
 
 RollingSample take_sample(const RollingSystem& sys, const SampledBody& rail, const SampledBody& wheel,
@@ -170,7 +210,8 @@ HistoryRow history_row(const Stepper& st, const EnergyBalance& start) {
           st.lateral_creepage(),
           s.axle.y,
           foot_height(st.system(), st.position(), s.bodies[kRail].u),
-          sleeper_below(st)};
+          sleeper_below(st),
+          patch_on_way(st)};
 }
 
 }  // namespace railstrata

@@ -2,6 +2,7 @@
 // Records of the moving contact: samples of both bodies around the wheel, and rows of the history.
 #include <vector>
 
+#include "contact/patch_extent.hpp"
 #include "fem/band_sample.hpp"
 #include "fem/stepper.hpp"
 
@@ -29,6 +30,7 @@ struct HistoryRow {
   double lateral_creepage;   ///< in the contact plane
   double axle_y;             ///< m, travel sideways
   double foot_z, sleeper_z;  ///< m, of a rail on a track: its foot below the wheel, and the nearest sleeper
+  PatchOnWay way;            ///< over heights of rail or wheel
 };
 
 /// A body as it is sampled.

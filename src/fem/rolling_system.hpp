@@ -98,6 +98,7 @@ struct RollingSystem {
   const Body& rail() const { return body(BodyId::rail); }
   const Body& wheel() const { return body(BodyId::wheel); }
   bool on_ring() const { return rail().mesh.rises(); }
+  bool over_heights() const { return !rail_surface().heights.none() || !wheel_surface().heights.none(); }
   const ContactSurface& surface(BodyId id) const { return surfaces[index_of(id)]; }
   const ContactSurface& rail_surface() const { return surface(BodyId::rail); }
   const ContactSurface& wheel_surface() const { return surface(BodyId::wheel); }

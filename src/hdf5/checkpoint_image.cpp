@@ -443,6 +443,20 @@ void describe(Archive& a, RunResult& r) {
       r.history[k].foot_z = on_track[k].foot_z;
       r.history[k].sleeper_z = on_track[k].sleeper_z;
     }
+  const bool over_heights =
+      std::any_of(r.history.begin(), r.history.end(), [](const HistoryRow& h) { return h.way.patches > 0; });
+  std::vector<HistoryRow> on_way = Archive::reading ? std::vector<HistoryRow>{} : r.history;
+  if (Archive::reading || over_heights)
+    a.later_rows("way_history", on_way, [](auto& h, auto&& on) {
+      on("height", h.way.height);
+      on("lowering", h.way.lowering);
+      on("length", h.way.length);
+      on("width", h.way.width);
+      on("patches", h.way.patches);
+      on("p_max_x", h.way.p_max_x);
+    });
+  if (Archive::reading)
+    for (std::size_t k = 0; k < std::min(on_way.size(), r.history.size()); ++k) r.history[k].way = on_way[k].way;
   each(a, "positions", r.positions, [](auto& part, PositionSamples& p) {
     part.row("wanted", p, [](auto& v, auto&& on) { on("position", v.position); });
     each(part, "samples", p.samples, [](auto& inner, RollingSample& s) { describe(inner, s); });

@@ -238,7 +238,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
   return mesh;
 }
 
-Columns<HistoryRow> history_columns(bool on_track) {
+Columns<HistoryRow> history_columns(bool on_track, bool over_heights) {
   using H = HistoryRow;
   Columns<H> out{{"time", unit::kMilliseconds, &H::time},
                  {"position", unit::kMillimetres, &H::position},
@@ -258,9 +258,15 @@ Columns<HistoryRow> history_columns(bool on_track) {
   for (const EnergyEntry& e : kEnergyEntries)
     out.push_back({e.name, unit::kJoules, [value = e.value](const H& h) { return h.energy.*value; }});
   out.push_back({"closure", unit::kJoules, &H::closure});
-  if (!on_track) return out;
-  out.push_back({"foot_z", unit::kMillimetres, &H::foot_z});
-  out.push_back({"sleeper_z", unit::kMillimetres, &H::sleeper_z});
+  if (on_track)
+    append(out, {{"foot_z", unit::kMillimetres, &H::foot_z}, {"sleeper_z", unit::kMillimetres, &H::sleeper_z}});
+  if (over_heights)
+    append(out, {{"height", unit::kMicrometres, [](const H& h) { return h.way.height; }},
+                 {"lowering", unit::kMicrometres, [](const H& h) { return h.way.lowering; }},
+                 {"patch_length", unit::kMillimetres, [](const H& h) { return h.way.length; }},
+                 {"patch_width", unit::kMillimetres, [](const H& h) { return h.way.width; }},
+                 {"patches", unit::kCount, [](const H& h) { return h.way.patches; }},
+                 {"p_max_x", unit::kMillimetres, [](const H& h) { return h.way.p_max_x; }}});
   return out;
 }
 

@@ -58,6 +58,6 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
 VtkHexahedra band_mesh(const BandStress& band, double wheel_x);
 
 /// history.csv, a row at a time (RecordLog); of a rail on a track with its foot and the nearest sleeper.
-Columns<HistoryRow> history_columns(bool on_track);
+Columns<HistoryRow> history_columns(bool on_track, bool over_heights);
 
 }  // namespace railstrata

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/patch_extent.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr double kPressureNoise = 0.025;  // of p_max: points below are left out of areas and ratios
 
 template <class Slips>
 void set_states(ContactField& f, Slips&& slips) {

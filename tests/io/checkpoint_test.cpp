@@ -41,6 +41,7 @@ RunState small_run(double time) {
   r.result.history[0].time = 1e-3;
   r.result.history[0].forces.nodes = 7;
   r.result.history[0].energy.kinetic = 12;
+  r.result.history[0].way = {0.01, 0.005, 0.2, 2, -1e-4, 9e-4};
   r.result.positions = {{0.3, {RollingSample{}, RollingSample{}}}, {0.4, {}}};
   r.result.positions[0].samples[1].rail.stress = {{1, 2, 3, 4, 5, 6}};
   r.result.positions[0].samples[1].rail.plastic = {{{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12}, 13}};
@@ -130,6 +131,8 @@ TEST_F(Checkpoints, ReadBackWhatWasWritten) {
   EXPECT_EQ(c.run.stepper.facets[0].correction[3].y, 8);
   EXPECT_TRUE(c.run.stepper.reached_edge);
   EXPECT_EQ(c.run.result.history[0].forces.nodes, 7);
+  EXPECT_EQ(c.run.result.history[0].way.patches, 2);
+  EXPECT_EQ(c.run.result.history[0].way.lowering, 9e-4);
   EXPECT_EQ(c.run.result.positions[0].samples[1].rail.stress[0].xz, 6);
   const ElementPlasticity yielded = c.run.result.positions[0].samples[1].rail.plastic.at(0);
   EXPECT_EQ(yielded.strain.yz, 5);
@@ -295,7 +298,7 @@ TEST_F(Checkpoints, OfTheFormatBeforeSleepersAreRead) {
   EXPECT_EQ(now.run.result.history[0].foot_z, -8e-4);
   EXPECT_EQ(now.run.result.preload.foot_z, -9e-4);
   std::string before = edited(whole, [](hid_t file) {
-    for (const char* part : {"state/sleepers", "result/track_history", "result/preload_foot"})
+    for (const char* part : {"state/sleepers", "result/track_history", "result/preload_foot", "result/way_history"})
       ASSERT_GE(H5Ldelete(file, part, H5P_DEFAULT), 0);
   });
   const std::string format = fmt::format("format {}\n", kCheckpointFormat);
