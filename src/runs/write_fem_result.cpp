@@ -125,7 +125,8 @@ struct FemWriter::GrowingFiles {
 
   RecordLog<HistoryRow>& history_in(const fs::path& folder, const RollingSystem& system,
                                     const std::vector<std::string>& provenance) {
-    if (!history) history.emplace(folder / "history.csv", provenance, history_columns(!system.pads.none(), system.over_heights()));
+    if (!history)
+      history.emplace(folder / "history.csv", provenance, history_columns(!system.pads.none(), system.over_heights()));
     return *history;
   }
   PatchSeries& series_in(const fs::path& folder, const RollingSystem& system,
