@@ -2,6 +2,7 @@
 // A half-space solution as a kind of wheels that damage a rail: its patches, and how long the rail lasts under them.
 #include <vector>
 
+#include "core/control.hpp"
 #include "judge/rail_damage.hpp"
 #include "judge/zone_life.hpp"
 #include "model/model.hpp"
