@@ -36,6 +36,15 @@ double shortest_spacing(const SweptBody& body, const Block& b, double radius) {
   return body.kind == SweepKind::revolve ? radius * least : least;
 }
 
+double wave_speed(const Block& block, int quad, const std::vector<Elastic>& materials) {
+  double fastest = 0;
+  for (int set = 0; set < block.sets(); ++set) {
+    const Elastic& m = materials[block.material_of_set(set, quad)];
+    fastest = std::max(fastest, std::sqrt(m.p_wave_modulus() / m.density));
+  }
+  return fastest;
+}
+
 // Nodes of quadrilaterals that a pressure wave crosses in less than `step` over the slack, and the masters of those
 // that are carried.
 NodeSets fast_nodes(const SweptBody& body, const std::vector<Elastic>& materials, double step) {
@@ -44,12 +53,11 @@ NodeSets fast_nodes(const SweptBody& body, const std::vector<Elastic>& materials
     const Section& s = body.blocks[b].section;
     for (std::size_t q = 0; q < s.quads.size(); ++q) {
       const auto& k = s.quads[q];
-      const Elastic& m = materials[s.quad_material[q]];
       const auto edge = [&](int side) { return norm(s.nodes[k[(side + 1) % 4]] - s.nodes[k[side]]); };
       const double area = quad_area(s, k);
       const double across = area / std::max(0.5 * (edge(0) + edge(2)), 0.5 * (edge(1) + edge(3)));
       const double least = std::min(across, shortest_spacing(body, body.blocks[b], std::abs(s.nodes[k[0]].z)));
-      if (std::sqrt(m.p_wave_modulus() / m.density) * step <= kStepSlack * least) continue;
+      if (wave_speed(body.blocks[b], static_cast<int>(q), materials) * step <= kStepSlack * least) continue;
       for (int n : k) out[b][n] = true;
     }
   }
@@ -114,7 +122,8 @@ Block extract_block(const Block& whole, const std::vector<bool>& nodes, const st
                     std::vector<int>& new_number) {
   assert(nodes.size() == whole.section.nodes.size() && quads.size() == whole.section.quads.size());
   const Section& from = whole.section;
-  Block block{whole.name, {}, whole.stations};
+  Block block{whole.name, {}, whole.stations, {{}, whole.along.of_element}};
+  block.along.sets.resize(whole.along.sets.size());
   new_number.assign(from.nodes.size(), -1);
   for (std::size_t n = 0; n < from.nodes.size(); ++n) {
     if (!nodes[n]) continue;
@@ -127,6 +136,8 @@ Block extract_block(const Block& whole, const std::vector<bool>& nodes, const st
     for (int& n : k) n = new_number[n];
     block.section.quads.push_back(k);
     block.section.quad_material.push_back(from.quad_material[q]);
+    for (std::size_t set = 0; set < block.along.sets.size(); ++set)
+      block.along.sets[set].push_back(whole.along.sets[set][q]);
   }
   return block;
 }

@@ -31,16 +31,17 @@ MassScaling::Edges MassScaling::thin_edges(const SweptBody& body, int block, con
   Edges edges;
   for (std::size_t q = 0; q < s.quads.size(); ++q) {
     const auto& k = s.quads[q];
-    const Elastic& m = materials[s.quad_material[q]];
     const double area = quad_area(s, k);
     for (int side : {0, 1}) {  // edges (side, side + 1) and the one opposite run across the row
       const double width =
           0.5 * (edge_length(s, k[side + 1], k[(side + 2) % 4]) + edge_length(s, k[(side + 3) % 4], k[side]));
-      const double height = area / width,
-                   excess = std::pow(wanted_step / height, 2) * m.p_wave_modulus() / m.density - 1;
-      if (height > kThin * width || excess < kMassSlack * kMassSlack - 1) continue;
+      const double height = area / width;
+      if (height > kThin * width) continue;
       const std::array<Vec2, 4> corners{s.nodes[k[0]], s.nodes[k[1]], s.nodes[k[2]], s.nodes[k[3]]};
       for (int e = 0; e < elements; ++e) {
+        const Elastic& m = materials[b.material(static_cast<int>(q), e)];
+        const double excess = std::pow(wanted_step / height, 2) * m.p_wave_modulus() / m.density - 1;
+        if (excess < kMassSlack * kMassSlack - 1) continue;
         const double t0 = b.stations.at[e],
                      t1 = e + 1 < stations ? b.stations.at[e + 1] : b.stations.at[0] + 2 * std::numbers::pi;
         const auto mass = corner_masses(body.kind, corners, sweep_scale(body.kind, t1 - t0), m.density);

@@ -1,6 +1,7 @@
 #include "body/plastic_elements.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "body/body.hpp"
 #include "core/faults.hpp"
@@ -44,36 +45,66 @@ PlasticElements::PlasticElements(const Body& body, const MaterialOf& material_of
 }
 
 void PlasticElements::add_quads(const Body& body, const MaterialOf& material_of) {
-  for (int b = 0; b < static_cast<int>(body.elements.size()); ++b)
-    for (int q = 0; q < static_cast<int>(body.mesh.blocks[b].section.quads.size()); ++q)
-      if (const std::optional<YieldingMaterial> material = material_of(b, q)) {
-        quads_.push_back({{}, *material, {}});
-        quad_of_.push_back({b, q});
+  for (int b = 0; b < static_cast<int>(body.elements.size()); ++b) {
+    const Block& block = body.mesh.blocks[b];
+    const int quads = static_cast<int>(block.section.quads.size());
+    std::vector<int>& kinds = kinds_.emplace_back(static_cast<std::size_t>(block.sets()) * quads, kElastic);
+    for (int q = 0; q < quads; ++q) {
+      std::map<int, int> known;  // kinds by material
+      for (int set = 0; set < block.sets(); ++set) {
+        const int material = block.material_of_set(set, q);
+        if (!known.count(material)) {
+          const std::optional<YieldingMaterial> yields = material_of(b, q, material);
+          known[material] = yields ? static_cast<int>(quads_.size()) : kElastic;
+          if (yields) {
+            quads_.push_back({{}, *yields, {}});
+            origin_.push_back({b, q, material});
+          }
+        }
+        kinds[static_cast<std::size_t>(set) * quads + q] = known[material];
       }
+    }
+  }
+}
+
+PlasticElements::Place PlasticElements::place_of(const Body& body, int t, int q) const {
+  const Tile& tile = body.tiling.tiles[t];
+  const BlockElements& elements = body.elements[tile.block];
+  Place out{t, q, kMixed, kElastic};
+  const int first = kind_at(out, tile, elements, tile.first);
+  bool alike = true;
+  for (int e = tile.first; e < tile.end; ++e) {
+    const int kind = kind_at(out, tile, elements, e);
+    alike = alike && kind == first;
+    if (kind != kElastic) out.some_kind = kind;
+  }
+  if (alike) out.kind = first;
+  return out;
 }
 
 void PlasticElements::add_candidates(const Body& body, const Wanted& wanted) {
   const std::vector<Tile>& tiles = body.tiling.tiles;
   tile_quads_.resize(tiles.size());
-  for (int t = 0; t < static_cast<int>(tiles.size()); ++t)
-    for (int k = 0; k < static_cast<int>(quads_.size()); ++k) {
-      const auto [block, q] = quad_of_[k];
-      if (block != tiles[t].block) continue;
-      if (tile_quads_[t].empty()) tile_quads_[t].assign(body.mesh.blocks[block].section.quads.size(), -1);
+  for (int t = 0; t < static_cast<int>(tiles.size()); ++t) {
+    const int block = tiles[t].block, quads = static_cast<int>(body.mesh.blocks[block].section.quads.size());
+    for (int q = 0; q < quads; ++q) {
+      const Place place = place_of(body, t, q);
+      if (place.some_kind == kElastic) continue;
+      if (tile_quads_[t].empty()) tile_quads_[t].assign(static_cast<std::size_t>(quads), -1);
       tile_quads_[t][q] = static_cast<int>(candidates_.size());
       if (wanted(block, q, tiles[t])) hot_at_start_.push_back(tile_quads_[t][q]);
-      candidates_.push_back({t, q, k});
+      candidates_.push_back(place);
     }
+  }
 }
 
 void PlasticElements::make_modes(const Body& body) {
   for_each(static_cast<std::ptrdiff_t>(quads_.size()), [&](std::ptrdiff_t k) {
-    const auto [block, q] = quad_of_[k];
-    const Section& section = body.mesh.blocks[block].section;
-    quads_[k].gauss = gauss_shape(body.mesh.kind, quad_corners(section, q));
-    for (const SweepScale& scale : scales_[block])
-      quads_[k].modes.push_back(incompatible_modes(body.mesh.kind, quad_corners(section, q), scale,
-                                                   body.materials[section.quad_material[q]]));
+    const Origin& origin = origin_[k];
+    const std::array<Vec2, 4> corners = quad_corners(body.mesh.blocks[origin.block].section, origin.quad);
+    quads_[k].gauss = gauss_shape(body.mesh.kind, corners);
+    for (const SweepScale& scale : scales_[origin.block])
+      quads_[k].modes.push_back(incompatible_modes(body.mesh.kind, corners, scale, body.materials[origin.material]));
   });
 }
 
@@ -99,7 +130,7 @@ void PlasticElements::add(PlasticHistory& history, int candidate) const {
   history.slot_of[candidate] = slot;
   history.numbers.resize(history.numbers.size() + static_cast<std::size_t>(slot_numbers()), 0.0);
   double* const own = rows(history, slot);
-  const std::array<double, 6>& stress = quad(candidates_[candidate]).material.initial_stress;
+  const std::array<double, 6>& stress = quad(candidates_[candidate].some_kind).material.initial_stress;
   own[PlasticEntries::kStressed * kTile] = stress == std::array<double, 6>{} ? 0 : 1;
   for (int i = 0; i < 6; ++i)
     std::fill_n(own + (PlasticEntries::kEigenstress + i) * kTile, kTile, stress[i] == 0 ? 0.0 : -stress[i]);

@@ -45,8 +45,8 @@ struct PlasticEntries {
 
 class PlasticElements {
  public:
-  /// The material of a quadrilateral; none where it stays elastic.
-  using MaterialOf = std::function<std::optional<YieldingMaterial>(int block, int quad)>;
+  /// How a quadrilateral's elements of a material (of the body's) yield; none where they stay elastic.
+  using MaterialOf = std::function<std::optional<YieldingMaterial>(int block, int quad, int material)>;
   using Wanted = std::function<bool(int block, int quad, const Tile& tile)>;
 
   /// None.
@@ -61,7 +61,9 @@ class PlasticElements {
 
   /// A tile's elements of one quadrilateral.
   struct Place {
-    int tile, quad, kind;  ///< kind: into quads
+    int tile, quad;
+    int kind;       ///< into quads; kMixed: by element
+    int some_kind;  ///< of any of its elements that yield
   };
   const std::vector<Place>& candidates() const { return candidates_; }
   bool is_hot(const PlasticHistory& history, int candidate) const {
@@ -97,9 +99,16 @@ class PlasticElements {
     YieldingMaterial material;
     std::vector<IncompatibleModes<double>> modes;  ///< by hourglass class; those that occur
   };
-  const Quad& quad(const Place& p) const { return quads_[p.kind]; }
-  /// The quadrilateral of a candidate.
-  const Quad& quad_at(int tile, int quad) const { return quads_[candidates_[tile_quads_[tile][quad]].kind]; }
+  static constexpr int kElastic = -1, kMixed = -2;
+  /// Of an element of a place: into quads, or kElastic.
+  int kind_at(const Place& p, const Tile& tile, const BlockElements& elements, int element) const {
+    return p.kind != kMixed ? p.kind : kinds_[tile.block][elements.reference(elements.set_at(element), p.quad)];
+  }
+  const Quad& quad(int kind) const { return quads_[kind]; }
+  /// Of the candidate of a tile's quadrilateral: the shape is that of all its elements.
+  const GaussShape<double>& gauss_at(int tile, int quad) const {
+    return quads_[candidates_[tile_quads_[tile][quad]].some_kind].gauss;
+  }
   /// Scale of the elements that the hourglass stiffness of a class was made for.
   const SweepScale& scale(int block, int hourglass_class) const { return scales_[block][hourglass_class]; }
 
@@ -115,13 +124,18 @@ class PlasticElements {
  private:
   void add_quads(const Body& body, const MaterialOf& material_of);
   void add_candidates(const Body& body, const Wanted& wanted);
+  Place place_of(const Body& body, int tile, int quad) const;
   void make_modes(const Body& body);
 
   int terms_ = 0;
   std::vector<Place> candidates_;
   std::vector<int> hot_at_start_;
   std::vector<Quad> quads_;
-  std::vector<std::array<int, 2>> quad_of_;   ///< block and quadrilateral of quads_
+  struct Origin {
+    int block, quad, material;
+  };
+  std::vector<Origin> origin_;                ///< of quads_
+  std::vector<std::vector<int>> kinds_;       ///< by block; [set * quads + quad]
   std::vector<std::vector<int>> tile_quads_;  ///< candidates
   std::vector<std::vector<SweepScale>> scales_;
 };

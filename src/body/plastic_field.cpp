@@ -43,7 +43,7 @@ ElementPlasticity element_plasticity(const Body& body, double psi, const Plastic
   const int tile = body.tiling.first_tile[block] + station / kTile;
   const double* rows = body.plastic.rows(history, tile, quad);
   if (!rows) return out;
-  const GaussShape<double>& gauss = body.plastic.quad_at(tile, quad).gauss;
+  const GaussShape<double>& gauss = body.plastic.gauss_at(tile, quad);
   std::array<double, 6> strain{}, backstress{};
   for (int point = 0; point < kPoints; ++point) {
     const double* at = point_of(body, rows + station % kTile, point);
@@ -76,7 +76,9 @@ PlasticPeak plastic_peak(const Body& body, const PlasticHistory& history) {
 double backstress_energy(const Body& body, const PlasticHistory& history) {
   double sum = 0;
   each_element(body, history, [&](const PlasticElements::Place& place, int block, int element, const double* rows) {
-    const PlasticElements::Quad& quad = body.plastic.quad(place);
+    const int kind = body.plastic.kind_at(place, body.tiling.tiles[place.tile], body.elements[block], element);
+    if (kind == PlasticElements::kElastic) return;
+    const PlasticElements::Quad& quad = body.plastic.quad(kind);
     const ElementTable<double>& table = body.elements[block].table;
     const double volume = table.quads[place.quad].shape.volume * table.v2[element];
     for (int point = 0; point < kPoints; ++point)

@@ -157,31 +157,71 @@ bool advance_pack(const PackWork& work, const PackStrain& at, double* nearest) {
   return true;
 }
 
+// of(kind, own): for every kind of elements in the pack from element `first` on that yields; own: null where all lanes
+// are of it, else 1 in those that are.
+template <class Of>
+void each_kind(const Body& body, const Place& place, int first, Of&& of) {
+  if (place.kind != PlasticElements::kMixed) return of(place.kind, static_cast<const Pack*>(nullptr));
+  const Tile& tile = body.tiling.tiles[place.tile];
+  int kinds[kLanes];
+  for (int l = 0; l < kLanes; ++l)
+    kinds[l] = body.plastic.kind_at(place, tile, body.elements[tile.block], std::min(first + l, tile.end - 1));
+  for (int l = 0; l < kLanes; ++l) {
+    if (kinds[l] == PlasticElements::kElastic || std::find(kinds, kinds + l, kinds[l]) != kinds + l) continue;
+    Pack own{};
+    for (int k = l; k < kLanes; ++k) own[k] = kinds[k] == kinds[l];
+    of(kinds[l], &own);
+  }
+}
+
 // Largest share of the yield stress of cold elements, by their mean strain.
 double elastic_share(const Body& body, const PlasticElements::Place& place, const Rotation<double>& turn,
                      const Field& u) {
   const Tile& tile = body.tiling.tiles[place.tile];
-  const YieldingMaterial& material = body.plastic.quad(place).material;
   const Pack virgin[kPlasticHistory<0>] = {};
   double most = 0;
   for (int e = tile.first; e < tile.end; e += kLanes) {
-    PackStrain at = pack_strain(body, tile.block, place.quad, e, turn, u);
-    for (int i = 0; i < 6; ++i) at.mean[i] += material.initial_stress[i] / (2 * material.law.mu);
-    most = std::max(most, largest(yield_share<0>(material.law, at.mean, virgin)));
+    const PackStrain at = pack_strain(body, tile.block, place.quad, e, turn, u);
+    each_kind(body, place, e, [&](int kind, const Pack*) {
+      const YieldingMaterial& material = body.plastic.quad(kind).material;
+      Pack strain[6];
+      for (int i = 0; i < 6; ++i) strain[i] = at.mean[i] + material.initial_stress[i] / (2 * material.law.mu);
+      most = std::max(most, largest(yield_share<0>(material.law, strain, virgin)));
+    });
   }
   return most;
 }
 
-PackWork pack_work(const Body& body, const Place& place, int element, double* rows) {
+PackWork pack_work(const Body& body, const Place& place, int kind, int element, double* rows) {
   const PlasticElements& plastic = body.plastic;
   const Tile& tile = body.tiling.tiles[place.tile];
   const int cls = body.elements[tile.block].hourglass_class[element / kHourglassGroup];
   const SweepScale scale = plastic.scale(tile.block, cls);
   const double volume = body.elements[tile.block].table.quads[place.quad].shape.volume * scale.sigma * scale.c;
-  const PlasticElements::Quad& quad = plastic.quad(place);
+  const PlasticElements::Quad& quad = plastic.quad(kind);
   const int group = (element - tile.first) / kHourglassGroup * kHourglassGroup;
   const bool touched = rows[Entries::kTouched * kTile + group] != 0;
   return {quad, quad.modes[cls], 1 / scale.sigma, 1 / scale.c, volume, {rows + element - tile.first}, touched};
+}
+
+// Elements of one pack of several kinds: every kind's answer for all of them, of which its own keep theirs.
+template <class Advance>
+bool advance_by_kind(const PassScope& scope, const Place& place, int e, double* rows, Advance&& advance) {
+  const Tile& tile = scope.body.tiling.tiles[place.tile];
+  if (place.kind != PlasticElements::kMixed) return advance(pack_work(scope.body, place, place.kind, e, rows));
+  thread_local std::vector<double> tried;
+  tried.resize(static_cast<std::size_t>(scope.body.plastic.slot_numbers()));
+  const PackRows kept{rows + e - tile.first}, own_try{tried.data() + e - tile.first};
+  const int entries = scope.body.plastic.entries();
+  bool touched = false;
+  each_kind(scope.body, place, e, [&](int kind, const Pack* own) {
+    for (int k = 0; k < entries; ++k) own_try.set(k, kept.get(k));
+    PackWork work = pack_work(scope.body, place, kind, e, rows);
+    work.rows = own_try;
+    touched |= advance(work);
+    for (int k = 0; k < entries; ++k) kept.set(k, *own != 0.0 ? own_try.get(k) : kept.get(k));
+  });
+  return touched;
 }
 
 template <int terms>
@@ -194,8 +234,10 @@ void advance_place(const PassScope& scope, const Place& place, double* rows) {
     double* wanted = scope.look == PlasticLook::all ? &nearest : nullptr;
     bool touched = false;
     for (int e = group; e < std::min(group + kHourglassGroup, tile.end); e += kLanes)
-      touched |= advance_pack<terms>(pack_work(scope.body, place, e, rows),
-                                     pack_strain(scope.body, tile.block, place.quad, e, scope.turn, scope.u), wanted);
+      touched |= advance_by_kind(scope, place, e, rows, [&](const PackWork& work) {
+        return advance_pack<terms>(work, pack_strain(scope.body, tile.block, place.quad, e, scope.turn, scope.u),
+                                   wanted);
+      });
     if (touched) rows[Entries::kTouched * kTile + group - tile.first] = rows[Entries::kStressed * kTile] = 1;
     if (wanted) awake = nearest > kSleepBelow ? 1 : 0;
   }
@@ -314,9 +356,12 @@ double plastic_strain_energy(const Body& body, const Field& u, double psi, const
     const Tile& tile = body.tiling.tiles[place.tile];
     Pack sum{};
     for (int e = tile.first; e < tile.end; e += kLanes)
-      sum += pack_energy(pack_work(body, place, e, const_cast<double*>(rows)),  // only read
-                         pack_strain(body, tile.block, place.quad, e, turn, u),
-                         volumes(body, tile.block, place.quad, e), body.plastic.point_entries());
+      each_kind(body, place, e, [&](int kind, const Pack* own) {
+        const Pack energy = pack_energy(pack_work(body, place, kind, e, const_cast<double*>(rows)),  // only read
+                                        pack_strain(body, tile.block, place.quad, e, turn, u),
+                                        volumes(body, tile.block, place.quad, e), body.plastic.point_entries());
+        sum += own ? *own * energy : energy;
+      });
     double total = 0;
     for (int l = 0; l < kLanes; ++l) total += sum[l];
     return total;
@@ -363,7 +408,7 @@ std::optional<PlasticState> plastic_state(const Body& body, const PlasticHistory
   const double* rows = body.plastic.rows(history, tile, quad);
   if (!rows) return std::nullopt;
   rows += station % kTile;
-  const GaussShape<double>& gauss = body.plastic.quad_at(tile, quad).gauss;
+  const GaussShape<double>& gauss = body.plastic.gauss_at(tile, quad);
   PlasticState out;
   for (int point = 0; point < 2 * kGaussPairs; ++point) {
     const double* at = rows + (Entries::kPoints + point * body.plastic.point_entries()) * kTile;

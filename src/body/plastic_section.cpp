@@ -62,7 +62,8 @@ void add_element(const Body& body, const PlasticHistory& history, int block, int
 /// Eigenstress and bubbles of an element whose pairs are alike.
 Eigenstress<double> eigenstress_of(const Body& body, const HotPlace& place, int element, const double* points) {
   const Tile& tile = body.tiling.tiles[place.tile];
-  const PlasticElements::Quad& quad = body.plastic.quad(place);
+  const PlasticElements::Quad& quad =
+      body.plastic.quad(body.plastic.kind_at(place, tile, body.elements[tile.block], element));
   const int cls = body.elements[tile.block].hourglass_class[element / kHourglassGroup];
   const SweepScale scale = body.plastic.scale(tile.block, cls);
   PlasticSums<double> sums{};

@@ -113,7 +113,7 @@ class BallOnHalfSpace {
         touches_(at_.size() * at_.size(), false) {
     body_.plastic = PlasticElements(
         body_,
-        [](int, int) {
+        [](int, int, int) {
           return YieldingMaterial{perfectly_plastic(kSteel, kYieldStress), {}};
         },
         [](int, int, const Tile&) { return false; });

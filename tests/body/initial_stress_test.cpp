@@ -83,7 +83,7 @@ TEST_F(InitialStressOfALayer, IsTheSameInElementsThatMayYield) {
         InitialStress(block->body().mesh, [](int, int quad) { return LayeredBlock::in_layer(quad); });
   hot.body().plastic = PlasticElements(
       hot.body(),
-      [](int, int quad) {
+      [](int, int quad, int) {
         return YieldingMaterial{perfectly_plastic(kSteel, 1e30), LayeredBlock::in_layer(quad)};
       },
       [](int, int, const Tile&) { return true; });
@@ -110,7 +110,7 @@ TEST_F(InitialStressOfALayer, BringsALayerToYieldByItself) {
   LayeredBlock block;
   block.body().plastic = PlasticElements(
       block.body(),
-      [](int, int quad) {
+      [](int, int quad, int) {
         return YieldingMaterial{perfectly_plastic(kSteel, 0.6 * kStress), LayeredBlock::in_layer(quad)};
       },
       [](int, int, const Tile&) { return false; });

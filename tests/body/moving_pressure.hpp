@@ -38,7 +38,7 @@ class RolledHalfPlane {
     YieldingMaterial material{perfectly_plastic(kSteel, std::sqrt(3.0) * p.shear_yield()), {}};
     material.law.modulus[0] = p.kinematic_over_k * p.shear_yield();
     body_.plastic = PlasticElements(
-        body_, [&](int, int quad) { return depth_[quad] < 3 ? std::optional(material) : std::nullopt; },
+        body_, [&](int, int quad, int) { return depth_[quad] < 3 ? std::optional(material) : std::nullopt; },
         [](int, int, const Tile&) { return true; });
     state_ = BodyState(body_);
     dt_ = 0.9 * element_step_bound(body_).step;

@@ -24,7 +24,7 @@ YieldingMaterial hardening(double yield) {
 Body yielding(SweepKind kind, double yield, Precision precision = Precision::double_precision) {
   Body body(distorted_body(kind), {kSteel}, {ElementKind::full, 0.05, precision});
   body.plastic = PlasticElements(
-      body, [&](int, int quad) { return quad == 2 ? std::nullopt : std::optional(hardening(yield)); },
+      body, [&](int, int quad, int) { return quad == 2 ? std::nullopt : std::optional(hardening(yield)); },
       [](int, int quad, const Tile& tile) { return quad % 3 != 1 || tile.first > 0; });
   return body;
 }

@@ -24,7 +24,9 @@ Body skewed_rail(int another = -1) {
   Body body(distorted_body(SweepKind::extrude), {kSteel}, {});
   body.plastic = PlasticElements(
       body,
-      [another](int, int quad) { return quad == 2 || quad == another ? std::nullopt : std::optional(hardening()); },
+      [another](int, int quad, int) {
+        return quad == 2 || quad == another ? std::nullopt : std::optional(hardening());
+      },
       [](int, int, const Tile&) { return true; });
   return body;
 }

@@ -17,7 +17,7 @@ inline PlasticParameters<double> perfectly_plastic(const Elastic& m, double yiel
 /// All elements may yield.
 inline void make_plastic(Body& body, const YieldingMaterial& material) {
   body.plastic = PlasticElements(
-      body, [&](int, int) { return material; }, [](int, int, const Tile&) { return true; });
+      body, [&](int, int, int) { return material; }, [](int, int, const Tile&) { return true; });
 }
 
 /// A structured section: node (column c, row r) at place(c, r), with rows from the top down; nothing is prescribed.
