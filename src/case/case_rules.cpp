@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "case/irregularity_rules.hpp"
+#include "case/layer_rules.hpp"
 #include "case/line_rules.hpp"
 #include "case/load_rows.hpp"
 #include "case/option_table.hpp"
@@ -262,23 +263,6 @@ void check_mesh(const MeshSpec& m, CaseSource& source) {
   at_least("fine_width", m.fine_width, 4 * m.element_size, "four elements");
   at_least("fine_depth", m.fine_depth, m.element_size, "one element");
   at_least("largest", m.largest, m.element_size, "one element");
-}
-
-/// One message for each name, at the second layer that has it.
-void check_layers(const CaseSpec& spec, CaseSource& source) {
-  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
-    const auto same = [&](const LayerSpec& other) {
-      return other.name == spec.layers[i].name && other.on == spec.layers[i].on;
-    };
-    const auto begin = spec.layers.begin(), here = begin + static_cast<std::ptrdiff_t>(i);
-    if (std::count_if(begin, here, same) != 1) continue;
-    const auto others = std::count_if(begin, spec.layers.end(), same) - 1;
-    source.complain(fmt::format("layer.{}.name", i),
-                    fmt::format("layer.{}.name = \"{}\": {} of the {} {} this name", i, spec.layers[i].name,
-                                others == 1 ? "another layer" : fmt::format("{} other layers", others),
-                                body_word(spec.layers[i].on), others == 1 ? "has" : "have"),
-                    "give every layer a name of its own");
-  }
 }
 
 void check_plasticity(const CaseSpec& spec, CaseSource& source) {

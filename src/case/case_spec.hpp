@@ -9,6 +9,7 @@
 #include "case/history_spec.hpp"
 #include "case/layer_spec.hpp"
 #include "case/run_spec.hpp"
+#include "case/stretch_spec.hpp"
 #include "case/track_spec.hpp"
 #include "geometry/irregularity.hpp"
 
@@ -19,6 +20,7 @@ struct CaseSpec {
   GeometrySpec geometry;
   MaterialSpec rail_material, wheel_material;
   std::vector<LayerSpec> layers;
+  std::vector<StretchSpec> stretches;
   std::vector<Irregularity> irregularities;
   VehicleSpec vehicle;
   TrackSpec track;

@@ -8,6 +8,7 @@ OptionTable geometry_table();
 OptionTable rail_material_table();
 OptionTable wheel_material_table();
 OptionTable layer_table();
+OptionTable stretch_table();
 OptionTable irregularity_table();
 OptionTable vehicle_table();
 OptionTable track_table();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "case/case_spec.hpp"
@@ -13,6 +14,7 @@
 namespace railstrata {
 namespace {
 
+constexpr const char* kNoWindow = "give run.window = \"0 mm\": states at the positions themselves";
 constexpr const char* kWithHalfSpaces = "take it out, or solve the case with `railstrata bem`";
 
 /// A rail with a radius along rolling is meshed as a ring that turns about a shaft.
@@ -45,8 +47,7 @@ void refuse_irregularities(const CaseSpec& spec, std::vector<BeyondEngine>& out)
   refuse(spec.run.device != ComputeDevice::cpu, "run.device", "a device meets surfaces without heights",
          "give run.device = \"cpu\"");
   refuse(spec.run.rolling && spec.run.window > 0, "run.window",
-         "the mean over a stretch of the way is no state of a rail that varies along it",
-         "give run.window = \"0 mm\": states at the positions themselves");
+         "the mean over a stretch of the way is no state of a rail that varies along it", kNoWindow);
   for (std::size_t i = 0; i < spec.irregularities.size(); ++i) {
     const Irregularity& is = spec.irregularities[i];
     const std::string key = fmt::format("irregularity.{}", i);
@@ -61,6 +62,36 @@ void refuse_irregularities(const CaseSpec& spec, std::vector<BeyondEngine>& out)
                        format_quantity(spec.run.run_up, dimension::kLength)),
            "put it farther on (at, from), or shorten run.run_up");
   }
+}
+
+/// Layers that begin and end, and stretches: what is written while the wheel passes their ends, and what knows bodies
+/// that are the same all along only.
+void refuse_changes_along(const CaseSpec& spec, std::vector<BeyondEngine>& out) {
+  const bool ends = std::any_of(spec.layers.begin(), spec.layers.end(), [](const LayerSpec& l) { return l.ends(); });
+  if (!ends && spec.stretches.empty()) return;
+  const auto refuse = [&](bool asked, const std::string& key, const char* why, const char* remedy) {
+    if (asked)
+      out.push_back(
+          {key,
+           fmt::format("{} with {} is not in this engine: {}", key, ends ? "a layer that ends" : "a [[stretch]]", why),
+           remedy});
+  };
+  refuse(spec.geometry.rail_radius.has_value(), "geometry.rail_radius", "a roller is the same all round",
+         "take from and to of layers and [[stretch]] out");
+  refuse(spec.run.device != ComputeDevice::cpu, "run.device", "a device has one material for a row of elements",
+         "give run.device = \"cpu\"");
+  refuse(spec.run.rolling && spec.run.window > 0, "run.window",
+         "the mean over a stretch of the way is no state of a rail that varies along it", kNoWindow);
+  const auto refuse_stress = [&](const std::string& table, const MaterialSpec& material) {
+    const StrengthSpec& s = material.strength;
+    const bool given = !s.initial_stress.empty() || !s.initial_stress_table.empty();
+    refuse(ends && spec.run.plasticity && given, table + ".initial_stress",
+           "stress from the start is the same all along", "take it out");
+  };
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    refuse_stress(fmt::format("layer.{}", i), spec.layers[i].material);
+  refuse_stress("material.rail", spec.rail_material);
+  refuse_stress("material.wheel", spec.wheel_material);
 }
 
 }  // namespace
@@ -82,6 +113,7 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   beyond(g.in_line(), "geometry.contact", "a line contact", "bodies have ends across, and patches too");
   refuse_on_ring(spec, out);
   refuse_irregularities(spec, out);
+  refuse_changes_along(spec, out);
   beyond(g.roll != 0, "geometry.roll", "a roll of the wheelset", "the wheel is meshed upright");
   if (!spec.run.rolling) return out;
   if (spec.friction.law != FrictionForm::coulomb && !(spec.friction.memory_distance > 0))
@@ -113,6 +145,15 @@ void require_half_spaces(const CaseSpec& spec) {
   if (!spec.track.held())
     throw CaseError("half-spaces have no inertia, and no track below them",
                     "take [track] out, or roll over it with `railstrata run`", "track.preset");
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    if (const LayerSpec& layer = spec.layers[i]; layer.ends())
+      throw CaseError(fmt::format("layer \"{}\" ends along the {}; the layers of half-spaces are endless", layer.name,
+                                  body_word(layer.on)),
+                      "take its from and to out, or roll over its ends with `railstrata run`",
+                      fmt::format("layer.{}.{}", i, layer.from ? "from" : "to"));
+  if (!spec.stretches.empty())
+    throw CaseError("half-spaces are the same all along, and the case has a [[stretch]]",
+                    "take it out, or roll over it with `railstrata run`", "stretch");
 }
 
 void require_finite_elements(const CaseSpec& spec) {

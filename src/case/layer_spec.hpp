@@ -1,6 +1,8 @@
 #pragma once
 // Materials and layers of a case, in SI units.
 #include <array>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,19 @@ struct LayerSpec {
   double grading_tolerance = 0.05;  ///< half-space engine: largest relative change of the modulus within one of the
                                     ///< layers that a graded one is cut into
   int elements = 0;                 ///< through the thickness; 0 = chosen
+  /// m, along the rail, of the wheel along its arc from the first contact; not given: endless to that side.
+  std::optional<double> from, to;
+  double taper_length = 0;  ///< m, over which the thickness runs out at these ends, within them; 0: a step
   bool graded() const { return !young_table.empty(); }
+  bool ends() const { return from || to; }
+  double begin() const { return from.value_or(-std::numeric_limits<double>::infinity()); }
+  double end() const { return to.value_or(std::numeric_limits<double>::infinity()); }
 };
+
+/// Depth of each layer's top [m]: it lies below those of its body before it that it meets along the rail. Where they
+/// have ended, it reaches up into their place.
+std::vector<double> layer_tops(const std::vector<LayerSpec>& layers);
+/// The layers there are at a place along the rail, endless and as thick as they are there, without their tapers.
+std::vector<LayerSpec> layers_at(const std::vector<LayerSpec>& layers, double x);
 
 }  // namespace railstrata

@@ -20,12 +20,13 @@ double of_matrix_modulus(const CaseSpec& spec, std::size_t index, double ratio) 
 }
 
 bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).graded(); }
+bool ends(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).ends(); }
 bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).graded(); }
 
 // Thickness, Poisson's ratio and the ratio of moduli: what tests/bem/layer_range_test.cpp and
 // tests/halfspace/layered_test.cpp hold against closed forms. The modulus leaves room for every ratio of steel's.
 const Range kYoung{1e9, 1e14}, kPoisson{0.0, 0.499}, kYoungRatio{0.01, 100}, kDensityRange{100, 30000},
-    kLayerThickness{kThinnestLayer, kThickestLayer};
+    kLayerThickness{kThinnestLayer, kThickestLayer}, kLayerWay{-100, 100};
 constexpr std::string_view kBeyondPoisson = "0.5 is incompressible: take 0.499 for it",
                            kBeyondRatio = "the engines are verified in this range: take its end nearest to your layer",
                            kBeyondThickness =
@@ -87,7 +88,17 @@ OptionTable layer_table() {
        option("elements", layer<&L::elements>,
               "Through the thickness; 0 chooses (height at most 1 mm, at least 2, at least 3 from 3 mm on). Of a "
               "young_table each row of elements has the mean modulus over its height",
-              kNumber, {0, 50})},
+              kNumber, {0, 50}),
+       option("from", layer<&L::from>,
+              "Where it begins along the rail, from the first contact on; of a wheel along its arc. Where it is not, "
+              "what lies below it reaches up to its place. Not given: endless to this side",
+              kLength, kLayerWay),
+       option("to", layer<&L::to>, "Where it ends", kLength, kLayerWay),
+       option("taper_length", layer<&L::taper_length>,
+              "Over which the thickness runs out at from and to, within them; 0: a step. In steps of the rows of "
+              "elements through the layer",
+              kLength, {0, 20})
+           .where(ends)},
       list_of<&C::layers>(),
       strength_rivals()};
   const std::vector<Option> modulus = layer_modulus_options();

@@ -39,6 +39,7 @@ const std::vector<OptionTable>& case_tables() {
       rail_material_table(),
       wheel_material_table(),
       layer_table(),
+      stretch_table(),
       irregularity_table(),
       vehicle_table(),
       track_table(),

@@ -262,4 +262,13 @@ double steepest_slope(const Irregularity& is, double wheel_radius) {
   return most;
 }
 
+double contact_reach(const std::vector<Irregularity>& irregularities, double wheel_radius) {
+  double out = 0;
+  for (const Irregularity& is : irregularities) {
+    const Extent extent = extent_of(is);
+    out += std::min(wheel_radius * steepest_slope(is, wheel_radius), 0.5 * (extent.to - extent.from));
+  }
+  return out;
+}
+
 }  // namespace railstrata

@@ -64,5 +64,8 @@ Extent extent_of(const Irregularity& is);
 double shortest_wave(const Irregularity& is, double wheel_radius);
 /// The largest |dz/dx|.
 double steepest_slope(const Irregularity& is, double wheel_radius);
+/// m, how much farther from the axle a wheel may touch because of heights: where their slopes are its own, at most half
+/// the length of each.
+double contact_reach(const std::vector<Irregularity>& irregularities, double wheel_radius);
 
 }  // namespace railstrata

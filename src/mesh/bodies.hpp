@@ -19,8 +19,8 @@ struct LayerMesh {
       0.060;  ///< m, lateral extent, centred on the body's profile origin; clipped to the band that carries it
   int elements = 0;
   bool continues = false;  ///< a row of a graded layer that goes on below: no interface
-  /// m along the rail, of a wheel along its arc from the first contact; infinite: endless. Where a layer is not, the
-  /// next one lies in its place.
+  /// m along the rail, of a wheel along its arc from the first contact; infinite: endless. A layer lies below those
+  /// before it that it meets; where they are not, it reaches up into their place.
   double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
   bool ends() const { return std::isfinite(from) || std::isfinite(to); }
 };

@@ -36,12 +36,25 @@ std::vector<Present> all_stacks(const std::vector<LayerMesh>& layers) {
 struct Interval {
   double top, bottom;
 };
+/// Depths of the layers' bottoms: each lies below those before it that it meets.
+std::vector<double> bottoms_of(const std::vector<LayerMesh>& layers) {
+  std::vector<double> out;
+  for (const LayerMesh& layer : layers) {
+    double top = 0;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (layers[i].from < layer.to && layer.from < layers[i].to) top = std::max(top, out[i]);
+    out.push_back(top + layer.thickness);
+  }
+  return out;
+}
+
 /// Depths of the layers of a stack; of one that is not there an empty interval.
 std::vector<Interval> depths_of(const std::vector<LayerMesh>& layers, const Present& present) {
+  const std::vector<double> bottoms = bottoms_of(layers);
   std::vector<Interval> out;
   double top = 0;
   for (std::size_t k = 0; k < layers.size(); ++k) {
-    const double bottom = top + (present[k] ? layers[k].thickness : 0);
+    const double bottom = present[k] ? bottoms[k] : top;
     out.push_back({top, bottom});
     top = bottom;
   }
@@ -87,15 +100,9 @@ std::vector<int> materials_of(const std::vector<LayerMesh>& layers, const std::v
   return out;
 }
 
-double centre_of(const Stations& stations, int element) {
-  const bool last = element + 1 == stations.nodes();
-  const double end = last ? stations.at.front() + 2 * std::numbers::pi : stations.at[element + 1];
-  return 0.5 * (stations.at[element] + end);
-}
-
 /// The stack of an element; a ring has the same one a turn before and after.
 Present stack_of(const std::vector<LayerMesh>& layers, const Stations& stations, int element, double metres) {
-  const double centre = centre_of(stations, element), turn = stations.closed ? 2 * std::numbers::pi : 0;
+  const double centre = stations.centre(element), turn = stations.closed ? 2 * std::numbers::pi : 0;
   Present out = present_at(layers, metres * centre);
   for (int way : {-1, 1}) {
     const Present there = present_at(layers, metres * (centre + way * turn));

@@ -10,7 +10,9 @@
 //   lowest point, t > 0 in front of it (x > 0).
 // Elements between stations j and j+1 are congruent for equal station spacing: the solver keeps one set of reference
 // data per quadrilateral, and a further one for every set of materials where they change along the sweep.
+#include <algorithm>
 #include <array>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,16 @@ inline double quad_area(const Section& s, const std::array<int, 4>& quad) {
 struct Stations {
   std::vector<double> at;
   bool closed = false;
+  /// Middle of an element.
+  double centre(int element) const {
+    const bool last = element + 1 == nodes();
+    return 0.5 * (at[element] + (last ? at.front() + 2 * std::numbers::pi : at[element + 1]));
+  }
+  /// The element around a place along the sweep, the nearest one beyond the ends.
+  int element_at(double x) const {
+    const auto above = std::upper_bound(at.begin(), at.end(), x);
+    return std::clamp(static_cast<int>(above - at.begin()) - 1, 0, elements() - 1);
+  }
   int nodes() const { return static_cast<int>(at.size()); }
   int elements() const { return closed ? nodes() : nodes() - 1; }
 };
@@ -97,10 +109,14 @@ struct SweptBody {
   std::vector<SectionNode> prescribed;
   /// Nodes of the base of a rail on a track: free, pads press on them.
   std::vector<SectionNode> on_pads;
-  std::vector<std::string> materials;  ///< names; 0 is the matrix, then the layers from the surface down
+  std::vector<std::string> materials;  ///< names; 0 is the matrix, then the layers from the surface down, then those
+                                       ///< of stretches
   std::vector<int> material_layer;     ///< of each material: 0 the matrix, k the k-th layer; the rows of a graded layer
                                        ///< share theirs. Empty: every material is a layer
 
+  std::vector<double> strength;  ///< of each material, over that of its layer; empty: 1
+
+  double strength_of(int material) const { return strength.empty() ? 1 : strength[static_cast<std::size_t>(material)]; }
   /// A rail that is a ring: its axle lies below the contact, where its sections stand on their heads.
   bool rises() const { return kind == SweepKind::revolve && contact_at != 0; }
 

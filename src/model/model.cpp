@@ -9,11 +9,13 @@
 
 #include "core/body_id.hpp"
 #include "core/faults.hpp"
+#include "geometry/height_field.hpp"
 #include "geometry/profile_names.hpp"
 #include "geometry/read_profile.hpp"
 #include "halfspace/line_contact.hpp"
 #include "mesh/quality.hpp"
 #include "model/model_on_rail.hpp"
+#include "model/stretches.hpp"
 
 namespace railstrata {
 namespace {
@@ -37,7 +39,10 @@ double width_of(const CaseSpec& spec, const LayerSpec& l) {
 }
 
 LayerMesh mesh_of(const CaseSpec& spec, const LayerSpec& l) {
-  return {l.name, l.thickness, width_of(spec, l), spec.mesh.elements_through_layer_one ? 1 : l.elements};
+  LayerMesh out{l.name, l.thickness, width_of(spec, l), spec.mesh.elements_through_layer_one ? 1 : l.elements};
+  out.from = l.begin();
+  out.to = l.end();
+  return out;
 }
 
 /// Mean modulus of a table between two depths.
@@ -52,7 +57,14 @@ double mean_young(const std::vector<ModulusPoint>& table, double top, double bot
   return area / (bottom - top);
 }
 
-/// A layer as the mesh has it: of a graded one each row of elements is one, with the mean modulus over its height.
+/// How far within the layer's ends a row of elements ends: where the taper reaches the row's middle, in whole elements.
+double taper_at(const CaseSpec& spec, const LayerSpec& l, double middle) {
+  const double h = spec.mesh.element_size;
+  return h * std::round(l.taper_length * middle / l.thickness / h);
+}
+
+/// A layer as the mesh has it: of one that is graded or tapers each row of elements is one; of a graded one with the
+/// mean modulus over its height.
 struct Row {
   LayerMesh mesh;
   MaterialSpec material;
@@ -62,19 +74,22 @@ std::vector<Row> rows_on(const CaseSpec& spec, BodyId body) {
   for (const LayerSpec& l : spec.layers) {
     if (l.on != body) continue;
     const LayerMesh whole = mesh_of(spec, l);
-    if (!l.graded()) {
+    if (!l.graded() && !(l.taper_length > 0)) {
       out.push_back({whole, l.material});
       continue;
     }
     const int rows = layer_rows(whole, spec.mesh.element_size);
     for (int k = 0; k < rows; ++k) {
       MaterialSpec material = l.material;
-      material.young = mean_young(l.young_table, l.thickness * k / rows, l.thickness * (k + 1) / rows);
+      if (l.graded()) material.young = mean_young(l.young_table, l.thickness * k / rows, l.thickness * (k + 1) / rows);
       LayerMesh row = whole;
       row.name = fmt::format("{} {}", l.name, k + 1);
       row.thickness = l.thickness / rows;
       row.elements = 1;
       row.continues = k + 1 < rows;
+      const double in = taper_at(spec, l, l.thickness * (k + 0.5) / rows);
+      row.from += in;
+      row.to -= in;
       out.push_back({row, material});
     }
   }
@@ -84,6 +99,20 @@ std::vector<Row> rows_on(const CaseSpec& spec, BodyId body) {
 std::vector<LayerMesh> layer_meshes(const CaseSpec& spec, BodyId body) {
   std::vector<LayerMesh> out;
   for (const Row& row : rows_on(spec, body)) out.push_back(row.mesh);
+  return out;
+}
+
+/// Where layers begin and end and stretches jump, in increasing order, m.
+std::vector<double> planes_of(const CaseSpec& spec, BodyId body, const std::vector<LayerMesh>& layers) {
+  std::vector<double> out;
+  for (const LayerMesh& l : layers)
+    for (const double x : {l.from, l.to})
+      if (std::isfinite(x)) out.push_back(x);
+  for (const StretchSpec& stretch : spec.stretches)
+    for (std::size_t i = 1; stretch.on == body && i < stretch.along.size(); ++i)
+      if (const double a = stretch.along[i - 1].x, b = stretch.along[i].x; b - a < 0.5 * spec.mesh.element_size)
+        out.push_back(0.5 * (a + b));
+  std::sort(out.begin(), out.end());
   return out;
 }
 
@@ -267,7 +296,8 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   const double last = spec.run.rolling ? *std::max_element(spec.run.positions.begin(), spec.run.positions.end()) : 0.0;
   m.x_end = spec.run.rolling ? last + 0.5 * spec.run.window : 0.0;
   // The fine range holds the patch and room for its search at both ends of the path.
-  const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size + std::abs(contact.x);
+  m.reach = contact_reach(spec.irregularities, spec.geometry.wheel_radius);
+  const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size + std::abs(contact.x) + m.reach;
   const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio,
                         spec.mesh.largest};
 
@@ -283,6 +313,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   rail.block_width = g.block_width;
   rail.block_height = g.block_height;
   rail.layers = layer_meshes(spec, BodyId::rail);
+  rail.planes = planes_of(spec, BodyId::rail, rail.layers);
   m.rail = meshed_rail     ? *meshed_rail
            : g.rail_radius ? mesh_ring_rail(m.placement.rail, *g.rail_radius, rail, sizes)
                            : mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
@@ -295,8 +326,11 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   wheel.theta_end = (m.x_end + margin) / contact.rolling_radius;
   wheel.section = g.wheel_section;
   wheel.layers = layer_meshes(spec, BodyId::wheel);
+  for (const double x : planes_of(spec, BodyId::wheel, wheel.layers))
+    wheel.planes.push_back(x / contact.rolling_radius);
   m.wheel =
       mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);
+  add_stretches(m);
   require_sound_mesh(m.rail, BodyId::rail, spec);
   require_sound_mesh(m.wheel, BodyId::wheel, spec);
   return m;

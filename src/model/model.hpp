@@ -48,6 +48,7 @@ struct Model {
   double load = 0;                                         ///< G, N
   HertzContact hertz;
   double x_end = 0;  ///< wheel position at which the run ends, m
+  double reach = 0;  ///< m, how much farther from the axle heights make the wheel touch
   /// Section curves of the running surfaces in section coordinates of the bodies.
   Vec2 rail_section_point(double s) const { return rail_to_model(placement.track, placement.rail.at(s).position); }
   Vec2 rail_section_normal(double s) const { return rail_to_model(placement.track, placement.rail.at(s).outward); }

@@ -169,6 +169,7 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   spec.layers[1].on = BodyId::wheel;
   spec.irregularities[0].at = spec.irregularities[0].depth = 1e-3;
   spec.irregularities[0].length = 20e-3;
+  spec.stretches[0].along = {{0.1, 1, 1}, {0.2, 1.5, 0.5}};
   spec.friction = {.law = FrictionForm::coulomb,
                    .kinetic_coefficient = 0.1,
                    .half_velocity = 0.7};  // for the law that `disturb` gives
@@ -223,7 +224,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "hub_radius, hub_width, bore_radius"},
       {"[meshes]\n",
        "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: "
-       "case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, track, drive, friction, "
+       "case, geometry, material.rail, material.wheel, layer, stretch, irregularity, vehicle, track, drive, friction, "
        "third_body, mesh, "
        "contact, run, bem, transient, load, collective, life, grinding, passes, output"},
       {"[mesh]\nelement_size = \"1 MPa\"\n",
@@ -401,7 +402,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "keys"},
       {"[material]\nyoung = \"210 GPa\"\n",
        "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: "
-       "tables: case, geometry, material.rail, material.wheel, layer, irregularity, vehicle, track, drive, friction, "
+       "tables: case, geometry, material.rail, material.wheel, layer, stretch, irregularity, vehicle, track, drive, "
+       "friction, "
        "third_body, mesh, "
        "contact, run, bem, transient, load, collective, life, grinding, passes, output"},
   };

@@ -53,12 +53,12 @@ TEST(LayerStacks, ElementsAreOfTheLayerBetweenItsEndsAndNodePlanesStandThere) {
   }
 }
 
-TEST(LayerStacks, WhereALayerIsNotTheNextOneLiesInItsPlace) {
+TEST(LayerStacks, WhereALayerIsNotTheNextOneReachesUpIntoItsPlace) {
   std::vector<LayerMesh> layers{{"upper", 1e-3, 0.060, 0}, {"lower", 2e-3, 0.060, 0}};
   layers[0].to = 6e-3;
   const std::vector<LayerMesh> slabs = slabs_of(layers);
-  ASSERT_EQ(slabs.size(), 3u);
-  EXPECT_NEAR(slabs[1].thickness, 1e-3, 1e-12);
+  ASSERT_EQ(slabs.size(), 2u);
+  EXPECT_NEAR(slabs[1].thickness, 2e-3, 1e-12);
   const SweptBody body = rail_of(layers, {6e-3});
   const Block& cap = body.blocks[0];
   const ContactBand& band = body.contact;
@@ -67,7 +67,7 @@ TEST(LayerStacks, WhereALayerIsNotTheNextOneLiesInItsPlace) {
     const double depth = 0.5 * (band.depth[r] + band.depth[r + 1]);
     const int quad = r * band.columns + middle;
     EXPECT_EQ(cap.material(quad, 0), depth < 1e-3 ? 1 : depth < 3e-3 ? 2 : 0) << depth;
-    EXPECT_EQ(cap.material(quad, last), depth < 2e-3 ? 2 : 0) << depth;
+    EXPECT_EQ(cap.material(quad, last), depth < 3e-3 ? 2 : 0) << depth;
   }
 }
 
