@@ -70,8 +70,12 @@ void print_layers(const CaseSpec& spec) {
     const std::string young = l.graded() ? fmt::format("{:.4g} to {:.4g}", 1e-9 * l.young_table.front().young,
                                                        1e-9 * l.young_table.back().young)
                                          : fmt::format("{:.4g}", 1e-9 * l.material.young);
-    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa\n", l.name, body_word(l.on),
-               1e3 * l.thickness, 1e3 * l.width, young);
+    const std::string along =
+        fmt::format("{}{}{}", l.from ? fmt::format(", from {:g} mm", 1e3 * *l.from) : "",
+                    l.to ? fmt::format(", to {:g} mm", 1e3 * *l.to) : "",
+                    l.taper_length > 0 ? fmt::format(", tapered over {:g} mm", 1e3 * l.taper_length) : "");
+    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa{}\n", l.name, body_word(l.on),
+               1e3 * l.thickness, 1e3 * l.width, young, along);
   }
 }
 

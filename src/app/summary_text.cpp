@@ -100,7 +100,8 @@ std::string mpa(double value) { return fmt::format("{:.0f} MPa", 1e-6 * value); 
 
 std::string value_text(const char* name, const std::optional<FatigueValue>& v, double factor, const char* unit) {
   if (!v) return {};
-  return fmt::format(", {} {:.3g}{} at {:.2f} mm", name, factor * v->value, unit, 1e3 * v->depth);
+  const std::string along = std::isfinite(v->x) ? fmt::format(", x {:.1f} mm", 1e3 * v->x) : "";
+  return fmt::format(", {} {:.3g}{} at {:.2f} mm{}", name, factor * v->value, unit, 1e3 * v->depth, along);
 }
 
 std::string interface_text(const InterfaceSummary& i) {

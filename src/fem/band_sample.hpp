@@ -12,6 +12,7 @@ struct BandSample {
   int columns = 0, rows = 0, stations = 0;  ///< elements
   std::vector<double> along;  ///< stations + 1: distance of the node planes from the axle in the rolling direction, m
                               ///< (arc length on the wheel)
+  std::vector<int> element;   ///< per station, of the body along its sweep; empty where its materials are the same
   std::vector<Sym3> stress;   ///< Cauchy stress at the element centres, model frame, Pa; index (station * rows + row) *
                               ///< columns + column
   std::vector<ElementPlasticity> plastic;  ///< of the elements, as stress; empty where nothing may yield

@@ -134,7 +134,7 @@ NodesOfBlocks chosen_nodes(const std::vector<std::vector<char>>& mask) {
 
 double search_half_length(const Model& model) {
   const double ahead = std::abs(model.placement.contact.x);  // of the axle: a yawed wheel's contact
-  return 1.5 * model.hertz.a + 3 * model.spec.mesh.element_size + ahead;
+  return 1.5 * model.hertz.a + 3 * model.spec.mesh.element_size + ahead + model.reach;
 }
 
 // The wheel's stations opposite lie where the rail's do but for the strain and the correction of the projection; the

@@ -9,6 +9,7 @@
 #include "body/body.hpp"
 #include "core/faults.hpp"
 #include "model/material_strength.hpp"
+#include "model/zone.hpp"
 
 namespace railstrata {
 namespace {
@@ -27,13 +28,9 @@ std::vector<Source> sources_of(const CaseSpec& spec, BodyId id, const SweptBody&
   std::vector<Source> by_layer;
   by_layer.push_back(rail ? Source{&spec.rail_material, "rail", "material.rail", 0}
                           : Source{&spec.wheel_material, "wheel", "material.wheel", 0});
-  double top = 0;
-  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
-    const LayerSpec& layer = spec.layers[i];
-    if (layer.on != id) continue;
-    by_layer.push_back({&layer.material, layer.name, fmt::format("layer.{}", i), top});
-    top += layer.thickness;
-  }
+  const std::vector<double> tops = layer_tops(spec.layers);
+  for (const std::size_t i : layers_on(spec, id))
+    by_layer.push_back({&spec.layers[i].material, spec.layers[i].name, fmt::format("layer.{}", i), tops[i]});
   std::vector<Source> out;
   for (int m = 0; m < static_cast<int>(mesh.materials.size()); ++m)
     out.push_back(by_layer.at(static_cast<std::size_t>(mesh.layer_of(m))));
@@ -42,11 +39,12 @@ std::vector<Source> sources_of(const CaseSpec& spec, BodyId id, const SweptBody&
 
 struct Law {
   std::optional<PlasticLaw> law;
-  double top = 0;
+  double top = 0, factor = 1;
 };
 std::vector<Law> laws_of(const CaseSpec& spec, BodyId id, const SweptBody& mesh) {
   std::vector<Law> out;
-  for (const Source& s : sources_of(spec, id, mesh)) out.push_back({plastic_law(*s.material, s.name, s.key), s.top});
+  for (const Source& s : sources_of(spec, id, mesh))
+    out.push_back({plastic_law(*s.material, s.name, s.key), s.top, mesh.strength_of(static_cast<int>(out.size()))});
   return out;
 }
 
@@ -90,13 +88,14 @@ class Zone {
   bool yields() const {
     return std::any_of(laws_.begin(), laws_.end(), [](const Law& l) { return l.law.has_value(); });
   }
-  /// Material of a quadrilateral, also outside the box.
-  std::optional<PlasticMaterial> material(int block, int quad) const {
-    const Section& section = mesh_.blocks[block].section;
-    const Law& law = laws_[section.quad_material[quad]];
+  /// Of a quadrilateral's elements of a material, also outside the box.
+  std::optional<PlasticMaterial> material(int block, int quad, int material) const {
+    const Law& law = laws_[material];
     if (!law.law) return std::nullopt;
-    const double depth = axes_.of(centre_of(section, quad)).depth;
-    return law.law->at(std::max(depth - law.top, 0.0));
+    const double depth = axes_.of(centre_of(mesh_.blocks[block].section, quad)).depth;
+    PlasticMaterial out = law.law->at(std::max(depth - law.top, 0.0));
+    if (law.factor != 1) out.plastic = scaled(out.plastic, law.factor);
+    return out;
   }
   bool reaches(int block, int quad) const {
     const Below at = axes_.of(centre_of(mesh_.blocks[block].section, quad));
@@ -166,10 +165,12 @@ PlasticElements plastic_zone(const Model& model, BodyId id, const Body& body) {
   const bool box = run.plastic_depth || run.plastic_width;
   return {
       body,
-      [&](int block, int quad) -> std::optional<YieldingMaterial> {
-        const std::optional<PlasticMaterial> material = zone.material(block, quad);
-        if (!material) return std::nullopt;
-        return YieldingMaterial{material->plastic, process.at(block, quad)};
+      [&](int block, int quad, int material) -> std::optional<YieldingMaterial> {
+        const std::optional<PlasticMaterial> yields = zone.material(block, quad, material);
+        if (!yields) return std::nullopt;
+        YieldingMaterial out{yields->plastic, process.at(block, quad)};
+        out.law.mu = body.materials[material].mu;  // of a row of a graded layer, or in a stretch
+        return out;
       },
       [&](int block, int quad, const Tile& tile) { return box && zone.reaches(block, quad) && zone.reaches(tile); }};
 }

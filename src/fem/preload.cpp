@@ -96,7 +96,7 @@ class Preload {
         1e3 * m.spec.mesh.element_size, 2e3 * m.hertz.a, 2e3 * m.hertz.b);
   }
 
-  double search_length() const { return 2 * sys_.model.hertz.a + 4 * sys_.options.element_size; }
+  double search_length() const { return 2 * sys_.model.hertz.a + 4 * sys_.options.element_size + sys_.model.reach; }
 
   // How far the rigid wheel comes down to touch the heights along the middle of the contact.
   double rigid_descent() const {

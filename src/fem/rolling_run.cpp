@@ -192,7 +192,7 @@ void Roller::record_history() {
     run_.start_energy = now;
     run_.started = true;
   }
-  if (result().history.size() % GuardLimits{}.rows_between_shapes == 0) stepper_.complete();
+  if (sys_.varies_along() || result().history.size() % GuardLimits{}.rows_between_shapes == 0) stepper_.complete();
   const HistoryRow row = history_row(stepper_, run_.start_energy);
   run_.largest_closure = std::max(run_.largest_closure, std::abs(row.closure));
   run_.largest_energy = std::max({run_.largest_energy, now.torque_work, now.strain});

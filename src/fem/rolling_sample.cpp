@@ -13,7 +13,9 @@ namespace railstrata {
 namespace {
 
 // Half length of a sample: the patch and the stress field around it.
-double sample_half_length(const RollingSystem& s) { return 1.5 * s.model.hertz.a + 2 * s.options.element_size; }
+double sample_half_length(const RollingSystem& s) {
+  return 1.5 * s.model.hertz.a + 2 * s.options.element_size + s.model.reach;
+}
 
 // The node planes of a band by number; on a ring the numbers go on below zero and beyond the last station.
 class BandPlanes {
@@ -94,13 +96,15 @@ BandSample band_sample(const Body& body, const ContactBand& band, const SampledB
   const auto plane = [&](int k) { return back ? last - k : first + k; };
   for (int k = 0; k <= s.stations; ++k)
     s.along.push_back((back ? -radius : radius) * (planes.coordinate(plane(k)) - centre));
-  for (int k = 0; k < s.stations; ++k)
+  for (int k = 0; k < s.stations; ++k) {
+    const int station = planes.station(std::min(plane(k), plane(k + 1)));
+    if (!body.mesh.blocks[band.block].along.empty()) s.element.push_back(station);
     for (int q = 0; q < band.rows * band.columns; ++q) {
-      const int station = planes.station(std::min(plane(k), plane(k + 1)));
       s.stress.push_back(element_stress(body, at.u, at.history, band.block, q, station));
       if (body.plastic.empty()) continue;
       s.plastic.push_back(element_plasticity(body, pose.psi, at.history, band.block, q, station));
     }
+  }
   const RigidMotion motion(pose, yaw_turn);
   for (int k = 0; k <= s.stations; ++k)
     for (int n = 0; n < (band.rows + 1) * (band.columns + 1); ++n)
@@ -138,7 +142,7 @@ ContactField pressures_around(const Stepper& st) {
 PatchOnWay patch_on_way(const Stepper& st) {
   const RollingSystem& sys = st.system();
   const ContactSurface &rail = sys.rail_surface(), &wheel = sys.wheel_surface();
-  if (!sys.over_heights()) return {};
+  if (!sys.varies_along()) return {};
   PatchOnWay out;
   const AxlePose pose = st.pose();
   out.lowering = -pose.z;
@@ -150,6 +154,35 @@ PatchOnWay patch_on_way(const Stepper& st) {
   out.patches = contact_regions(f);
   const auto most = std::max_element(f.p.begin(), f.p.end());
   if (most != f.p.end() && *most > 0) out.p_max_x = f.x[static_cast<std::size_t>(most - f.p.begin())];
+  return out;
+}
+
+StressOnWay stress_on_way(const Stepper& st) {
+  StressOnWay out;
+  if (!st.system().varies_along() || st.system().on_ring()) return out;
+  const Body& rail = st.system().rail();
+  const BodyState& state = st.state().bodies[kRail];
+  const ContactBand& band = rail.mesh.contact;
+  const Stations& stations = rail.mesh.blocks[static_cast<std::size_t>(band.block)].stations;
+  const double half = sample_half_length(st.system()), x = st.pose().x;
+  for (int e = stations.element_at(x - half); e <= stations.element_at(x + half); ++e)
+    for (int q = 0; q < band.rows * band.columns; ++q) {
+      const double stress = von_mises(element_stress(rail, state.u, state.history, band.block, q, e));
+      if (!(stress > out.von_mises)) continue;
+      const int row = q / band.columns;
+      out = {stress, stations.centre(e), 0.5 * (band.depth[row] + band.depth[row + 1])};
+    }
+  return out;
+}
+
+std::vector<WatchedStress> stress_at_points(const Stepper& st) {
+  std::vector<WatchedStress> out;
+  const Body& rail = st.system().rail();
+  const BodyState& state = st.state().bodies[kRail];
+  const int block = rail.mesh.contact.block;
+  for (const WatchedPoint& p : st.system().watched_points)
+    out.push_back({element_stress(rail, state.u, state.history, block, p.quad, p.element),
+                   element_plasticity(rail, 0, state.history, block, p.quad, p.element).accumulated});
   return out;
 }
 
@@ -211,7 +244,9 @@ HistoryRow history_row(const Stepper& st, const EnergyBalance& start) {
           s.axle.y,
           foot_height(st.system(), st.position(), s.bodies[kRail].u),
           sleeper_below(st),
-          patch_on_way(st)};
+          patch_on_way(st),
+          stress_on_way(st),
+          stress_at_points(st)};
 }
 
 }  // namespace railstrata

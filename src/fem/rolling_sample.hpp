@@ -20,6 +20,17 @@ struct RollingSample {
       tractions;  ///< rail surface nodes of the band sample, index station * (columns + 1) + column
 };
 
+/// The largest von Mises stress at the centres of the rail's elements around the wheel.
+struct StressOnWay {
+  double von_mises = 0, x = 0, depth = 0;  ///< Pa, m, m
+};
+
+/// At one of the system's watched_points.
+struct WatchedStress {
+  Sym3 stress;            ///< Pa, at the element's centre
+  double plastic_strain;  ///< accumulated, mean of the element
+};
+
 /// A row of history.csv.
 struct HistoryRow {
   double time, position, torque;
@@ -30,7 +41,9 @@ struct HistoryRow {
   double lateral_creepage;   ///< in the contact plane
   double axle_y;             ///< m, travel sideways
   double foot_z, sleeper_z;  ///< m, of a rail on a track: its foot below the wheel, and the nearest sleeper
-  PatchOnWay way;            ///< over heights of rail or wheel
+  PatchOnWay way;            ///< over what changes along rail or wheel
+  StressOnWay stress;        ///< the same
+  std::vector<WatchedStress> points;
 };
 
 /// A body as it is sampled.

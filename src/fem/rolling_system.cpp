@@ -69,7 +69,7 @@ std::vector<EndLoad> end_loads_of(const Body& rail) {
 // A penalty rule of explicit codes, k = scale K A / V with the bulk modulus K of the rail's surface elements (A / V = 1
 // / height).
 double penalty_rule(const Model& model) {
-  const Elastic& m = model.rail_materials[model.rail_materials.size() > 1 ? 1 : 0];
+  const Elastic& m = model.rail_materials[model.rail.materials.size() > 1 && model.rail.layer_of(1) > 0 ? 1 : 0];
   const auto& depth = model.rail.contact.depth;
   return model.spec.contact.penalty_scale * (m.lambda + 2.0 / 3.0 * m.mu) / (depth[1] - depth[0]);
 }
@@ -206,6 +206,8 @@ RollingSystem::RollingSystem(const Model& m)
     surface.heights = {m.spec.irregularities, id, m.spec.geometry.wheel_radius};
     surface.first_contact_y = m.placement.contact.point.y;
   }
+  if (m.spec.run.rolling && !on_ring())
+    watched_points = railstrata::watched_points(m.spec, rail().mesh, m.x_end, m.hertz.a);
   if (const std::vector<TablePoint>& across = m.spec.friction.lateral_table; !across.empty())
     for (int c = 0; c < rail_surface().columns; ++c)
       options.contact.coefficient_across.push_back(

@@ -18,6 +18,7 @@
 #include "contact/enforcement.hpp"
 #include "core/body_id.hpp"
 #include "fem/rail_pads.hpp"
+#include "fem/watched_points.hpp"
 #include "model/model.hpp"
 
 namespace railstrata {
@@ -91,6 +92,7 @@ struct RollingSystem {
   double start_spin = 0;            ///< rad/s, at the start of the rolling: V (1 - creepage)/r; 0 for a static case
   double rail_spin = 0;             ///< rad/s, of a rail that is a ring, always: -V/R; 0: of a straight one, at rest
   std::vector<BoreNode> rail_bore;  ///< of a rail that is a ring
+  std::vector<WatchedPoint> watched_points;
   double torque =
       0;  ///< N m, steady: gives the wanted F_T with the inertia of the accelerated wheel, M = F_T (r + I/(m r))
 
@@ -98,7 +100,13 @@ struct RollingSystem {
   const Body& rail() const { return body(BodyId::rail); }
   const Body& wheel() const { return body(BodyId::wheel); }
   bool on_ring() const { return rail().mesh.rises(); }
-  bool over_heights() const { return !rail_surface().heights.none() || !wheel_surface().heights.none(); }
+  /// Whether surfaces or materials change along the way.
+  bool varies_along() const {
+    const auto varies = [](const ContactSurface& surface, const Body& body) {
+      return !surface.heights.none() || !body.mesh.blocks[body.mesh.contact.block].along.empty();
+    };
+    return varies(rail_surface(), rail()) || varies(wheel_surface(), wheel());
+  }
   const ContactSurface& surface(BodyId id) const { return surfaces[index_of(id)]; }
   const ContactSurface& rail_surface() const { return surface(BodyId::rail); }
   const ContactSurface& wheel_surface() const { return surface(BodyId::wheel); }

@@ -376,6 +376,10 @@ void describe(Archive& a, BandSample& b) {
   a.row("size", b,
         [](auto& v, auto&& on) { on("columns", v.columns), on("rows", v.rows), on("stations", v.stations); });
   a.numbers("along", b.along);
+  if (Archive::reading || !b.element.empty())
+    a.later_rows("element", b.element, [](auto& v, auto&& on) { on("element", v); });
+  if (!b.element.empty() && b.element.size() != static_cast<std::size_t>(b.stations))
+    throw Damage{"elements are not those of the stations"};
   a.rows("stress", b.stress, visit_sym);
   a.rows("plasticity", b.plastic, visit_plasticity);
   a.rows("displacement", b.displacement, visit_vec);
@@ -409,6 +413,24 @@ void each(Archive& a, const char* name, std::vector<T>& all, Describe&& one) {
     for (std::size_t k = 0; k < all.size(); ++k)
       inner.group(fmt::format("{}", k), [&](auto& part) { one(part, all[k]); });
   });
+}
+
+/// Stresses at the points of a way, row by row.
+template <class Archive>
+void describe_points(Archive& a, std::vector<HistoryRow>& history) {
+  std::vector<WatchedStress> all;
+  for (const HistoryRow& row : history) all.insert(all.end(), row.points.begin(), row.points.end());
+  if (Archive::reading || !all.empty())
+    a.later_rows("watched_points", all, [](auto& v, auto&& on) {
+      visit_sym(v.stress, on);
+      on("plastic_strain", v.plastic_strain);
+    });
+  if (!Archive::reading || all.empty() || history.empty()) return;
+  if (all.size() % history.size() != 0) throw Damage{"the points of the way are not those of the history"};
+  const std::size_t points = all.size() / history.size();
+  for (std::size_t k = 0; k < history.size(); ++k)
+    history[k].points.assign(all.begin() + static_cast<std::ptrdiff_t>(k * points),
+                             all.begin() + static_cast<std::ptrdiff_t>((k + 1) * points));
 }
 
 template <class Archive>
@@ -454,9 +476,16 @@ void describe(Archive& a, RunResult& r) {
       on("width", h.way.width);
       on("patches", h.way.patches);
       on("p_max_x", h.way.p_max_x);
+      on("von_mises", h.stress.von_mises);
+      on("von_mises_x", h.stress.x);
+      on("von_mises_depth", h.stress.depth);
     });
   if (Archive::reading)
-    for (std::size_t k = 0; k < std::min(on_way.size(), r.history.size()); ++k) r.history[k].way = on_way[k].way;
+    for (std::size_t k = 0; k < std::min(on_way.size(), r.history.size()); ++k) {
+      r.history[k].way = on_way[k].way;
+      r.history[k].stress = on_way[k].stress;
+    }
+  describe_points(a, r.history);
   each(a, "positions", r.positions, [](auto& part, PositionSamples& p) {
     part.row("wanted", p, [](auto& v, auto&& on) { on("position", v.position); });
     each(part, "samples", p.samples, [](auto& inner, RollingSample& s) { describe(inner, s); });

@@ -55,8 +55,10 @@ Json answer_json(const Answer& a) {
 
 Json value_json(const std::optional<FatigueValue>& v, const char* key) {
   if (!v) return nullptr;
-  return {
+  Json out{
       {key, json_number(v->value)}, {"zone", v->zone}, {"depth_m", json_number(v->depth)}, {"y_m", json_number(v->y)}};
+  if (std::isfinite(v->x)) out["x_m"] = v->x;
+  return out;
 }
 
 Json brittle_json(const BrittleSummary& brittle) {

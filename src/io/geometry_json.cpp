@@ -86,11 +86,11 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement, const std::
   out["rail_m"] = curve(placement.rail, c.rail_s, 0, kReach, rail);
   out["wheel_m"] = curve(placement.wheel, c.wheel_s, 0, kReach, wheel);
   out["layers"] = Json::array();
-  double rail_depth = 0, wheel_depth = 0;
-  for (const LayerSpec& l : spec.layers) {
+  const std::vector<double> tops = layer_tops(spec.layers);
+  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
+    const LayerSpec& l = spec.layers[i];
     const bool on_rail = l.on == BodyId::rail;
-    double& depth = on_rail ? rail_depth : wheel_depth;
-    depth += l.thickness;
+    const double depth = tops[i] + l.thickness;
     out["layers"].push_back(
         {{"name", l.name},
          {"on", body_word(l.on)},
@@ -100,6 +100,9 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement, const std::
          {"young_ratio", l.material.young / (on_rail ? spec.rail_material : spec.wheel_material).young},
          {"bottom_m", on_rail ? curve(placement.rail, c.rail_s, depth, 0.5 * l.width, rail)
                               : curve(placement.wheel, c.wheel_s, depth, 0.5 * l.width, wheel)}});
+    if (l.from) out["layers"].back()["from_m"] = *l.from;
+    if (l.to) out["layers"].back()["to_m"] = *l.to;
+    if (l.taper_length > 0) out["layers"].back()["taper_length_m"] = l.taper_length;
     for (const ModulusPoint& point : l.young_table)
       out["layers"].back()["young_table"].push_back({point.depth, point.young});
   }

@@ -26,6 +26,7 @@ void remove_results(const std::filesystem::path& folder) {
                            "patch.pvd",
                            "patch.vtp",
                            "patch_film.csv",
+                           "points_history.csv",
                            "rail.vtu",
                            "rail_cross_section.csv",
                            "rail_longitudinal_section.csv",

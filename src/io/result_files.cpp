@@ -214,7 +214,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
         mesh.cells.push_back({a + q[0], a + q[one], a + q[2], a + q[three], a + per_station + q[0],
                               a + per_station + q[one], a + per_station + q[2], a + per_station + q[three]});
         const Sym3 value = b.at(c, r, s);
-        const int m = b.body->layer_of(section.quad_material[static_cast<std::size_t>(r) * band.columns + c]);
+        const int m = b.layer(c, r, s);
         cells.push_back({0, 0, 0, value, m, plastic_at(b.sample.plastic, cells.size())});
         for (long long n : mesh.cells.back()) {
           // at an interface the points belong to the material met first, from the surface down
@@ -238,7 +238,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
   return mesh;
 }
 
-Columns<HistoryRow> history_columns(bool on_track, bool over_heights) {
+Columns<HistoryRow> history_columns(bool on_track, bool varies_along) {
   using H = HistoryRow;
   Columns<H> out{{"time", unit::kMilliseconds, &H::time},
                  {"position", unit::kMillimetres, &H::position},
@@ -260,13 +260,32 @@ Columns<HistoryRow> history_columns(bool on_track, bool over_heights) {
   out.push_back({"closure", unit::kJoules, &H::closure});
   if (on_track)
     append(out, {{"foot_z", unit::kMillimetres, &H::foot_z}, {"sleeper_z", unit::kMillimetres, &H::sleeper_z}});
-  if (over_heights)
+  if (varies_along)
     append(out, {{"height", unit::kMicrometres, [](const H& h) { return h.way.height; }},
                  {"lowering", unit::kMicrometres, [](const H& h) { return h.way.lowering; }},
                  {"patch_length", unit::kMillimetres, [](const H& h) { return h.way.length; }},
                  {"patch_width", unit::kMillimetres, [](const H& h) { return h.way.width; }},
                  {"patches", unit::kCount, [](const H& h) { return h.way.patches; }},
-                 {"p_max_x", unit::kMillimetres, [](const H& h) { return h.way.p_max_x; }}});
+                 {"p_max_x", unit::kMillimetres, [](const H& h) { return h.way.p_max_x; }},
+                 {"von_mises", unit::kMPa, [](const H& h) { return h.stress.von_mises; }},
+                 {"von_mises_x", unit::kMillimetres, [](const H& h) { return h.stress.x; }},
+                 {"von_mises_depth", unit::kMillimetres, [](const H& h) { return h.stress.depth; }}});
+  return out;
+}
+
+Columns<PointRow> point_columns(bool yields) {
+  using P = PointRow;
+  Columns<P> out{{"time", unit::kMilliseconds, &P::time},
+                 {"position", unit::kMillimetres, &P::position},
+                 {"point", unit::kCount, [](const P& p) { return p.number; }},
+                 {"x", unit::kMillimetres, &P::x},
+                 {"depth", unit::kMillimetres, &P::depth},
+                 {"material", unit::kCount, [](const P& p) { return p.layer; }},
+                 {"von_mises", unit::kMPa, [](const P& p) { return von_mises(p.at.stress); }}};
+  append(out, tensor_columns<P>("sigma", unit::kMPa, [](const P& p) { return p.at.stress; }));
+  out = rounded(out, 3);
+  if (yields)
+    out.push_back({"plastic_strain_accumulated", unit::kNone, [](const P& p) { return p.at.plastic_strain; }});
   return out;
 }
 

@@ -82,6 +82,7 @@ Json summary_json(const Summary& s) {
     add_numbers(kLifeGroup, s, out["life"]);
     out["life"]["text"] = s.life.text;
   }
+  if (std::isfinite(s.passage.F_z_max)) add_numbers(kPassageGroup, s, out[std::string(kPassageGroup)]);
   if (std::isfinite(s.plastic.strain)) out["plastic"] = plastic(s);
   add_numbers("energy", s, out["energy"]);
   Json& run = out["run"];

@@ -25,10 +25,7 @@ Zone zone_of(const CaseSpec& spec, BodyId body, int zone) {
   const std::string name = zone_name(spec, body, zone);
   const std::string key = zone_key(spec, body, zone);
   if (zone == 0) return {strength, name, key, 0};
-  const std::vector<std::size_t> layers = layers_on(spec, body);
-  double top = 0;
-  for (int k = 0; k + 1 < zone; ++k) top += spec.layers[layers[k]].thickness;
-  return {strength, name, key, top};
+  return {strength, name, key, layer_tops(spec.layers)[layers_on(spec, body)[zone - 1]]};
 }
 
 class ZoneStrength {
@@ -90,9 +87,9 @@ bool strength_to_judge(const CaseSpec& spec) {
 }
 
 std::function<double(double, bool)> shear_strength_by_depth(const CaseSpec& spec, BodyId body) {
+  const std::vector<double> tops = layer_tops(spec.layers);
   std::vector<double> bottoms;
-  for (const std::size_t i : layers_on(spec, body))
-    bottoms.push_back((bottoms.empty() ? 0.0 : bottoms.back()) + spec.layers[i].thickness);
+  for (const std::size_t i : layers_on(spec, body)) bottoms.push_back(tops[i] + spec.layers[i].thickness);
   std::vector<ZoneStrength> zones;
   for (int zone = 0; zone <= static_cast<int>(bottoms.size()); ++zone) zones.emplace_back(zone_of(spec, body, zone));
   return [bottoms, zones](double depth, bool below) {

@@ -12,7 +12,14 @@
 namespace railstrata {
 std::vector<ResultColumn> result_columns(bool stresses) {
   std::vector<ResultColumn> out = table_columns();
+  std::erase_if(out, [](const ResultColumn& c) { return c.of_passage; });
   if (!stresses) std::erase_if(out, [](const ResultColumn& c) { return c.of_stress; });
+  return out;
+}
+
+std::vector<ResultColumn> passage_columns() {
+  std::vector<ResultColumn> out = table_columns();
+  std::erase_if(out, [](const ResultColumn& c) { return !c.of_passage; });
   return out;
 }
 
@@ -50,7 +57,8 @@ template <class IsIt>
 const ResultColumn* first_column(IsIt&& is_it) {
   static const std::vector<ResultColumn> all = [] {
     std::vector<ResultColumn> out = result_columns(true);
-    out.insert(out.end(), study_columns().begin(), study_columns().end());
+    for (const std::vector<ResultColumn>& more : {passage_columns(), study_columns()})
+      out.insert(out.end(), more.begin(), more.end());
     return out;
   }();
   const auto found = std::find_if(all.begin(), all.end(), is_it);

@@ -11,8 +11,10 @@
 
 namespace railstrata {
 
-/// Contact, then the stresses if they are wanted, then the wall time.
+/// Contact, then the stresses if they are wanted, then the wall time; nothing of a way.
 std::vector<ResultColumn> result_columns(bool stresses);
+/// Those of a wheel's way over what changes along the rail.
+std::vector<ResultColumn> passage_columns();
 
 /// Further columns of a study's table: made from the result's files (study_results.cpp), and its threads.
 const std::vector<ResultColumn>& study_columns();

@@ -31,7 +31,7 @@ PassPoint point_of(const RollingSystem& sys, PlasticSection::Quad q, const Conta
   out.accumulated = after.accumulated;
   const auto& e = after.plastic;  // 11, 22, 33, 12, 23, 13
   out.plastic = plane.turned({e[0], e[1], e[2], e[3], e[4], e[5]});
-  const int station = element_at(rail.mesh.blocks[q.block].stations, middle);
+  const int station = rail.mesh.blocks[q.block].stations.element_at(middle);
   out.stress = plane.turned(element_stress(rail, at_rest.u, at_rest.history, q.block, q.quad, station));
   return out;
 }
@@ -63,7 +63,7 @@ void add_balance(const RollingSystem& sys, const RailBefore& at_rest, double mid
   Vec2 shear{};
   for (int b = 0; b < static_cast<int>(rail.mesh.blocks.size()); ++b) {
     const Block& block = rail.mesh.blocks[b];
-    const int station = element_at(block.stations, middle);
+    const int station = block.stations.element_at(middle);
     for (int q = 0; q < static_cast<int>(block.section.quads.size()); ++q) {
       const Sym3 s = element_stress(rail, at_rest.u, at_rest.history, b, q, station);
       const double area = quad_area(block.section, block.section.quads[q]);
@@ -81,7 +81,7 @@ void add_displacement(const RollingSystem& sys, const ContactPlane& plane, const
   const auto larger = [](double& most, double value) {
     if (std::abs(value) > std::abs(most)) most = value;
   };
-  const int station = element_at(surface.stations, middle);
+  const int station = surface.stations.element_at(middle);
   for (int column = 0; column < surface.columns; ++column) {
     const Vec3 at = vector_at(u, surface.index(column, station), surface.stride);
     larger(row.forward, at.x);

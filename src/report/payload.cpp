@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -26,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kMostPoints = 300, kMostRows = 1500;
+constexpr int kMostPoints = 300, kMostRows = 1500, kMostWatchedRows = 6000;
 
 Json numbers(const std::vector<double>& values, double factor = 1) {
   Json out = Json::array();
@@ -146,6 +147,31 @@ Json columns(const std::optional<CsvTable>& table) {
     std::vector<double> v;
     for (std::size_t i = 0; i < c.values.size(); i += step) v.push_back(c.values[i]);
     out[c.name] = numbers(v);
+  }
+  return out;
+}
+
+/// Where the rail changes: a point's place, then its stress against the wheel's position.
+Json watched_points(const std::optional<CsvTable>& table) {
+  if (!table) return nullptr;
+  const std::vector<double>&number = table->column("point"), &position = table->column("position_mm"),
+        &von_mises = table->column("von_mises_MPa");
+  const double points = *std::max_element(number.begin(), number.end());
+  const auto rows_of_point = static_cast<std::size_t>(static_cast<double>(number.size()) / points);
+  const std::size_t step = 1 + static_cast<std::size_t>(points) * rows_of_point / kMostWatchedRows;
+  std::vector<std::size_t> seen(static_cast<std::size_t>(points), 0);
+  std::vector<std::array<std::vector<double>, 2>> curves(seen.size());
+  Json out = Json::array();
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    const auto k = static_cast<std::size_t>(number[i]) - 1;
+    if (seen[k]++ == 0) out.push_back({{"x_mm", table->column("x_mm")[i]}, {"depth_mm", table->column("depth_mm")[i]}});
+    if ((seen[k] - 1) % step != 0) continue;
+    curves[k][0].push_back(position[i]);
+    curves[k][1].push_back(von_mises[i]);
+  }
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    out[k]["position_mm"] = numbers(curves[k][0]);
+    out[k]["von_mises_MPa"] = numbers(curves[k][1]);
   }
   return out;
 }
@@ -380,6 +406,7 @@ Json run_json(const ReportRun& run, bool with_slices) {
           {"depth_line", columns(run.depth_line)},
           {"wheel_depth_line", wheel_depth_line(run)},
           {"history", columns(run.history)},
+          {"points", watched_points(run.points)},
           {"film", film(run.film, is_engine(run.result.engine, Engine::fem))},
           {"sections", sections(run)},
           {"residual", residual(run)},

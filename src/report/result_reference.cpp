@@ -212,7 +212,7 @@ std::string results_reference_markdown() {
       "`bem` and `commit` the program's.\n" +
       std::string(kRoundOff) + numbers_markdown("");
   for (const std::string_view group :
-       {"contact", "damage", "shakedown/factors", "layers", "plastic", "energy", "run"}) {
+       {"contact", "damage", "shakedown/factors", "layers", "passage", "plastic", "energy", "run"}) {
     out += fmt::format("\n## {}\n", group) + numbers_markdown(group);
     if (group == "contact") out += std::string(kSeveralPatches) + stress_markdown();
     if (group == "plastic") out += std::string(kPlasticPlace);

@@ -19,7 +19,7 @@ struct BandRow {
 std::vector<BandRow> band_rows(const BandStress& b) {
   std::vector<BandRow> rows{{BandRow::From::surface, 0}};
   for (int r = 0; r < b.sample.rows; ++r) {
-    if (r > 0 && layer_of(b, b.sample.columns / 2, r) != layer_of(b, b.sample.columns / 2, r - 1)) {
+    if (r > 0 && b.layer(b.sample.columns / 2, r, 0) != b.layer(b.sample.columns / 2, r - 1, 0)) {
       rows.push_back({BandRow::From::interface_above, r});
       rows.push_back({BandRow::From::interface_below, r});
     }
@@ -197,7 +197,7 @@ StressHistory BandCycles::history() const {
     const bool centre = row.from == BandRow::From::centre, surface = row.from == BandRow::From::surface;
     out.depth.push_back(surface ? 0 : centre ? band_.centre_depth[row.row] : band_.body->contact.depth[row.row]);
     out.zone.push_back(
-        layer_of(band_, band_.sample.columns / 2, row.from == BandRow::From::interface_above ? row.row - 1 : row.row));
+        band_.layer(band_.sample.columns / 2, row.from == BandRow::From::interface_above ? row.row - 1 : row.row, 0));
   }
   out.stress.resize(rows_.size() * out.x.size() * out.y.size());
   for (int r = 0; r < out.rows(); ++r) {

@@ -14,16 +14,10 @@ BandStress band_stress(const SweptBody& body, BandSample sample, double contact_
   return b;
 }
 
-int layer_of(const BandStress& b, int column, int row) {
-  const ContactBand& band = b.body->contact;
-  return b.body->layer_of(
-      b.body->blocks[band.block].section.quad_material[static_cast<std::size_t>(row) * band.columns + column]);
-}
-
 Sym3 stress_at_interface(const BandStress& b, int column, int row, int station, bool below) {
   const int near = below ? row : row - 1, far = below ? row + 1 : row - 2;
   const Sym3 stress = b.at(column, near, station);
-  if (far < 0 || far >= b.sample.rows || layer_of(b, column, far) != layer_of(b, column, near)) return stress;
+  if (far < 0 || far >= b.sample.rows || b.layer(column, far, station) != b.layer(column, near, station)) return stress;
   const double t = (b.body->contact.depth[row] - b.centre_depth[near]) / (b.centre_depth[near] - b.centre_depth[far]);
   return stress + t * (stress - b.at(column, far, station));
 }
@@ -40,7 +34,7 @@ DepthLine depth_line(const BandStress& b, double x, double y) {
   for (int r = 0; r < b.sample.rows; ++r) {
     line.depth.push_back(b.centre_depth[r]);
     line.stress.push_back(b.at(column, r, station));
-    line.material.push_back(layer_of(b, column, r));
+    line.material.push_back(b.layer(column, r, station));
     if (!b.sample.plastic.empty()) line.plastic.push_back(b.sample.plastic[b.index(column, r, station)]);
   }
   return line;

@@ -20,6 +20,13 @@ struct BandStress {
     return (static_cast<std::size_t>(station) * sample.rows + row) * sample.columns + column;
   }
   Sym3 at(int column, int row, int station) const { return sample.stress[index(column, row, station)]; }
+  /// Layer of an element: 0 the matrix, then the layers from the surface down.
+  int layer(int column, int row, int station) const {
+    const int quad = row * sample.columns + column;
+    const Block& block = body->blocks[body->contact.block];
+    return body->layer_of(sample.element.empty() ? block.section.quad_material[quad]
+                                                 : block.material(quad, sample.element[station]));
+  }
   double x(int station) const { return 0.5 * (sample.along[station] + sample.along[station + 1]); }
 };
 BandStress band_stress(const SweptBody& body, BandSample sample, double contact_y);
@@ -31,9 +38,6 @@ struct BandSurface {
   double poisson = 0;  ///< of the surface
   double radius = 0;   ///< m, of the wheel; 0: the rail; negative: a rail that is a ring
 };
-
-/// Layer of an element of the band: 0 the matrix, then the layers from the surface down.
-int layer_of(const BandStress& band, int column, int row);
 
 /// Stress at the upper face of row `row`, which is an interface: extrapolated linearly from the two nearest centres
 /// above it or below.

@@ -35,10 +35,4 @@ inline Vec2 centre_of(const Section& section, int quad) {
   return sum;
 }
 
-/// The element around a place along the sweep, the nearest one beyond the ends.
-inline int element_at(const Stations& stations, double x) {
-  const auto above = std::upper_bound(stations.at.begin(), stations.at.end(), x);
-  return std::clamp(static_cast<int>(above - stations.at.begin()) - 1, 0, stations.elements() - 1);
-}
-
 }  // namespace railstrata

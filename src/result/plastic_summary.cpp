@@ -24,7 +24,7 @@ void add_place(const RollingSystem& sys, BodyId id, const PlasticPeak& peak, Pla
   }
   if (rail) out.x = 0.5 * (block.stations.at[peak.station] + block.stations.at[peak.station + 1]);
   out.body = body_word(id);
-  out.zone = zone_name(model.spec, id, body.layer_of(section.quad_material[peak.quad]));
+  out.zone = zone_name(model.spec, id, body.layer_of(block.material(peak.quad, peak.station)));
 }
 
 }  // namespace

@@ -197,6 +197,46 @@ std::vector<ResultNumber> plastic_place_numbers() {
               "Largest accumulated plastic strain, depth", "Of the element's centre below the surface", kFem)};
 }
 
+template <auto Member>
+constexpr auto on_way = &at<&Summary::passage, Member>;
+
+std::vector<ResultNumber> passage_numbers() {
+  using W = PassageSummary;
+  constexpr unsigned marks = kMain | kFem;
+  return {
+      row("F_z_max", kKilonewtons, on_way<&W::F_z_max>, "F_z, largest", "Largest wheel force on the way",
+          "From the end of run.run_up on, row by row of history.csv", marks),
+      row("F_z_max_position", kMillimetres, on_way<&W::F_z_max_position>, "at position",
+          "Position of the wheel at its largest wheel force", "Of the axle along the rail", marks),
+      row("F_z_min", kKilonewtons, on_way<&W::F_z_min>, "F_z, smallest", "Smallest wheel force on the way",
+          "Likewise; 0: the wheel left the rail", marks),
+      row("F_z_min_position", kMillimetres, on_way<&W::F_z_min_position>, "at position",
+          "Position of the wheel at its smallest wheel force", "Of the axle along the rail", marks),
+      row("p_max_on_way", kMPa, on_way<&W::p_max>, "p_max on the way", "Largest pressure on the way",
+          "Of the nodes, before the peak between them is interpolated", marks),
+      row("p_max_position", kMillimetres, on_way<&W::p_max_position>, "at position",
+          "Position of the wheel at the largest pressure", "Of the axle along the rail", marks),
+      row("patch_parts", kCount, on_way<&W::parts>, "parts of the patch", "Most parts of the patch on the way",
+          "2: the wheel bridged a hollow; null on sleepers alone", marks),
+      row("von_mises_on_way", kMPa, on_way<&W::von_mises>, "von Mises on the way",
+          "Largest von Mises stress of the rail on the way", "At the centres of elements around the wheel", marks),
+      row("von_mises_x", kMillimetres, on_way<&W::von_mises_x>, "at x", "Its place along the rail",
+          "From where the wheel was put on", marks),
+      row("von_mises_depth", kMillimetres, on_way<&W::von_mises_depth>, "at depth", "Its depth",
+          "Below the running surface", marks),
+      row("P1", kKilonewtons, on_way<&W::P1>, "P1", "Largest force within 2 ms of a dip's tip", "On a track", marks),
+      row("P2", kKilonewtons, on_way<&W::P2>, "P2", "Largest mean of 2 ms, from 2.2 ms after the tip on",
+          "On a track; null where the way ends before", marks),
+      row("P1_jenkins_low", kKilonewtons, on_way<&W::P1_jenkins_low>, "P1 by Jenkins, low",
+          "P1 by Jenkins' formula with 0.4 m of rail", "A range to lie in: docs/track.md", kShown | kFem),
+      row("P1_jenkins_high", kKilonewtons, on_way<&W::P1_jenkins_high>, "P1 by Jenkins, high",
+          "P1 by Jenkins' formula with 1 m of rail", "Likewise", kShown | kFem),
+      row("P2_jenkins_low", kKilonewtons, on_way<&W::P2_jenkins_low>, "P2 by Jenkins, low",
+          "P2 by Jenkins' formula less its errors", "Likewise", kShown | kFem),
+      row("P2_jenkins_high", kKilonewtons, on_way<&W::P2_jenkins_high>, "P2 by Jenkins, high",
+          "P2 by Jenkins' formula with its errors", "Likewise", kShown | kFem)};
+}
+
 std::vector<ResultNumber> energy_numbers() {
   return {row("closure", kShare, energy<&EnergySummary::closure>, "energy closure", "Energy closure",
               "Energy gained or lost by the time steps, of the largest energy turned over", kFem),
@@ -391,6 +431,7 @@ ResultColumn column_of(const ResultNumber& n) {
           .of_stress = of_strength(n),
           .of_strength = of_strength(n),
           .of_all_patches = n.of_all_patches,
+          .of_passage = n.group == kPassageGroup,
           .comparable = n.comparable,
           .digits = n.digits};
 }
@@ -446,6 +487,7 @@ const std::vector<ResultNumber>& result_numbers() {
     add(kShakedownGroup, {shakedown_numbers()});
     add(kLayersGroup, {layer_numbers()});
     add(kLifeGroup, {life_numbers()});
+    add(kPassageGroup, {passage_numbers()});
     add("plastic", {plastic_numbers(), plastic_place_numbers()});
     add("energy", {energy_numbers()});
     add("run", {time_numbers(), step_numbers(), effort_numbers()});

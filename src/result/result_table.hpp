@@ -27,6 +27,9 @@ inline constexpr std::string_view kLayersGroup = "layers";
 /// Place of the life in summary.json.
 inline constexpr std::string_view kLifeGroup = "life";
 
+/// Place of a passage's numbers in summary.json.
+inline constexpr std::string_view kPassageGroup = "passage";
+
 /// Below which size a number is what round-off and the solvers' tolerances leave, and screen and page show 0: `share`
 /// times the numbers at these paths of the same result ("" none). Files keep every digit.
 struct RoundOff {
@@ -108,6 +111,7 @@ struct ResultColumn {
   bool of_stress = false;    ///< costs more than the contact
   bool of_strength = false;  ///< empty where no case gives a strength
   bool of_all_patches = false;
+  bool of_passage = false;  ///< empty where nothing changes along the rail
   bool comparable = true;
   int digits = 4;
 

@@ -21,13 +21,14 @@ void offer(StressMaximum& best, double value, double x, double y, double depth) 
 
 // Largest value over the centres that `wanted` accepts, refined by parabolas in depth and along the rail where the
 // neighbours are accepted too.
-StressMaximum largest(const BandStress& b, Measure measure, const std::function<bool(int column, int row)>& wanted) {
+StressMaximum largest(const BandStress& b, Measure measure,
+                      const std::function<bool(int column, int row, int station)>& wanted) {
   StressMaximum best;
   int bc = 0, br = 0, bs = 0;
   for (int s = 0; s < b.sample.stations; ++s)
     for (int r = 0; r < b.sample.rows; ++r)
       for (int c = 0; c < b.sample.columns; ++c) {
-        if (!wanted(c, r)) continue;
+        if (!wanted(c, r, s)) continue;
         const double value = measure(b.at(c, r, s));
         if (std::isnan(best.value) || value > best.value) {
           best = {value, b.x(s), b.centre_y[c] - b.contact_y, b.centre_depth[r]};
@@ -43,16 +44,16 @@ StressMaximum largest(const BandStress& b, Measure measure, const std::function<
     best.value += t.above;
   };
   const double top = best.value;
-  if (br > 0 && br + 1 < b.sample.rows && wanted(bc, br - 1) && wanted(bc, br + 1))
+  if (br > 0 && br + 1 < b.sample.rows && wanted(bc, br - 1, bs) && wanted(bc, br + 1, bs))
     refine(b.centre_depth[br - 1], measure(b.at(bc, br - 1, bs)), b.centre_depth[br], top, b.centre_depth[br + 1],
            measure(b.at(bc, br + 1, bs)), best.depth);
-  if (bs > 0 && bs + 1 < b.sample.stations)
+  if (bs > 0 && bs + 1 < b.sample.stations && wanted(bc, br, bs - 1) && wanted(bc, br, bs + 1))
     refine(b.x(bs - 1), measure(b.at(bc, br, bs - 1)), b.x(bs), top, b.x(bs + 1), measure(b.at(bc, br, bs + 1)),
            best.x);
   return best;
 }
 
-StressPair largest_pair(const BandStress& b, const std::function<bool(int, int)>& wanted) {
+StressPair largest_pair(const BandStress& b, const std::function<bool(int, int, int)>& wanted) {
   return {largest(b, von_mises, wanted), largest(b, largest_principal, wanted)};
 }
 
@@ -61,26 +62,30 @@ StressPair at_interfaces(const BandStress& b) {
   StressPair best;
   const auto& depth = b.body->contact.depth;
   for (int r = 1; r < b.sample.rows; ++r)
-    for (int c = 0; c < b.sample.columns; ++c) {
-      if (layer_of(b, c, r - 1) == layer_of(b, c, r)) continue;
-      for (int s = 0; s < b.sample.stations; ++s)
+    for (int c = 0; c < b.sample.columns; ++c)
+      for (int s = 0; s < b.sample.stations; ++s) {
+        if (b.layer(c, r - 1, s) == b.layer(c, r, s)) continue;
         for (const bool below : {false, true}) {
           const Sym3 stress = stress_at_interface(b, c, r, s, below);
           const double x = b.x(s), y = b.centre_y[c] - b.contact_y;
           offer(best.von_mises, von_mises(stress), x, y, depth[r]);
           offer(best.sigma1, largest_principal(stress), x, y, depth[r]);
         }
-    }
+      }
   return best;
 }
 
 void below_surface(const BandStress& b, double begin, bool layered, StressSummary& out) {
-  const auto deep = [&](int, int r) { return b.centre_depth[r] > begin; };
+  const auto deep = [&](int, int r, int) { return b.centre_depth[r] > begin; };
   out.subsurface = largest_pair(b, deep);
   if (!layered) return;
-  out.layer = largest_pair(b, [&](int c, int r) { return layer_of(b, c, r) > 0; });
-  out.matrix = largest_pair(b, [&](int c, int r) { return layer_of(b, c, r) == 0; });
-  out.interface = at_interfaces(b);
+  // where a layer has ended the sample may have none of it
+  const auto if_any = [](StressPair pair) {
+    return std::isnan(pair.von_mises.value) ? std::nullopt : std::optional(pair);
+  };
+  out.layer = if_any(largest_pair(b, [&](int c, int r, int s) { return b.layer(c, r, s) > 0; }));
+  out.matrix = if_any(largest_pair(b, [&](int c, int r, int s) { return b.layer(c, r, s) == 0; }));
+  out.interface = if_any(at_interfaces(b));
 }
 
 }  // namespace
@@ -107,6 +112,10 @@ namespace {
 /// m, by which the surface turns upwards along the rail: of the wheel; negative of a ring below it; 0: straight.
 double rising_radius(const ContactSurface& rail) { return rail.rises ? -rail.radius : 0.0; }
 
+int material_at(const Block& block, const BandSample& sample, int column, int station) {
+  return sample.element.empty() ? block.section.quad_material[column] : block.material(column, sample.element[station]);
+}
+
 // Recovery at the inner surface nodes of a sample; `traction(column, station)` acts on this body. radius: by which it
 // rises along the rail.
 template <class Traction>
@@ -114,7 +123,7 @@ std::vector<Sym3> recover_surface(const ContactSurface& surface, const BandSampl
                                   const std::vector<Elastic>& materials, double radius, Traction&& traction) {
   const int columns = sample.columns + 1, stations = sample.stations + 1,
             nodes_per_station = columns * (sample.rows + 1);
-  const auto& quad_material = body.blocks[body.contact.block].section.quad_material;
+  const Block& block = body.blocks[body.contact.block];
   std::vector<Sym3> out(static_cast<std::size_t>(columns) * stations);
   auto u = [&](int c, int j) { return sample.displacement[static_cast<std::size_t>(j) * nodes_per_station + c]; };
   for (int j = 1; j + 1 < stations; ++j)
@@ -127,8 +136,14 @@ std::vector<Sym3> recover_surface(const ContactSurface& surface, const BandSampl
       const double along = sample.along[j + 1] - sample.along[j - 1],
                    across = (t2.y > 0 ? 1 : -1) * (surface.width[c - 1] + surface.width[c]);
       const Vec3 d1 = (1 / along) * (u(c, j + 1) - u(c, j - 1)), d2 = (1 / across) * (u(c + 1, j) - u(c - 1, j));
-      out[static_cast<std::size_t>(j) * columns + c] = surface_stress(
-          materials[quad_material[c]], n, t1, t2, dot(d1, t1), dot(d2, t2), dot(d1, t2) + dot(d2, t1), traction(c, j));
+      const auto of = [&](int material) {
+        return surface_stress(materials[material], n, t1, t2, dot(d1, t1), dot(d2, t2), dot(d1, t2) + dot(d2, t1),
+                              traction(c, j));
+      };
+      Sym3& stress = out[static_cast<std::size_t>(j) * columns + c];
+      const int behind = material_at(block, sample, c, j - 1), ahead = material_at(block, sample, c, j);
+      stress = of(ahead);
+      if (behind != ahead) stress = 0.5 * (stress + of(behind));
     }
   return out;
 }
@@ -168,6 +183,11 @@ StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sam
 /// Poisson's ratio at the surface in the middle of the contact band.
 double surface_poisson(const SweptBody& body, const std::vector<Elastic>& at_surface) {
   return poisson(at_surface[body.blocks[body.contact.block].section.quad_material[body.contact.columns / 2]]);
+}
+
+bool layered(const Model& model, BodyId id) {
+  const std::vector<LayerSpec>& layers = model.spec.layers;
+  return std::any_of(layers.begin(), layers.end(), [&](const LayerSpec& l) { return l.on == id; });
 }
 
 /// Where the subsurface begins: subsurface_begin, no nearer than an element.
@@ -212,7 +232,7 @@ StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m
   StressSummary out;
   const double contact_y = sys.model.placement.contact.point.y - sys.model.rail.origin.y;
   const BandStress b = band_stress(sys.model.rail, m.rail, contact_y);
-  below_surface(b, begin_of(sys.model.spec, BodyId::rail, m), sys.model.rail_materials.size() > 1, out);
+  below_surface(b, begin_of(sys.model.spec, BodyId::rail, m), layered(sys.model, BodyId::rail), out);
   out.surface =
       surface_maxima(rail_surface_stress(sys, m), m.rail, sys.rail_surface(), sys.model.placement.contact.point.y);
   return out;
@@ -222,7 +242,7 @@ StressSummary wheel_stress_summary(const RollingSystem& sys, const MeanContact& 
   StressSummary out;
   const double contact_y = sys.model.placement.contact.point.y - sys.model.wheel.origin.y;
   below_surface(band_stress(sys.model.wheel, m.wheel, contact_y), begin_of(sys.model.spec, BodyId::wheel, m),
-                sys.model.wheel_materials.size() > 1, out);
+                layered(sys.model, BodyId::wheel), out);
   out.surface =
       surface_maxima(wheel_surface_stress(sys, m), m.wheel, sys.wheel_surface(), sys.model.placement.contact.point.y);
   return out;

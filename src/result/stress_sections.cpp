@@ -100,8 +100,6 @@ StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& bod
 StressSections band_sections(const BandStress& b, double x, double y) {
   StressSections out;
   StressSection &along = out.longitudinal, &across = out.cross;
-  const ContactBand& band = b.body->contact;
-  const auto& materials = b.body->blocks[band.block].section.quad_material;
   for (int s = 0; s < b.sample.stations; ++s) along.along.push_back(b.x(s));
   for (double t : b.centre_y) across.along.push_back(b.body->origin.y + t);
   const int station = nearest(along.along, x), column = nearest(across.along, y);
@@ -115,7 +113,7 @@ StressSections band_sections(const BandStress& b, double x, double y) {
   for (int r = 0; r < b.sample.rows; ++r) {
     const auto add = [&](StressSection& section, int c, int s) {
       section.stress.push_back(b.at(c, r, s));
-      section.material.push_back(b.body->layer_of(materials[static_cast<std::size_t>(r) * band.columns + c]));
+      section.material.push_back(b.layer(c, r, s));
       if (!b.sample.plastic.empty()) section.plastic.push_back(b.sample.plastic[b.index(c, r, s)]);
     };
     for (int s = 0; s < b.sample.stations; ++s) add(along, column, s);

@@ -86,6 +86,18 @@ struct PlasticSummary {
   std::string body, zone;         ///< where it is; empty: nothing has yielded
 };
 
+/// Extremes of a wheel's way over what changes along the rail, from the end of the run-up on (judge/passage.hpp).
+struct PassageSummary {
+  double F_z_max = kNotApplicable, F_z_max_position = kNotApplicable;  ///< N, m: of the wheel
+  double F_z_min = kNotApplicable, F_z_min_position = kNotApplicable;
+  double p_max = kNotApplicable, p_max_position = kNotApplicable;
+  double parts = kNotApplicable;  ///< the most that the patch had
+  double von_mises = kNotApplicable, von_mises_x = kNotApplicable, von_mises_depth = kNotApplicable;  ///< of the rail
+  double P1 = kNotApplicable, P2 = kNotApplicable;                                                    ///< N, over a dip
+  double P1_jenkins_low = kNotApplicable, P1_jenkins_high = kNotApplicable;
+  double P2_jenkins_low = kNotApplicable, P2_jenkins_high = kNotApplicable;
+};
+
 /// Factors by which the elastic stress of the case may be multiplied (damage/shakedown.hpp).
 struct ShakedownFactors {
   double first_yield = kNotApplicable, wandering = kNotApplicable, single_track = kNotApplicable,
@@ -133,6 +145,7 @@ struct FatigueValue {
   double value = kNotApplicable;
   double depth = kNotApplicable, y = kNotApplicable;  ///< m
   std::string zone;
+  double x = kNotApplicable;  ///< m, along a rail that is not the same all along
 };
 /// Largest principal stress of a zone over the cycle, residual stress included.
 struct BrittleSummary {
@@ -223,6 +236,7 @@ struct Summary {
   std::vector<PatchSummary> patches;  ///< where there are several
   StressSummary rail, wheel;
   EnergySummary energy;
+  PassageSummary passage;
   PlasticSummary plastic;
   ShakedownSummary shakedown;
   DamageSummary damage;

@@ -3,6 +3,7 @@
 #include "case/case_spec.hpp"
 #include "core/faults.hpp"
 #include "damage/wear_indices.hpp"
+#include "record/unit.hpp"
 #include "runs/life_passes.hpp"
 
 namespace railstrata {
@@ -45,10 +46,10 @@ LifeSummary life_summary(const CaseSpec& spec, const Placement& placement, const
     const Lives lives = life_of_load(spec, placement, solution, bem, control);
     out.text = life_text(lives.rows);
     if (const LifeRow* row = shortest(lives.rows)) {
-      constexpr double kKilograms = 1e9;  // of a million tonnes
-      out.best = kKilograms * row->mgt.best;
-      out.low = kKilograms * row->mgt.low;
-      out.high = kKilograms * row->mgt.high;
+      constexpr double kOfKilogram = unit::kMGT.factor;
+      out.best = row->mgt.best / kOfKilogram;
+      out.low = row->mgt.low / kOfKilogram;
+      out.high = row->mgt.high / kOfKilogram;
     }
   } catch (const CaseError& e) {
     out.text = std::string("not known: ") + e.what();

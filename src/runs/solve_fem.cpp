@@ -3,11 +3,13 @@
 #include <chrono>
 #include <utility>
 
+#include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "device/device_of.hpp"
 #include "io/provenance.hpp"
 #include "judge/fem_summary.hpp"
+#include "judge/passage.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/memory_need.hpp"
 #include "runs/process_memory.hpp"
@@ -59,13 +61,17 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
   out.rail = band_stress(model.rail, out.contact.rail, contact_y - model.rail.origin.y);
   out.wheel = band_stress(model.wheel, out.contact.wheel, contact_y - model.wheel.origin.y);
   out.summary = fem_summary(system, run, out.contact);
-  out.streamlines = streamlines(model.spec, out.contact.field);
-  out.summary.damage = damage_summary(model.spec, out.summary, out.streamlines);
-  if (!model.spec.run.plasticity)  // its theorems judge elastic stresses
+  CaseSpec here = model.spec;
+  here.layers = layers_at(model.spec.layers, out.contact.position);
+  out.streamlines = streamlines(here, out.contact.field);
+  out.summary.damage = damage_summary(here, out.summary, out.streamlines);
+  // its theorems judge elastic stresses that come again and again
+  if (!model.spec.run.plasticity && varying_key(model.spec).empty())
     out.shakedown = fem_shakedown(model, out.contact.patch, {out.rail, rail_band_surface(system, out.contact)},
                                   {out.wheel, wheel_band_surface(system, out.contact)});
   out.summary.shakedown = shakedown_summary(model.spec, out.shakedown);
   for (const SectionShakedown& section : out.shakedown) out.summary.fatigue.push_back(section.fatigue);
+  for (BodyFatigue& fatigue : passage_fatigue(system, run)) out.summary.fatigue.push_back(std::move(fatigue));
   out.summary.run.commit = commit_text();
   out.summary.run.threads = max_threads();
   out.summary.run.peak_memory_bytes = peak_memory();
@@ -120,13 +126,15 @@ FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, 
   std::optional<RunResidual> residual;
   run_observer.finished = [&](const RollingState& state) {
     if (observer.finished) observer.finished(state);
-    if (has_residual(system, options)) residual = run_residual(system, state);
+    if (has_residual(system, options) && varying_key(system.model.spec).empty()) residual = run_residual(system, state);
   };
   states.observe(run_observer);
 
   RunResult run = roll(system, run_observer, control, options, std::move(begun));
-  if (!system.model.spec.run.rolling && has_residual(system, options))
-    residual.emplace().none = "the wheel stands where it was put on";
+  if (has_residual(system, options)) {
+    if (!system.model.spec.run.rolling) residual.emplace().none = "the wheel stands where it was put on";
+    if (!varying_key(system.model.spec).empty()) residual.emplace().none = "the rail is not the same all along";
+  }
   FemSolution out;
   out.stopped = run.stopped;
   out.limit_reached = control.limit_reached();

@@ -121,13 +121,25 @@ void save_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, con
 // Made when there is something to put in: a run stopped before the rolling leaves none.
 struct FemWriter::GrowingFiles {
   std::optional<RecordLog<HistoryRow>> history;
+  std::optional<RecordLog<PointRow>> points;
   std::optional<PatchSeries> series;
 
   RecordLog<HistoryRow>& history_in(const fs::path& folder, const RollingSystem& system,
                                     const std::vector<std::string>& provenance) {
     if (!history)
-      history.emplace(folder / "history.csv", provenance, history_columns(!system.pads.none(), system.over_heights()));
+      history.emplace(folder / "history.csv", provenance, history_columns(!system.pads.none(), system.varies_along()));
     return *history;
+  }
+  void add(const HistoryRow& row, const fs::path& folder, const RollingSystem& system,
+           const std::vector<std::string>& provenance) {
+    history_in(folder, system, provenance).add(row);
+    if (row.points.empty()) return;
+    if (!points)
+      points.emplace(folder / "points_history.csv", provenance, point_columns(system.model.spec.run.plasticity));
+    for (std::size_t k = 0; k < row.points.size(); ++k) {
+      const WatchedPoint& at = system.watched_points[k];
+      points->add({row.time, row.position, static_cast<int>(k) + 1, at.x, at.depth, at.layer, row.points[k]});
+    }
   }
   PatchSeries& series_in(const fs::path& folder, const RollingSystem& system,
                          const std::vector<std::string>& provenance, const std::vector<double>& times = {}) {
@@ -142,8 +154,8 @@ FemWriter::FemWriter(const RollingSystem& system, fs::path folder, CheckpointOri
       origin_(std::move(origin)),
       growing_(std::make_unique<GrowingFiles>()) {
   if (!begun) return;
-  RecordLog<HistoryRow>& history = growing_->history_in(folder_, system_, origin_.provenance);
-  for (const HistoryRow& row : begun->result.history) history.add(row);
+  growing_->history_in(folder_, system_, origin_.provenance);
+  for (const HistoryRow& row : begun->result.history) growing_->add(row, folder_, system_, origin_.provenance);
   const CaseSpec& spec = system_.model.spec;
   if (spec.run.rolling && spec.output.patch_series)
     growing_->series_in(folder_, system_, origin_.provenance, begun->frame_times);
@@ -152,9 +164,7 @@ FemWriter::FemWriter(const RollingSystem& system, fs::path folder, CheckpointOri
 FemWriter::~FemWriter() = default;
 
 void FemWriter::observe(RunObserver& observer, const Control& control) {
-  observer.history = [this](const HistoryRow& row) {
-    growing_->history_in(folder_, system_, origin_.provenance).add(row);
-  };
+  observer.history = [this](const HistoryRow& row) { growing_->add(row, folder_, system_, origin_.provenance); };
   const CaseSpec& spec = system_.model.spec;
   if (spec.run.rolling && spec.output.patch_series)
     observer.frame = [this](const RollingSample& sample) {

@@ -327,6 +327,9 @@ std::vector<CaseRow> study_rows(const fs::path& out, const std::vector<StudyCase
       row.remarks = remarks_of(summary);
       for (const ResultColumn& column : columns)
         if (column.name != "wall_s") row.numbers.emplace_back(column.name, column_value(column, summary));
+      if (summary.contains(kPassageGroup))
+        for (const ResultColumn& column : passage_columns())
+          row.numbers.emplace_back(column.name, column_value(column, summary));
       for (const auto& [name, value] : study["numbers"].items())
         row.numbers.emplace_back(name, value.is_number() ? value.get<double>() : kNotApplicable);
       row.numbers.emplace_back("wall_s", column_value(columns.back(), summary));

@@ -124,6 +124,8 @@ TEST(Ranks, OnATrackToo) {
   expect_preload_of_one_rank(on_track(small_case()), {{3, 2}});
 }
 
+TEST(Ranks, OverTheEndOfALayerToo) { expect_bits_of_one_rank(ending_layer(damped_case()), {3}, 32); }
+
 TEST(SlowRanks, WithAThinLayerAndScaledMassesToo) {
   expect_bits_of_one_rank(thinly_layered(damped_case(), TimeStepMethod::mass_scaling));
 }
@@ -153,6 +155,10 @@ CaseSpec yielding(CaseSpec spec) {
 
 // Bodies yield, and elements become hot on the way.
 TEST(SlowRanks, OfBodiesThatYieldToo) { expect_bits_of_one_rank(yielding(damped_case()), {2, 4}); }
+
+TEST(SlowRanks, OfBodiesThatYieldOverTheEndOfALayerToo) {
+  expect_bits_of_one_rank(ending_layer(yielding(damped_case())), {2, 4});
+}
 
 TEST(Ranks, FindThePreloadOfOne) { expect_preload_of_one_rank(small_case(), {{2, 2}, {3, 1}, {4, 1}}); }
 

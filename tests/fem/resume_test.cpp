@@ -64,6 +64,8 @@ CaseSpec damped_case() {
 
 TEST(Resume, OnATrackGivesTheBitsOfARunInOneGo) { expect_same_bits(on_track(damped_case())); }
 
+TEST(Resume, OverTheEndOfALayerToo) { expect_same_bits(ending_layer(damped_case())); }
+
 TEST(Resume, AStepperFromMemoryComputesTheSameBits) { expect_same_bits(damped_case()); }
 
 TEST(Resume, InSinglePrecisionToo) {

@@ -51,6 +51,18 @@ inline CaseSpec thinly_layered(CaseSpec s, TimeStepMethod method) {
   return s;
 }
 
+/// With a stiff layer that ends under the wheel's path, and a softer stretch behind its end.
+inline CaseSpec ending_layer(CaseSpec s) {
+  s.layers.emplace_back();
+  s.layers.back().thickness = 4e-3;
+  s.layers.back().width = 0.04;
+  s.layers.back().material.young = 420e9;
+  s.layers.back().to = 0.004;
+  s.stretches.push_back({BodyId::rail, {{0.002, 1, 1}, {0.02, 0.8, 1}}, {}});
+  s.run.window = 0;
+  return s;
+}
+
 /// On three sleepers, with hard ballast: a bar of 60 mm by 60 mm is no rail.
 inline CaseSpec on_track(CaseSpec s) {
   s.track.preset = TrackSet::medium;

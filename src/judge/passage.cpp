@@ -1,0 +1,133 @@
+#include "judge/passage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "case/irregularity_rules.hpp"
+#include "judge/row_strength.hpp"
+#include "judge/section_fatigue.hpp"
+#include "model/rail_beam.hpp"
+#include "track/joint_force.hpp"
+
+namespace railstrata {
+namespace {
+
+using Rows = std::vector<HistoryRow>;
+constexpr double kP1Within = 2e-3, kP2After = 2.2e-3, kP2Over = 2e-3;  // s
+
+double force(const HistoryRow& row) { return std::abs(row.forces.z); }
+
+/// The largest mean of the force over kP2Over that begins at a time or later; NaN where the history ends before.
+double largest_mean(const Rows& rows, double begin) {
+  double most = kNotApplicable;
+  for (auto first = rows.begin(); first != rows.end(); ++first) {
+    if (first->time < begin) continue;
+    if (rows.back().time < first->time + kP2Over) break;
+    double sum = 0, count = 0;
+    for (auto row = first; row != rows.end() && row->time <= first->time + kP2Over; ++row) {
+      sum += force(*row);
+      ++count;
+    }
+    if (!(sum / count < most)) most = sum / count;
+  }
+  return most;
+}
+
+void add_dip(const RollingSystem& system, const Rows& rows, PassageSummary& out) {
+  const CaseSpec& spec = system.model.spec;
+  const auto dip = std::find_if(spec.irregularities.begin(), spec.irregularities.end(),
+                                [](const Irregularity& is) { return is.kind == IrregularityKind::dip; });
+  if (dip == spec.irregularities.end() || spec.track.held()) return;
+  const double tip = *dip->at;
+  const auto after = std::find_if(rows.begin(), rows.end(), [&](const HistoryRow& r) { return r.position >= tip; });
+  if (after == rows.end()) return;
+  for (auto row = after; row != rows.end() && row->time <= after->time + kP1Within; ++row)
+    if (!(force(*row) < out.P1)) out.P1 = force(*row);
+  out.P2 = largest_mean(rows, after->time + kP2After);
+  const double load = system.model.load;
+  const JointForces jenkins = joint_forces(
+      {load, *dip->angle, spec.drive.speed, spec.vehicle.wheel_mass, 1.5 * load / system.model.hertz.approach},
+      rail_beam(system.model), spec.track.support);
+  out.P1_jenkins_low = jenkins.P1_low;
+  out.P1_jenkins_high = jenkins.P1_high;
+  out.P2_jenkins_low = jenkins.P2_low;
+  out.P2_jenkins_high = jenkins.P2_high;
+}
+
+/// The cycle of the points of one place along the rail, from the surface down.
+StressHistory cycle_of(const std::vector<WatchedPoint>& points, const std::vector<std::size_t>& at,
+                       const std::vector<HistoryRow>& rows) {
+  StressHistory out;
+  out.y = {0};
+  for (const HistoryRow& row : rows) out.x.push_back(row.position);
+  for (const std::size_t k : at) {
+    out.depth.push_back(points[k].depth);
+    out.zone.push_back(points[k].layer);
+    for (const HistoryRow& row : rows) out.stress.push_back(row.points[k].stress);
+  }
+  return out;
+}
+
+void take_larger(std::optional<FatigueValue>& most, std::optional<FatigueValue> value, double x) {
+  if (!value || (most && !(value->value > most->value))) return;
+  most = std::move(value);
+  most->x = x;
+}
+
+}  // namespace
+
+std::vector<BodyFatigue> passage_fatigue(const RollingSystem& system, const RunResult& run) {
+  const CaseSpec& spec = system.model.spec;
+  const std::vector<WatchedPoint>& points = system.watched_points;
+  if (points.empty() || spec.run.plasticity || run.history.empty() || !fatigue_given(spec, BodyId::rail)) return {};
+  std::map<double, std::vector<std::size_t>> places;
+  for (std::size_t k = 0; k < points.size(); ++k) places[points[k].x].push_back(k);
+  BodyFatigue out;
+  out.body = body_word(BodyId::rail);
+  for (auto& [x, at] : places) {
+    std::sort(at.begin(), at.end(), [&](std::size_t a, std::size_t b) { return points[a].depth < points[b].depth; });
+    const StressHistory cycle = cycle_of(points, at, run.history);
+    const BodyFatigue here = section_fatigue(spec, BodyId::rail, cycle, row_strength(spec, BodyId::rail, cycle));
+    take_larger(out.dang_van, here.dang_van, x);
+    take_larger(out.smith_watson_topper, here.smith_watson_topper, x);
+    take_larger(out.fatemi_socie, here.fatemi_socie, x);
+    take_larger(out.jiang_sehitoglu, here.jiang_sehitoglu, x);
+  }
+  return {out};
+}
+
+PassageSummary passage_summary(const RollingSystem& system, const RunResult& run) {
+  const CaseSpec& spec = system.model.spec;
+  PassageSummary out;
+  if (!spec.run.rolling || (varying_key(spec).empty() && spec.track.held())) return out;
+  Rows rows;
+  for (const HistoryRow& row : run.history)
+    if (row.position >= spec.run.run_up) rows.push_back(row);
+  for (const HistoryRow& row : rows) {
+    if (!(force(row) < out.F_z_max)) {
+      out.F_z_max = force(row);
+      out.F_z_max_position = row.position;
+    }
+    if (!(force(row) > out.F_z_min)) {
+      out.F_z_min = force(row);
+      out.F_z_min_position = row.position;
+    }
+    if (!(row.p_max < out.p_max)) {
+      out.p_max = row.p_max;
+      out.p_max_position = row.position;
+    }
+    if (!system.varies_along()) continue;
+    if (!(row.way.patches < out.parts)) out.parts = row.way.patches;
+    if (!(row.stress.von_mises < out.von_mises)) {
+      out.von_mises = row.stress.von_mises;
+      out.von_mises_x = row.stress.x;
+      out.von_mises_depth = row.stress.depth;
+    }
+  }
+  add_dip(system, rows, out);
+  return out;
+}
+
+}  // namespace railstrata
