@@ -91,6 +91,38 @@ export const kColumns: Column[] = [
   column("life/best_kg", "Life of the rail", "life", ["kg", "MGT", 1e-09], 4),
   column("life/low_kg", "Life of the rail, low", "life, low", ["kg", "MGT", 1e-09], 4),
   column("life/high_kg", "Life of the rail, high", "life, high", ["kg", "MGT", 1e-09], 4),
+  column("passage/F_z_max_N", "Largest wheel force on the way", "F_z, largest", ["N", "kN", 0.001], 4),
+  column(
+      "passage/F_z_max_position_m", "Position of the wheel at its largest wheel force", "at position",
+      ["m", "mm", 1000.0], 4),
+  column("passage/F_z_min_N", "Smallest wheel force on the way", "F_z, smallest", ["N", "kN", 0.001], 4),
+  column(
+      "passage/F_z_min_position_m", "Position of the wheel at its smallest wheel force", "at position",
+      ["m", "mm", 1000.0], 4),
+  column("passage/p_max_on_way_Pa", "Largest pressure on the way", "p_max on the way", ["Pa", "MPa", 1e-06], 4),
+  column(
+      "passage/p_max_position_m", "Position of the wheel at the largest pressure", "at position",
+      ["m", "mm", 1000.0], 4),
+  column("passage/patch_parts", "Most parts of the patch on the way", "parts of the patch", ["", "", 1.0], 4),
+  column(
+      "passage/von_mises_on_way_Pa", "Largest von Mises stress of the rail on the way", "von Mises on the way",
+      ["Pa", "MPa", 1e-06], 4),
+  column("passage/von_mises_x_m", "Its place along the rail", "at x", ["m", "mm", 1000.0], 4),
+  column("passage/von_mises_depth_m", "Its depth", "at depth", ["m", "mm", 1000.0], 4),
+  column("passage/P1_N", "Largest force within 2 ms of a dip's tip", "P1", ["N", "kN", 0.001], 4),
+  column("passage/P2_N", "Largest mean of 2 ms, from 2.2 ms after the tip on", "P2", ["N", "kN", 0.001], 4),
+  column(
+      "passage/P1_jenkins_low_N", "P1 by Jenkins' formula with 0.4 m of rail", "P1 by Jenkins, low",
+      ["N", "kN", 0.001], 4),
+  column(
+      "passage/P1_jenkins_high_N", "P1 by Jenkins' formula with 1 m of rail", "P1 by Jenkins, high",
+      ["N", "kN", 0.001], 4),
+  column(
+      "passage/P2_jenkins_low_N", "P2 by Jenkins' formula less its errors", "P2 by Jenkins, low",
+      ["N", "kN", 0.001], 4),
+  column(
+      "passage/P2_jenkins_high_N", "P2 by Jenkins' formula with its errors", "P2 by Jenkins, high",
+      ["N", "kN", 0.001], 4),
   column("plastic/strain", "Plastic strain", "plastic strain", ["", "%", 100.0], 4),
   column("plastic/accumulated", "Accumulated plastic strain", "accumulated plastic strain", ["", "%", 100.0], 4),
   column("plastic/elements", "Elements that yielded", "yielded elements", ["", "", 1.0], 4),

@@ -57,6 +57,13 @@ export interface BodySections {
 }
 
 export type Columns = Record<string, number[]>;
+/// Where the rail changes along the way: its stress against the wheel's position.
+export interface WatchedPoint {
+  x_mm: number;
+  depth_mm: number;
+  position_mm: number[];
+  von_mises_MPa: number[];
+}
 export type CentreLine = Columns&{y: number[]};
 
 export interface Layer {
@@ -104,6 +111,7 @@ export interface Run {
   depth_line: Columns|null;
   wheel_depth_line: Columns|null;
   history: Columns|null;
+  points: WatchedPoint[]|null;
   film: Film|null;
   residual: Columns|null;  // of the rail's section when the wheel has gone
   sections: Partial<Record<BodyName, BodySections>>;

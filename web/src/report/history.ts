@@ -1,4 +1,5 @@
 // What happened on the way: charts of a history. Those of a transient stand in transient.ts.
+import type {Dash} from "../chart";
 import type {Figure} from "../figures";
 import type {Span} from "../types";
 import {option, type Run} from "./data";
@@ -84,6 +85,27 @@ const kHistory: HistoryChart[] = [
     words: "Largest overlap of the two surfaces.",
     lines: [{column: "penetration_um", name: "penetration", scale: 1e3, hover: "%{y:.3f} nm"}],
   },
+  {
+    id: "history-patch",
+    title: "Patch on its way",
+    label: "size [mm]",
+    column: "size_mm",
+    words:
+        "The longest chords along and across. Where the wheel bridges a hollow the length goes from the first part " +
+        "of the patch to the last.",
+    lines: [
+      {column: "patch_length_mm", name: "length", hover: "length %{y:.2f} mm"},
+      {column: "patch_width_mm", name: "width", hover: "width %{y:.2f} mm"},
+    ],
+  },
+  {
+    id: "history-stress",
+    title: "Largest stress of the rail on its way",
+    label: "von Mises [MPa]",
+    column: "von_mises_MPa",
+    words: "At the centres of the elements around the wheel; history.csv has its place.",
+    lines: [{column: "von_mises_MPa", name: "von Mises", hover: "%{y:.0f} MPa"}],
+  },
 ];
 
 /// What the charts of a history have along x, with its words for axis and table.
@@ -130,7 +152,7 @@ export function historyFigure(runs: Run[], along: Along, chart: HistoryChart, mo
 function averagedOver(run: Run): Span|undefined {
   const position = 1e3 * (run.summary.position_m ?? NaN);
   const half = 0.5 * parseFloat(option(run, "run", "window") ?? "NaN");
-  return Number.isFinite(position) && Number.isFinite(half) ? [position - half, position + half] : undefined;
+  return Number.isFinite(position) && half > 0 ? [position - half, position + half] : undefined;
 }
 
 /// What happened on the way: forces, pressure, creepage, energy.
@@ -141,5 +163,31 @@ export function historyFigures(runs: Run[]): Figure[] {
   const shaded = band ? " Shaded: the window over which the results are averaged." : "";
   const figure = (chart: HistoryChart, n: number) =>
       historyFigure(given, kPosition, chart, {band, words: [chart.words + (n === 0 ? shaded : "")]});
-  return kHistory.map(figure);
+  const has = (chart: HistoryChart) => given.every((run) => run.history![chart.lines[0].column]);
+  return [...kHistory.filter(has).map(figure), ...given.flatMap((run) => run.points ? [pointsFigure(run, given)] : [])];
+}
+
+const kColours = 6;
+const kDashes: Dash[] = ["solid", "dash", "dot"];
+
+/// Stress at the points where the rail changes, while the wheel passes them.
+function pointsFigure(run: Run, given: Run[]): Figure {
+  const series = run.points!.map((p, k): Series => ({
+                                   name: `x ${p.x_mm.toFixed(1)} mm, ${p.depth_mm.toFixed(1)} mm deep`,
+                                   x: p.position_mm,
+                                   y: p.von_mises_MPa,
+                                   colour: (t) => t.series[k % t.series.length],
+                                   dash: kDashes[Math.floor(k / kColours) % kDashes.length],
+                                   hover: `${kPosition.hover}\n%{y:.0f} MPa`,
+                                 }));
+  return linesFigure({
+    id: given.length > 1 ? `history-points-${given.indexOf(run)}` : "history-points",
+    title: given.length > 1 ? `Where the rail changes, ${runLabel(run)}` : "Where the rail changes",
+    labels: [kPosition.label, "von Mises [MPa]"],
+    names: [kPosition.column, "von_mises_MPa"],
+    words:
+        ["At the centres of elements beside the ends of layers, at stretches and irregularities, under the " +
+         "middle of the wheel\u2019s strip; points_history.csv has all components."],
+    series,
+  });
 }
