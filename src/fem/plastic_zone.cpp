@@ -9,6 +9,7 @@
 #include "body/body.hpp"
 #include "core/faults.hpp"
 #include "model/material_strength.hpp"
+#include "model/section_axes.hpp"
 #include "model/zone.hpp"
 
 namespace railstrata {
@@ -48,33 +49,10 @@ std::vector<Law> laws_of(const CaseSpec& spec, BodyId id, const SweptBody& mesh)
   return out;
 }
 
-/// Section coordinates at the rigid contact point: depth below the running surface and distance to a side.
-struct Below {
-  double depth, aside;
-};
-struct ContactAxes {
-  Vec2 point, outward;
-  Below of(Vec2 p) const {
-    const Vec2 r = p - point;
-    return {-(r.y * outward.y + r.z * outward.z), std::abs(r.y * outward.z - r.z * outward.y)};
-  }
-};
-ContactAxes contact_axes(const Model& m, BodyId id) {
-  const RigidContact& c = m.placement.contact;
-  if (id == BodyId::rail) return {m.rail_section_point(c.rail_s), m.rail_section_normal(c.rail_s)};
-  return {m.wheel_section_point(c.wheel_s), m.wheel_section_normal(c.wheel_s)};
-}
-
-Vec2 centre_of(const Section& section, int quad) {
-  Vec2 sum{};
-  for (int n : section.quads[quad]) sum = sum + 0.25 * section.nodes[n];
-  return sum;
-}
-
 class Zone {
  public:
   Zone(const Model& model, BodyId id, const SweptBody& mesh)
-      : mesh_(mesh), axes_(contact_axes(model, id)), laws_(laws_of(model.spec, id, mesh)) {
+      : mesh_(mesh), axes_(model, id), laws_(laws_of(model.spec, id, mesh)) {
     const RunSpec& run = model.spec.run;
     const HertzContact& hertz = model.hertz;
     depth_ = run.plastic_depth.value_or(kDepth * std::max(hertz.a, hertz.b));
@@ -92,14 +70,14 @@ class Zone {
   std::optional<PlasticMaterial> material(int block, int quad, int material) const {
     const Law& law = laws_[material];
     if (!law.law) return std::nullopt;
-    const double depth = axes_.of(centre_of(mesh_.blocks[block].section, quad)).depth;
+    const double depth = axes_.depth(centre_of(mesh_.blocks[block].section, quad));
     PlasticMaterial out = law.law->at(std::max(depth - law.top, 0.0));
     if (law.factor != 1) out.plastic = scaled(out.plastic, law.factor);
     return out;
   }
   bool reaches(int block, int quad) const {
-    const Below at = axes_.of(centre_of(mesh_.blocks[block].section, quad));
-    return at.depth < depth_ && at.aside < width_;
+    const Vec2 at = centre_of(mesh_.blocks[block].section, quad);
+    return axes_.depth(at) < depth_ && axes_.aside(at) < width_;
   }
   bool reaches(const Tile& tile) const {
     const Stations& stations = mesh_.blocks[tile.block].stations;
@@ -115,7 +93,7 @@ class Zone {
 
  private:
   const SweptBody& mesh_;
-  ContactAxes axes_;
+  SectionAxes axes_;
   std::vector<Law> laws_;
   double depth_ = 0, width_ = 0, first_ = 0, last_ = 0;
 };
@@ -123,7 +101,7 @@ class Zone {
 class ProcessStress {
  public:
   ProcessStress(const Model& model, BodyId id, const SweptBody& mesh)
-      : mesh_(mesh), axes_(contact_axes(model, id)), sources_(sources_of(model.spec, id, mesh)) {}
+      : mesh_(mesh), axes_(model, id), sources_(sources_of(model.spec, id, mesh)) {}
 
   /// In the element's frame.
   InitialStress::Stress at(int block, int quad) const {
@@ -131,8 +109,8 @@ class ProcessStress {
     const Source& source = sources_[section.quad_material[quad]];
     const StrengthSpec& s = source.material->strength;
     if (s.initial_stress.empty() && s.initial_stress_table.empty()) return {};
-    Vec2 along{axes_.outward.z, -axes_.outward.y};
-    double depth = axes_.of(centre_of(section, quad)).depth;
+    Vec2 along = axes_.across;
+    double depth = axes_.depth(centre_of(section, quad));
     if (const ContactBand& band = mesh_.contact; block == band.block) {
       const int row = quad / band.columns, column = quad % band.columns;
       const Vec2 facet = section.nodes[column + 1] - section.nodes[column];
@@ -148,7 +126,7 @@ class ProcessStress {
 
  private:
   const SweptBody& mesh_;
-  ContactAxes axes_;
+  SectionAxes axes_;
   std::vector<Source> sources_;
 };
 

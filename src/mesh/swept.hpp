@@ -28,6 +28,13 @@ struct Section {
   std::vector<int> quad_material;  ///< index into SweptBody::materials
 };
 
+/// Mean of the corners of a quadrilateral.
+inline Vec2 centre_of(const Section& section, int quad) {
+  Vec2 sum{};
+  for (int n : section.quads[quad]) sum = sum + 0.25 * section.nodes[n];
+  return sum;
+}
+
 /// Area of a quadrilateral by its diagonals, also of one that is not convex; positive for corners anticlockwise.
 inline double quad_area(const Section& s, const std::array<int, 4>& quad) {
   return 0.5 * cross(s.nodes[quad[2]] - s.nodes[quad[0]], s.nodes[quad[3]] - s.nodes[quad[1]]);

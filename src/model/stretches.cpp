@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "model/section_axes.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -31,10 +33,8 @@ class BodyStretches {
         body_(id == BodyId::rail ? model.rail : model.wheel),
         materials_(id == BodyId::rail ? model.rail_materials : model.wheel_materials),
         at_surface_(id == BodyId::rail ? model.rail_at_surface : model.wheel_at_surface),
-        metres_(id == BodyId::rail ? 1 : model.placement.contact.rolling_radius) {
-    const RigidContact& c = model.placement.contact;
-    point_ = id == BodyId::rail ? model.rail_section_point(c.rail_s) : model.wheel_section_point(c.wheel_s);
-    outward_ = id == BodyId::rail ? model.rail_section_normal(c.rail_s) : model.wheel_section_normal(c.wheel_s);
+        metres_(id == BodyId::rail ? 1 : model.placement.contact.rolling_radius),
+        axes_(model, id) {
     body_.strength.assign(materials_.size(), 1.0);
   }
 
@@ -55,18 +55,12 @@ class BodyStretches {
   }
 
  private:
-  double depth(const Block& block, int quad) const {
-    const std::array<int, 4>& k = block.section.quads[static_cast<std::size_t>(quad)];
-    Vec2 centre{};
-    for (const int n : k) centre = centre + 0.25 * block.section.nodes[n];
-    return dot(point_ - centre, outward_);
-  }
-
   Factors factors(const Block& block, int element, int quad) const {
     const double centre = block.stations.centre(element), turn = block.stations.closed ? 2 * std::numbers::pi : 0;
     Factors out;
     for (const StretchSpec& stretch : spec_.stretches) {
-      if (stretch.on != id_ || (stretch.depth && depth(block, quad) > *stretch.depth)) continue;
+      if (stretch.on != id_ || (stretch.depth && axes_.depth(centre_of(block.section, quad)) > *stretch.depth))
+        continue;
       for (const int way : {-1, 0, 1}) {
         if (way != 0 && turn == 0) continue;
         const Factors here = between(stretch.along, metres_ * (centre + way * turn));
@@ -99,7 +93,7 @@ class BodyStretches {
   SweptBody& body_;
   std::vector<Elastic>&materials_, &at_surface_;
   double metres_;  // per unit of the sweep coordinate
-  Vec2 point_, outward_;
+  SectionAxes axes_;
   std::map<std::pair<int, Factors>, int> made_;
 };
 

@@ -1,7 +1,7 @@
 #include "result/plastic_summary.hpp"
 
+#include "model/section_axes.hpp"
 #include "model/zone.hpp"
-#include "result/contact_plane.hpp"
 
 namespace railstrata {
 namespace {
@@ -13,11 +13,9 @@ void add_place(const RollingSystem& sys, BodyId id, const PlasticPeak& peak, Pla
   const Section& section = block.section;
   const Vec2 centre = centre_of(section, peak.quad);
   const bool rail = id == BodyId::rail;
-  const RigidContact& contact = model.placement.contact;
-  const Vec2 point = rail ? model.rail_section_point(contact.rail_s) : model.wheel_section_point(contact.wheel_s),
-             outward = rail ? model.rail_section_normal(contact.rail_s) : model.wheel_section_normal(contact.wheel_s);
-  out.y = centre.y - point.y;
-  out.depth = dot(point - centre, outward);
+  const SectionAxes axes(model, id);
+  out.y = centre.y - axes.point.y;
+  out.depth = axes.depth(centre);
   if (const ContactBand& band = body.contact; band.block == peak.block) {
     const int row = peak.quad / band.columns;
     out.depth = 0.5 * (band.depth[row] + band.depth[row + 1]);
