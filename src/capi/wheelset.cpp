@@ -318,8 +318,13 @@ rs_wheel wheel_of(const Wheel& w, double y, bool mirror) {
   return out;
 }
 
-void solve(rs_wheelset& set, const rs_wheelset_state& state, rs_wheelset_forces& forces) {
-  require_state(state);
+void forget(rs_wheelset& set) {
+  set.roll = 0;
+  set.stiffening = {};
+  for (Wheel& w : set.wheels) rs_forget(w.contact.get());
+}
+
+void solve_from_here(rs_wheelset& set, const rs_wheelset_state& state, rs_wheelset_forces& forces) {
   set.solutions = 0;
   if (state.given & RS_WHEELSET_ROLL) place(set, state, state.roll);
   forces.z = state.z;
@@ -334,6 +339,17 @@ void solve(rs_wheelset& set, const rs_wheelset_state& state, rs_wheelset_forces&
   for (int i : {0, 1, 2}) {
     forces.force[i] = forces.wheel[0].force[i] + forces.wheel[1].force[i];
     forces.moment[i] = forces.wheel[0].moment[i] + forces.wheel[1].moment[i];
+  }
+}
+
+/// Where a wheel changes between two places, what the states before have left may lead astray: once more from nothing.
+void solve(rs_wheelset& set, const rs_wheelset_state& state, rs_wheelset_forces& forces) {
+  require_state(state);
+  try {
+    solve_from_here(set, state, forces);
+  } catch (const NumericalError&) {
+    forget(set);
+    solve_from_here(set, state, forces);
   }
 }
 
@@ -419,10 +435,7 @@ void rs_wheelset_reset(rs_wheelset* wheelset) {
 }
 
 void rs_wheelset_forget(rs_wheelset* wheelset) {
-  if (!wheelset) return;
-  wheelset->roll = 0;
-  wheelset->stiffening = {};
-  for (Wheel& w : wheelset->wheels) rs_forget(w.contact.get());
+  if (wheelset) capi::forget(*wheelset);
 }
 
 rs_contact* rs_wheelset_contact(rs_wheelset* wheelset, int side) {

@@ -135,7 +135,7 @@ TEST(CDerivatives, AreTheSlopesOfNewSolutions) {
 
 TEST(SlowCDerivatives, AreTheSlopesOfNewSolutions) {
   for (const auto& overrides : {kUniform, kStiffLayer}) {
-    const Deviations found = deviations(overrides, 50);
+    const Deviations found = deviations(overrides, 25);
     EXPECT_LT(found.largest, 1e-4);
     EXPECT_LT(found.at_jumps, 0.05 * found.compared);
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "capi/railstrata.h"
 #include "tests/places.hpp"
@@ -152,11 +153,33 @@ TEST(Wheelset, StatesOfARunAllHaveAnAnswer) {
   RecordProperty("solutions", solutions);
 }
 
+constexpr const char* kEuropean =
+    "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\nwheel_radius = \"460 mm\"\n"
+    "[drive]\nfriction_coefficient = 0.35\n";
+
+// What the states before leave must not lead a solution astray: from nothing each of these has an answer.
+TEST(Wheelset, AStateBesideThoseBeforeItHasAnAnswer) {
+  Set set(kEuropean);
+  ASSERT_NE(set.handle, nullptr) << set.error.message;
+  rs_wheelset_state state = loaded();
+  state.load = 60e3;
+  state.speed = 22;
+  state.y_rate = 0.0009599568862381572;
+  state.yaw_rate = 0.005290820798761049;
+  state.pitch_rate = -0.0036286935052856264;
+  state.rail_y[0] = state.rail_y[1] = -0.0002177664896200208;
+  const double y = -0.0005901007261253111, yaw = 1.5779507855573356e-05, step = 1e-5;
+  for (const auto& [more_y, more_yaw] : {std::pair{0.0, 0.0}, {step, 0.0}, {0.0, step}}) {
+    state.y = y + more_y;
+    state.yaw = yaw + more_yaw;
+    ASSERT_EQ(set.solve(state), RS_OK) << more_y << " " << more_yaw << ": " << set.error.message;
+    EXPECT_NEAR(set.forces.force[2], 60e3, 6);
+  }
+}
+
 // S1002 on UIC60 near the middle of the track: 0.8 urad of roll move the place of the first contact by 10 mm.
 TEST(Wheelset, AWheelThatChangesItsPlaceBearsItsLoad) {
-  Set set(
-      "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\nwheel_radius = \"460 mm\"\n"
-      "[drive]\nfriction_coefficient = 0.35\n");
+  Set set(kEuropean);
   ASSERT_NE(set.handle, nullptr) << set.error.message;
   rs_wheelset_state state = loaded(2.2376e-4, 1.19695e-4);
   state.load = 220e3;
