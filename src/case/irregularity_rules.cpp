@@ -171,6 +171,10 @@ std::string varying_key(const CaseSpec& spec) {
   return spec.stretches.empty() ? "" : "stretch";
 }
 
+bool changes_on_way(const CaseSpec& spec) {
+  return spec.run.rolling && !(varying_key(spec).empty() && spec.track.held());
+}
+
 void require_same_along(const CaseSpec& spec, const char* what) {
   if (!spec.track.held())
     throw CaseError(fmt::format("{} is of a rail that is the same all along: on sleepers it is not", what),

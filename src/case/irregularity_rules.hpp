@@ -23,6 +23,8 @@ std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, do
 void require_fine_enough(const CaseSpec& spec, double size, const char* what, const char* key);
 /// The key that makes rail or wheel vary along the way, apart from sleepers; empty: nothing does.
 std::string varying_key(const CaseSpec& spec);
+/// Whether a wheel rolls over what is not the same everywhere, sleepers too.
+bool changes_on_way(const CaseSpec& spec);
 /// Throws CaseError for a case whose rail or wheel varies along the way: `what` needs steady rolling.
 void require_same_along(const CaseSpec& spec, const char* what);
 

@@ -27,7 +27,7 @@ OptionTable stretch_table() {
                   "factors of their middle; two places close together are a jump, with node planes between them")
                .with_rows(RowForm::by_value,
                           {column("place", "", kLength, {-100, 100}),
-                           column("young", "Factor of Young's modulus", kNumber, {0.005, 20}),
+                           column("young", "Factor of Young's modulus", kNumber, {1e-4, 20}),
                            column("strength", "Factor of strength", kNumber, {0.05, 20})},
                           R"([["190 mm", 1.0, 1.0], ["195 mm", 1.0, 0.75], ["200 mm", 1.0, 1.0]])"),
            option("depth", stretch<&Stretch::depth>, "Below the running surface; not given: through the body", kLength,

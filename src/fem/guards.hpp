@@ -10,7 +10,8 @@
 namespace railstrata {
 
 struct GuardLimits {
-  double lost_contact = 0.02;  ///< least F_z over the static load
+  double lost_contact = 0.02;    ///< least F_z over the static load
+  double highest_flight = 5e-3;  ///< m that the axle may rise over heights of rail or wheel while there is less
   double energy_drift =
       0.25;  ///< largest |change of the energy balance| over the largest of torque work and strain energy
   double penetration = 1.0;       ///< largest over the Hertzian approach

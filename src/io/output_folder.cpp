@@ -20,6 +20,7 @@ void remove_results(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const char* name : {"centre_line.csv",
                            "depth_line.csv",
+                           "force_spectrum.csv",
                            "geometry.json",
                            "history.csv",
                            "patch.csv",

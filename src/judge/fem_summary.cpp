@@ -100,7 +100,7 @@ std::vector<Check> finite_element_checks(const Model& model, const RunResult& ru
   std::vector<Check> out;
   out.push_back(at_most("preload_residual", run.preload.residual, spec.run.preload_tolerance));
   // over sleepers, and where rail or wheel change along the way, masses move and no moment is like another
-  const bool steady = !spec.run.rolling || (varying_key(spec).empty() && spec.track.held());
+  const bool steady = !changes_on_way(spec);
   if (steady) out.push_back(fem_check("F_z_relative_to_weight", std::abs(m.F_z / model.load - 1)));
   if (const double wanted = spec.drive.traction().value_or(0); spec.run.rolling && steady && wanted != 0)
     out.push_back(fem_check("traction_coefficient_reached", std::abs(along_wheel(model, m) / m.F_z / wanted - 1)));

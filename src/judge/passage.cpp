@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "case/irregularity_rules.hpp"
+#include "judge/force_spectrum.hpp"
 #include "judge/row_strength.hpp"
 #include "judge/section_fatigue.hpp"
 #include "model/rail_beam.hpp"
@@ -17,8 +18,6 @@ namespace {
 using Rows = std::vector<HistoryRow>;
 constexpr double kP1Within = 2e-3, kP2After = 2.2e-3, kP2Over = 2e-3;  // s
 
-double force(const HistoryRow& row) { return std::abs(row.forces.z); }
-
 /// The largest mean of the force over kP2Over that begins at a time or later; NaN where the history ends before.
 double largest_mean(const Rows& rows, double begin) {
   double most = kNotApplicable;
@@ -27,7 +26,7 @@ double largest_mean(const Rows& rows, double begin) {
     if (rows.back().time < first->time + kP2Over) break;
     double sum = 0, count = 0;
     for (auto row = first; row != rows.end() && row->time <= first->time + kP2Over; ++row) {
-      sum += force(*row);
+      sum += wheel_force(*row);
       ++count;
     }
     if (!(sum / count < most)) most = sum / count;
@@ -44,7 +43,7 @@ void add_dip(const RollingSystem& system, const Rows& rows, PassageSummary& out)
   const auto after = std::find_if(rows.begin(), rows.end(), [&](const HistoryRow& r) { return r.position >= tip; });
   if (after == rows.end()) return;
   for (auto row = after; row != rows.end() && row->time <= after->time + kP1Within; ++row)
-    if (!(force(*row) < out.P1)) out.P1 = force(*row);
+    if (!(wheel_force(*row) < out.P1)) out.P1 = wheel_force(*row);
   out.P2 = largest_mean(rows, after->time + kP2After);
   const double load = system.model.load;
   const JointForces jenkins = joint_forces(
@@ -101,17 +100,17 @@ std::vector<BodyFatigue> passage_fatigue(const RollingSystem& system, const RunR
 PassageSummary passage_summary(const RollingSystem& system, const RunResult& run) {
   const CaseSpec& spec = system.model.spec;
   PassageSummary out;
-  if (!spec.run.rolling || (varying_key(spec).empty() && spec.track.held())) return out;
+  if (!changes_on_way(spec)) return out;
   Rows rows;
   for (const HistoryRow& row : run.history)
     if (row.position >= spec.run.run_up) rows.push_back(row);
   for (const HistoryRow& row : rows) {
-    if (!(force(row) < out.F_z_max)) {
-      out.F_z_max = force(row);
+    if (!(wheel_force(row) < out.F_z_max)) {
+      out.F_z_max = wheel_force(row);
       out.F_z_max_position = row.position;
     }
-    if (!(force(row) > out.F_z_min)) {
-      out.F_z_min = force(row);
+    if (!(wheel_force(row) > out.F_z_min)) {
+      out.F_z_min = wheel_force(row);
       out.F_z_min_position = row.position;
     }
     if (!(row.p_max < out.p_max)) {
@@ -127,6 +126,10 @@ PassageSummary passage_summary(const RollingSystem& system, const RunResult& run
     }
   }
   add_dip(system, rows, out);
+  if (const std::optional<ForceLine> waves = passing_force(spec, run.history)) {
+    out.passing_frequency = waves->frequency;
+    out.F_z_passing = waves->amplitude;
+  }
   return out;
 }
 

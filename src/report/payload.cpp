@@ -407,6 +407,7 @@ Json run_json(const ReportRun& run, bool with_slices) {
           {"wheel_depth_line", wheel_depth_line(run)},
           {"history", columns(run.history)},
           {"points", watched_points(run.points)},
+          {"spectrum", columns(run.spectrum)},
           {"film", film(run.film, is_engine(run.result.engine, Engine::fem))},
           {"sections", sections(run)},
           {"residual", residual(run)},

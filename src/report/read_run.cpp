@@ -94,6 +94,7 @@ ReportRun read_report_run(const fs::path& folder) {
   run.geometry = json_of(file_of(folder, "geometry.json"));
   run.depth_line = table_of(file_of(folder, "depth_line.csv"));
   run.history = table_of(file_of(folder, "history.csv"));
+  run.spectrum = table_of(file_of(folder, "force_spectrum.csv"));
   run.points = table_of(file_of(folder, "points_history.csv"));
   run.film = table_of(file_of(folder, "patch_film.csv"));
   for (const char* name : {"rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"})

@@ -30,7 +30,8 @@ struct ReportRun {                                    // NOLINT(bugprone-excepti
                                                       ///< "wheel_profile"; none for built-in profiles and lost files
   nlohmann::ordered_json provenance, geometry;        ///< provenance.json, geometry.json
   std::optional<CsvTable> depth_line, history, film;  ///< film: patch_film.csv of a transient
-  std::optional<CsvTable> points;                     ///< points_history.csv, where the rail changes along the way
+  std::optional<CsvTable> points, spectrum;           ///< points_history.csv and force_spectrum.csv, where the rail
+                                                      ///< changes along the way
   double shear_on_elements = std::numeric_limits<double>::quiet_NaN();  ///< of a finite element run: q_max [Pa] of the
                                                                         ///< half-space solution on cells as large as
                                                                         ///< its elements; NaN: not solved

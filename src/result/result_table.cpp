@@ -234,7 +234,13 @@ std::vector<ResultNumber> passage_numbers() {
       row("P2_jenkins_low", kKilonewtons, on_way<&W::P2_jenkins_low>, "P2 by Jenkins, low",
           "P2 by Jenkins' formula less its errors", "Likewise", kShown | kFem),
       row("P2_jenkins_high", kKilonewtons, on_way<&W::P2_jenkins_high>, "P2 by Jenkins, high",
-          "P2 by Jenkins' formula with its errors", "Likewise", kShown | kFem)};
+          "P2 by Jenkins' formula with its errors", "Likewise", kShown | kFem),
+      row("passing_frequency", kHertz, on_way<&W::passing_frequency>, "passing frequency",
+          "Speed over the length of waves of rail or wheel", "Corrugation, out of round; null without such waves",
+          marks),
+      row("F_z_passing", kKilonewtons, on_way<&W::F_z_passing>, "F_z at it",
+          "Amplitude of the wheel force at the passing frequency",
+          "Of the last whole waves of one sleeper spacing, or of eight waves on a held foot", marks)};
 }
 
 std::vector<ResultNumber> energy_numbers() {

@@ -15,8 +15,11 @@
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
 #include "io/transient_files.hpp"
+#include "judge/force_spectrum.hpp"
 #include "passes/rolled_pass_files.hpp"
+#include "record/csv.hpp"
 #include "record/output_file.hpp"
+#include "record/unit.hpp"
 #include "report/view.hpp"
 #include "result/stress_sections.hpp"
 
@@ -74,6 +77,12 @@ class PatchSeries {
   PatchFilm film_;
   int frames_ = 0;
 };
+
+Columns<ForceLine> spectrum_columns() {
+  return {{"frequency", unit::kHertz, &ForceLine::frequency},
+          {"wavelength", unit::kMillimetres, &ForceLine::wavelength},
+          {"F_z_amplitude", unit::kKilonewtons, &ForceLine::amplitude}};
+}
 
 /// Folder of a position before the last.
 fs::path position_folder(double position) { return fmt::format("{}{:.10g}mm", kPositionFolder, 1e3 * position); }
@@ -183,6 +192,8 @@ void FemWriter::write(const FemSolution& solution) {
     if (!last) make_folder(folder, Above::there);
     write_position(system_.model, position, folder, origin_.provenance);
   }
+  if (const std::vector<ForceLine> lines = force_spectrum(system_.model.spec, solution.history); !lines.empty())
+    write_csv(folder_ / "force_spectrum.csv", origin_.provenance, lines, spectrum_columns());
   if (solution.residual) write_run_residual(folder_, origin_.provenance, *solution.residual);
   if (!solution.stopped) remove_checkpoints(folder_);
 }

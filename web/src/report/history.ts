@@ -164,7 +164,30 @@ export function historyFigures(runs: Run[]): Figure[] {
   const figure = (chart: HistoryChart, n: number) =>
       historyFigure(given, kPosition, chart, {band, words: [chart.words + (n === 0 ? shaded : "")]});
   const has = (chart: HistoryChart) => given.every((run) => run.history![chart.lines[0].column]);
-  return [...kHistory.filter(has).map(figure), ...given.flatMap((run) => run.points ? [pointsFigure(run, given)] : [])];
+  return [
+    ...kHistory.filter(has).map(figure), ...spectrumFigures(given.filter((run) => run.spectrum)),
+    ...given.flatMap((run) => run.points ? [pointsFigure(run, given)] : [])
+  ];
+}
+
+/// The wheel force by frequency.
+function spectrumFigures(runs: Run[]): Figure[] {
+  if (!runs.length) return [];
+  const series = runs.map((run, n): Series => ({
+                            name: runs.length > 1 ? runLabel(run) : "F_z",
+                            x: run.spectrum!.frequency_Hz,
+                            y: run.spectrum!.F_z_amplitude_kN,
+                            colour: (t) => t.series[n % t.series.length],
+                            hover: "%{x:.0f} Hz\n%{y:.2f} kN",
+                          }));
+  return [linesFigure({
+    id: "force-spectrum",
+    title: "Wheel force by frequency",
+    labels: ["frequency [Hz]", "amplitude of F_z [kN]"],
+    names: ["frequency_Hz", "F_z_amplitude_kN"],
+    words: ["From the end of the run-up on, with Hann\u2019s weights; force_spectrum.csv has the wavelengths."],
+    series,
+  })];
 }
 
 const kColours = 6;
