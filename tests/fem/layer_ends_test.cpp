@@ -11,9 +11,15 @@ namespace {
 
 using namespace fem_checks;
 
-CaseSpec layered(std::optional<double> from, std::optional<double> to, BodyId on = BodyId::rail) {
+CaseSpec short_way(double way) {
   CaseSpec spec = small_case();
   spec.run.window = 0;
+  spec.run.positions = {way};
+  return spec;
+}
+
+CaseSpec layered(std::optional<double> from, std::optional<double> to, BodyId on = BodyId::rail) {
+  CaseSpec spec = short_way(8e-3);
   spec.layers.emplace_back();
   LayerSpec& layer = spec.layers.back();
   layer.on = on;
@@ -65,7 +71,7 @@ TEST(LayerEnds, AStretchOfTwiceTheModulusIsTheLayerThatHasIt) {
 }
 
 TEST(LayerEnds, SamplesKnowTheMaterialsOfTheirStations) {
-  const double end = 0.028;
+  const double end = 0.006;
   const RollingSystem system = small_system(layered({}, end));
   const RunResult run = run_rolling(system, {});
   const RollingSample& sample = run.positions[0].samples[0];
@@ -128,8 +134,7 @@ TEST(LayerEnds, WhereALayerIsNotTheNextOneReachesUp) {
 
 // The mixed packs of a body that yields: with a factor of 1 + 1e-12 every element has a material of its own.
 TEST(LayerEnds, ElementsOfManyMaterialsYieldAsThoseOfOne) {
-  CaseSpec spec = small_case();
-  spec.run.window = 0;
+  CaseSpec spec = short_way(8e-3);
   spec.run.plasticity = true;
   spec.rail_material.strength.yield_strength = 300e6;
   spec.rail_material.strength.kinematic_hardening = {{20e9, 100}};
@@ -144,12 +149,11 @@ TEST(LayerEnds, ElementsOfManyMaterialsYieldAsThoseOfOne) {
 }
 
 TEST(LayerEnds, ASofterStretchYieldsMore) {
-  CaseSpec spec = small_case();
-  spec.run.window = 0;
+  CaseSpec spec = short_way(16e-3);
   spec.run.plasticity = true;
   spec.rail_material.strength.yield_strength = 400e6;
   const RunResult whole = roll(spec);
-  spec.stretches.push_back({BodyId::rail, {{0.012, 1, 0.7}, {0.04, 1, 0.7}}, {}});
+  spec.stretches.push_back({BodyId::rail, {{0.006, 1, 0.7}, {0.03, 1, 0.7}}, {}});
   const RunResult soft = roll(spec);
   spec.stretches.clear();
   spec.rail_material.strength.yield_strength = 280e6;
