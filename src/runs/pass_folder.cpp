@@ -7,12 +7,14 @@
 #include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 #include "core/stop_request.hpp"
+#include "jobs/profile_table.hpp"
 #include "judge/check_limits.hpp"
 #include "passes/following_contact.hpp"
 #include "passes/pass_plan.hpp"
 #include "passes/pass_text.hpp"
 #include "passes/pass_way.hpp"
 #include "passes/pass_way_files.hpp"
+#include "passes/pressed_profile.hpp"
 #include "result/result_table.hpp"
 #include "runs/pass_job.hpp"
 #include "runs/solve_half_space.hpp"
@@ -69,6 +71,7 @@ class SteadyPasses : public PassJob {
       contacts_.push_back({c.F_x / c.F_z, solution.result.patch.largest_pressure, solution.result.rigid_slip.x});
       solutions_.push_back(std::move(solution.result));
     }
+    placement_ = placements.front();
     if (loaded_.spec.passes.pressure == PassPressure::following) following_.emplace(specs, placements, bem);
     return rail_passes(loaded_.spec, solutions_);
   }
@@ -368,6 +371,8 @@ class SteadyPasses : public PassJob {
     answer_.law = describe_law(rail_.rows[governing].law);
     answer_.ductility = loaded_.spec.passes.ductility;
     write_residual(folder(), origin(), rail_, series_, *last_);
+    if (rail_.grid.ny > 1)
+      write_profile_table(folder() / kPressedProfile, origin(), pressed_profile(*placement_, rail_.grid, *last_));
     write_way(folder(), origin(), rail_, way);
     write_section_vtk(folder() / "section.vtp", rail_, series_, *last_);
     write_pass_summary(folder() / kPassSummary, loaded_.spec, rail_, series_, *last_, way, answer_);
@@ -381,9 +386,10 @@ class SteadyPasses : public PassJob {
   std::vector<std::string> doubts_;  ///< of the contact
   std::optional<FollowingContact> following_;
   std::vector<BemResult> solutions_;
-  RailPasses rail_;                 ///< fills those before
-  std::optional<SteadyBody> body_;  ///< of rail_
-  Field strain_;                    ///< of the contact at place_
+  std::optional<Placement> placement_;  ///< of the first solution
+  RailPasses rail_;                     ///< fills those before
+  std::optional<SteadyBody> body_;      ///< of rail_
+  Field strain_;                        ///< of the contact at place_
   Place place_;
   PassSeries series_;
   PassLimits limits_;

@@ -22,8 +22,8 @@ void PassJob::begin() {
 }
 
 std::vector<std::string> PassJob::older_results() const {
-  return {kPassTable,    kPassState,  kPassSummary, "report.html", "residual.csv",
-          "profile.csv", "loops.csv", "along.csv",  "section.vtp"};
+  return {kPassTable,     kPassState,    kPassSummary, kPressedProfile, "report.html",
+          "residual.csv", "profile.csv", "loops.csv",  "along.csv",     "section.vtp"};
 }
 
 bool PassJob::write_page() {

@@ -9,7 +9,8 @@
 namespace railstrata {
 
 /// Names of files in such a folder.
-inline constexpr const char *kPassTable = "passes.csv", *kPassState = "state.csv", *kPassSummary = "passes.json";
+inline constexpr const char *kPassTable = "passes.csv", *kPassState = "state.csv", *kPassSummary = "passes.json",
+                            *kPressedProfile = "rail_profile.csv";
 
 /// "1 pass", "20 passes"
 std::string passes_text(int passes);

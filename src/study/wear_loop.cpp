@@ -7,15 +7,12 @@
 #include <optional>
 
 #include "core/faults.hpp"
-#include "jobs/state_table.hpp"
 #include "judge/zone_life.hpp"
 #include "many/collective_files.hpp"
 #include "model/zone.hpp"
 
 namespace railstrata {
 namespace {
-
-const StateColumns<Vec2> kPoints{{"y", &Vec2::y, unit::kMillimetres}, {"z", &Vec2::z, unit::kMillimetres}};
 
 /// Between two curves with the same ends, positive where the second lies to the right of the first.
 double area_between(const std::vector<Vec2>& first, const std::vector<Vec2>& second) {
@@ -230,19 +227,6 @@ WearStep wear_step(const CaseSpec& spec, const std::filesystem::path& folder, co
   step.rail.passages = rail.passages + step.passages;
   wear_off(placement.rail, depth, share, origin_height(rail), step, rail);
   return step;
-}
-
-void write_worn_profile(const std::filesystem::path& file, const std::vector<std::string>& origin,
-                        const std::vector<Vec2>& points) {
-  std::vector<Vec2> rows;
-  for (const Vec2& p : points) rows.push_back(in_table(kPoints, p));
-  write_rows(file, origin, kPoints, rows);
-}
-
-std::vector<Vec2> read_worn_profile(const std::filesystem::path& file) {
-  std::vector<Vec2> points = read_rows(file, kPoints);
-  for (Vec2& p : points) p = in_si(kPoints, p);
-  return points;
 }
 
 }  // namespace railstrata

@@ -60,9 +60,4 @@ struct WearStep {
 WearStep wear_step(const CaseSpec& spec, const std::filesystem::path& folder, const Placement& original,
                    const WornRail& rail, const WearStepOptions& options);
 
-/// Two columns, y and z in mm, as profiles are read (geometry/read_profile.hpp).
-void write_worn_profile(const std::filesystem::path& file, const std::vector<std::string>& origin,
-                        const std::vector<Vec2>& points);
-std::vector<Vec2> read_worn_profile(const std::filesystem::path& file);
-
 }  // namespace railstrata

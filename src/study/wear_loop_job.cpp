@@ -8,6 +8,7 @@
 #include "case/load_rows.hpp"
 #include "core/faults.hpp"
 #include "geometry/profile_texts.hpp"
+#include "jobs/profile_table.hpp"
 #include "many/collective_files.hpp"
 #include "record/output_file.hpp"
 #include "study/wear_loop_page.hpp"
@@ -111,7 +112,7 @@ class WearLoopJob : public CaseJob {
   void begin() override {
     remove_older_steps();
     CaseJob::begin();
-    write_worn_profile(folder() / kUnworn, origin(), rail_.points);
+    write_profile_table(folder() / kUnworn, origin(), rail_.points);
     write_rows(folder() / kWearTable, origin(), kColumns, rows_);
   }
 
@@ -120,7 +121,7 @@ class WearLoopJob : public CaseJob {
     if (rows_.empty()) return;
     const WearLoopRow last = in_si(kColumns, rows_.back());
     rail_ = {static_cast<int>(last.step), last.passages, last.area, {}, step_folder(last.step) / kProfile};
-    rail_.points = read_worn_profile(rail_.file);
+    rail_.points = read_profile_table(rail_.file);
     if (fs::exists(folder() / kWearLoads)) loads_ = read_rows(folder() / kWearLoads, wear_load_columns());
     std::erase_if(loads_, [&](const WearLoad& load) { return load.step > last.step; });  // a kill came before their row
   }
@@ -146,7 +147,7 @@ class WearLoopJob : public CaseJob {
     const fs::path in = step_folder(step.rail.step);
     make_folder(in);
     step.rail.file = in / kProfile;
-    write_worn_profile(step.rail.file, origin(), step.rail.points);
+    write_profile_table(step.rail.file, origin(), step.rail.points);
     write_exchange_profiles(in, loaded_.spec.title, step.rail);
     write_collective_table(in / "collective.csv", origin(), step.rows);
     write_rail_damage(in / "rail_damage.csv", origin(), step.damage);
@@ -159,7 +160,7 @@ class WearLoopJob : public CaseJob {
     control_.info("step {}: {:.4g} passages, deepest {:.3g} µm, {:.4g} mm² in all, p_max {:.0f} MPa", row.step,
                   row.passages, row.deepest, row.area, row.pressure);
     rail_ = std::move(step.rail);
-    rail_.points = read_worn_profile(rail_.file);  // as resume() has them
+    rail_.points = read_profile_table(rail_.file);  // as resume() has them
   }
 
   /// A jump of the contact shows a step that is too long: wear of that depth moves it further than it can follow.
@@ -190,10 +191,10 @@ class WearLoopJob : public CaseJob {
     WearLoopHistory history;
     history.title = loaded_.spec.title;
     for (std::size_t i = 0; i < loaded_.spec.loads.size(); ++i) history.loads.push_back(load_name(loaded_.spec, i));
-    history.unworn = read_worn_profile(folder() / kUnworn);
+    history.unworn = read_profile_table(folder() / kUnworn);
     for (const WearLoopRow& row : rows_)
       history.profiles.push_back({static_cast<int>(row.step), row.passages, in_si(kColumns, row).area,
-                                  read_worn_profile(step_folder(row.step) / kProfile)});
+                                  read_profile_table(step_folder(row.step) / kProfile)});
     history.contacts = loads_;
     write_wear_loop_page(folder() / kWearPage, history);
     control_.info("everything on one page: {}", (folder() / kWearPage).string());

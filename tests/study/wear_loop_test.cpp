@@ -12,6 +12,7 @@
 
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
+#include "jobs/profile_table.hpp"
 #include "study/wear_loop_page.hpp"
 #include "tests/places.hpp"
 
@@ -53,7 +54,7 @@ Worn worn(const CaseSpec& spec, double passages, int steps) {
     out.wanted_area += step.wanted_area;
     out.rail = step.rail;
     out.rail.file = folder.path() / ("step" + std::to_string(k) + ".csv");
-    write_worn_profile(out.rail.file, {}, out.rail.points);
+    write_profile_table(out.rail.file, {}, out.rail.points);
   }
   return out;
 }
@@ -86,7 +87,7 @@ TEST(WearLoop, TheLayerThinsWhereItWearsAndTheStepEndsWhereItIsThrough) {
               1e-9 * first.tonnes);
   rail = first.rail;
   rail.file = folder.path() / "worn.csv";
-  write_worn_profile(rail.file, {}, rail.points);
+  write_profile_table(rail.file, {}, rail.points);
   const WearStep last = wear_step(spec, {}, original, rail, coarse(0.5e-3));
   EXPECT_NEAR(last.rows[0].spec.layers[0].thickness, 0.03e-3, 1e-6) << "the wheel touches where most is worn off";
   EXPECT_EQ(last.layer_left, 0) << "through";
