@@ -112,7 +112,8 @@ ExitCode command_bem(const CommandOptions& options) {
     throw;
   }
   if (const std::string track = track_text(job.loaded.spec); !track.empty()) spdlog::info("{}", track);
-  for (const std::string& note : solution.result.notes) spdlog::info("{}", note);
+  for (const auto& notes : {job.placement.notes, solution.result.notes})
+    for (const std::string& note : notes) spdlog::info("{}", note);
   print_summary(solution.summary, options.json);
   spdlog::info("results are in {}", job.out.string());
   const bool page_ok = !options.page || add_report(job.out, control()),

@@ -43,6 +43,7 @@ void RunJob::mesh() {
   control_.info("meshing wheel and rail");
   control_.progress("meshing");
   system_ = std::unique_ptr<const RollingSystem>(new RollingSystem(fem_system(loaded_.spec, loaded_.folder())));
+  for (const std::string& note : system_->model.placement.notes) control_.info("{}", note);
 }
 
 void RunJob::begin() {

@@ -88,6 +88,7 @@ export interface LoadedContact {
 export interface Geometry extends LoadedContact {
   rail_profile: string;
   wheel_profile: string;
+  profile_notes?: string[];                               // what reading the files has changed
   track?: {name: string, value: string, from: string}[];  // not in results of older versions
   patches?: LoadedContact[];
   rail_m: [number, number][];
@@ -112,6 +113,7 @@ export interface Run {
   wheel_depth_line: Columns|null;
   history: Columns|null;
   points: WatchedPoint[]|null;
+  spectrum: Columns|null;
   film: Film|null;
   residual: Columns|null;  // of the rail's section when the wheel has gone
   sections: Partial<Record<BodyName, BodySections>>;

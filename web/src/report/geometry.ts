@@ -191,6 +191,7 @@ export function geometryTable(run: Run): HTMLElement|null {
   const roll = option(run, "geometry", "roll");
   const rows: string[][] = [
     ["wheel on rail", `${g.wheel_profile} on ${g.rail_profile}`],
+    ...(g.profile_notes ?? []).map((note) => ["profile read", note]),
     ["lateral shift of the wheel", option(run, "geometry", "lateral_shift") ?? "–"],
     ...(g.track?.map((t) => [t.name, `${t.value} (${t.from})`]) ??
         [["cant of the rail", option(run, "geometry", "cant") ?? "–"]]),
