@@ -274,6 +274,21 @@ std::string axis_text(const NumberAxis& axis, double value) {
   return format_quantity(value, option_of_key(axis.key)->dimension);
 }
 
+bool takes_no_number(const std::string& key) {
+  const Option* option = option_of_key(key);
+  return option && option->slot && !is_number(option) && !std::holds_alternative<int*>(any_slot(*option));
+}
+
+std::string shown_value(const std::string& text) {
+  if (!text.starts_with("[")) return text;
+  std::string out;
+  for (const char c : text) {
+    if (c == '[' || c == ']' || c == '"') continue;
+    out += c == ',' ? ';' : c;
+  }
+  return out;
+}
+
 std::pair<double, std::string> axis_value(const std::string& text) {
   char* end = nullptr;
   const double v = std::strtod(text.c_str(), &end);

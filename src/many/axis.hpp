@@ -32,6 +32,12 @@ std::string axis_key(const std::string& word);
 /// The option of "table.option" or "table.index.option"; null if there is none.
 const Option* option_of_key(const std::string& key);
 
+/// Whether a key of the case takes words or lists: it makes no axis of numbers.
+bool takes_no_number(const std::string& key);
+
+/// A value as people read it: ["-200 MPa", "-100 MPa"] as -200 MPa; -100 MPa.
+std::string shown_value(const std::string& text);
+
 /// The SI unit of an option's numbers as names of columns and tables have it: "N", "kg/m3"; "" of a plain number.
 std::string si_unit(const Option& option);
 

@@ -126,6 +126,10 @@ class StudyReader {
     if (f.kind == "trend" && f.x.empty())
       source_.complain_at(place_of(t), fmt::format("figure \"{}\" is a trend and has no x", f.id),
                           "name the key along its axis: x = \"layer.0.thickness\"");
+    if (f.kind == "trend" && takes_no_number(f.x))
+      source_.complain_at(place_of(*t.get("x")),
+                          fmt::format("figure \"{}\" is a trend over {}, which takes no number", f.id, f.x),
+                          "make it the series of the trend, or draw kind = \"grid\" over two keys");
     f.groups = texts(t, "groups");
     for (const std::string& g : f.groups)
       if (!names_.contains(g))

@@ -26,7 +26,7 @@ std::string short_name(const std::string& key, const StudyPoint& point) {
 std::string name_of(const StudyPoint& point) {
   std::string out;
   for (const StudyValue& v : point)
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", short_name(v.key, point), v.text);
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", short_name(v.key, point), shown_value(v.text));
   return out.empty() ? "case" : out;
 }
 

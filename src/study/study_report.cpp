@@ -40,7 +40,7 @@ std::string key_name(const std::string& key) {
 
 std::string value_name(const std::string& key, const std::string& value) {
   if (key == "layer.0.young_ratio") return value == "1" ? "E₁ = E₀" : fmt::format("E₁ = {} E₀", value);
-  return fmt::format("{} {}", key_name(key), value);
+  return fmt::format("{} {}", key_name(key), shown_value(value));
 }
 
 template <class T>
@@ -99,7 +99,7 @@ std::vector<const CaseRow*> members_of(const StudyFigure& f, const std::vector<C
 }
 
 std::string chart_title(const StudyFigure& f, const std::string& each) {
-  return each.empty() ? f.title : fmt::format("{}, {} {}", f.title, key_name(f.each), each);
+  return each.empty() ? f.title : fmt::format("{}, {} {}", f.title, key_name(f.each), shown_value(each));
 }
 
 void add_centre_lines(const StudyFigure& f, const std::vector<CaseRow>& entries, Report& report) {
@@ -196,7 +196,7 @@ ReportGridCell grid_cell(const StudyFigure& f, const CaseRow& e) {
 std::vector<std::string> axis_marks(const std::vector<std::string>& values) {
   std::vector<std::string> out;
   for (const std::string& v : values)
-    out.push_back(std::isnan(axis_value(v).first) ? v : fmt::format("{}", axis_value(v).first));
+    out.push_back(std::isnan(axis_value(v).first) ? shown_value(v) : fmt::format("{}", axis_value(v).first));
   return out;
 }
 
@@ -321,16 +321,16 @@ std::vector<ReportAnswer> study_answers(const std::vector<CaseRow>& rows) {
   }
   if (answered == 0) return {};
   const int yes = lasts["yes"], no = lasts["no"];
-  std::vector<std::string> by, others;
+  std::vector<std::string> by, rest;
   for (const auto& [zone, count] : decides) by.push_back(fmt::format("{} in {}", zone, count));
+  if (no > 0)
+    rest.push_back(fmt::format("{} {} not (decided by {})", no, no == 1 ? "does" : "do", fmt::join(by, ", ")));
   for (const auto& [word, count] : lasts)
-    if (word != "yes" && word != "no") others.push_back(fmt::format("{} {}", count, word));
+    if (word != "yes" && word != "no") rest.push_back(fmt::format("{} {}", count, word));
   return {{yes == answered              ? "good"
            : yes == 0 && no == answered ? "bad"
                                         : "open",
-           fmt::format("{} of {} cases last", yes, answered),
-           fmt::format("{} do not{}{}{}", no, by.empty() ? "" : fmt::format(" (decided by {})", fmt::join(by, ", ")),
-                       others.empty() ? "" : "; ", fmt::join(others, ", "))}};
+           fmt::format("{} of {} cases last", yes, answered), fmt::format("{}", fmt::join(rest, ", "))}};
 }
 
 ReportTable engines_table() {
