@@ -123,6 +123,12 @@ export const kColumns: Column[] = [
   column(
       "passage/P2_jenkins_high_N", "P2 by Jenkins' formula with its errors", "P2 by Jenkins, high",
       ["N", "kN", 0.001], 4),
+  column(
+      "passage/passing_frequency_Hz", "Speed over the length of waves of rail or wheel", "passing frequency",
+      ["Hz", "Hz", 1.0], 4),
+  column(
+      "passage/F_z_passing_N", "Amplitude of the wheel force at the passing frequency", "F_z at it",
+      ["N", "kN", 0.001], 4),
   column("plastic/strain", "Plastic strain", "plastic strain", ["", "%", 100.0], 4),
   column("plastic/accumulated", "Accumulated plastic strain", "accumulated plastic strain", ["", "%", 100.0], 4),
   column("plastic/elements", "Elements that yielded", "yielded elements", ["", "", 1.0], 4),

@@ -135,7 +135,7 @@ function patchPictures(run: Run): Painted[] {
     values: (patch) => patch.state,
     scale: stateScale,
     words: (v) => (v === 2 ? "slip" : "stick"),
-    about: [stateLegend()],
+    about: [stateLegend(patches.flatMap((patch) => patch.state))],
   });
   return [pressure, traction, states];
 }

@@ -149,14 +149,15 @@ function borders(s: SectionHistory): number[] { return (s.summary.zones ?? []).s
 
 const largest = (values: Values) => values.reduce<number>((m, v) => Math.max(m, Math.abs(v ?? 0)), 0);
 
-/// Across, where the rail has yielded or keeps a quarter of the largest stress, with room to either side.
+/// Across, where the rail has yielded or keeps a quarter of the largest change of stress, with room to either side.
 function windowOf(s: SectionHistory, section: Section): Span {
   const {residual} = s;
   const p = 0.02 * largest(residual.plastic_strain_accumulated);
-  const stress = 0.25 * largest(residual.sigma_xx_MPa);
+  // of the process at the side of the section
+  const aside = (i: number) => (residual.row ? 0 : residual.sigma_xx_MPa[i - (i % section.width)]);
+  const change = residual.sigma_xx_MPa.map((v, i) => v - aside(i)), stress = 0.25 * largest(change);
   const reach = residual.y_mm.filter(
-      (_, i) =>
-          residual.plastic_strain_accumulated[i] > p || (stress > 0 && Math.abs(residual.sigma_xx_MPa[i]) > stress));
+      (_, i) => residual.plastic_strain_accumulated[i] > p || (stress > 0 && Math.abs(change[i]) > stress));
   const deepest = Math.max(...section.depth);
   const half = residual.row && section.y.length > 1 ? 0.5 * Math.abs(section.y[1] - section.y[0]) : 0;  // of an element
   const all: Span = [Math.min(...section.y) - half, Math.max(...section.y) + half];

@@ -113,9 +113,12 @@ export function tractionArrows(patch: Patch, [x, y]: [Span, Span], top: number):
   return out;
 }
 
-export function stateLegend(): HTMLElement {
-  const swatch = (state: string) => element("span", {class: `swatch ${state}`});
-  return element("span", {class: "legend"}, swatch("stick"), "stick ", swatch("slip"), "slip");
+/// The states of a map that occur in it: 1 stick, 2 slip.
+export function stateLegend(states: Values[]): HTMLElement {
+  const there = ["stick", "slip"].filter((_, k) => states.some((row) => row.includes(k + 1)));
+  return element(
+      "span", {class: "legend"},
+      ...there.flatMap((state) => [element("span", {class: `swatch ${state}`}), `${state} `]));
 }
 
 /// What a map shows.
@@ -186,12 +189,12 @@ const kAboutSigns: Record<string, string> = {
 };
 
 /// What a map of states has other than one of numbers up to `top`.
-function scaleOf(kind: Kind, top: number): Pick<MapSpec, "words"|"scale"|"bar"|"valueWords"> {
+function scaleOf(kind: Kind, top: number, patch: Patch): Pick<MapSpec, "words"|"scale"|"bar"|"valueWords"> {
   const words = kind.arrows ? [kAboutArrows] : kind.signed ? [kAboutSigns[kind.id]] : undefined;
   if (kind.signed) return {scale: signedScale(top), bar: kind.bar, words};
   if (!kind.state) return {scale: magnitudeScale(top), bar: kind.bar, words};
   const valueWords = ["separated", "stick", "slip"];
-  return {words: [stateLegend()], scale: stateScale, valueWords};
+  return {words: [stateLegend(patch.state)], scale: stateScale, valueWords};
 }
 
 /// What a map is called: by its run where there are several, by its patch likewise.
@@ -221,7 +224,7 @@ export function patchMaps(runs: Run[]): Figure[] {
     labels: ["x, rolling direction [mm]", "y, field side up [mm]"],
     hover: kind.hover,
     hoverY: "y",
-    ...scaleOf(kind, top),
+    ...scaleOf(kind, top, patch),
     windowX,
     windowY,
     arrows: kind.arrows ? tractionArrows(patch, [windowX, windowY], top) : undefined,

@@ -73,7 +73,9 @@ const kToneMarks: Record<string, string> = {
 function answerLines(answers: Answer[]): HTMLElement[] {
   return answers.map((a) => {
     const tag = a.tone === "plain" ? "p" : "h2";
-    return element(tag, {class: a.tone, "data-tone": a.tone}, `${kToneMarks[a.tone] ?? ""}${a.title}: ${a.text}.`);
+    return element(
+        tag, {class: a.tone, "data-tone": a.tone},
+        `${kToneMarks[a.tone] ?? ""}${[a.title, a.text].filter((s) => s).join(": ")}.`);
   });
 }
 

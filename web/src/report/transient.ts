@@ -187,7 +187,7 @@ class Player {
       this.figure("film-q", "Traction |q| on the way", "q_MPa", "|q| %{z:.1f} MPa", () => this.traction, traction),
       this.figure(
           "film-state", "Stick and slip on the way", "state_1stick_2slip", "%{text}", () => this.states,
-          {scale: stateScale, valueWords, words: [stateLegend()]}),
+          {scale: stateScale, valueWords, words: [stateLegend(this.states.flat())]}),
     ];
   }
 
