@@ -91,12 +91,14 @@ def rows(vehicle, case, begin, end):
             matrix = np.eye(14) - gamma * h * bogie.jacobian(x, q)
         one = bogie.all_rates(x, q)
         for i, axle in enumerate(("leading", "trailing")):
-            place, w = x + bogie.places[i], bogie.found[i].left
+            place, both = x + bogie.places[i], bogie.found[i]
+            w = both.left
             if k % EVERY == 0 and begin <= place <= end:
                 energy = w.dissipation / bogie.speed
                 curve = f"{-CURVE / bogie.into(place):.1f}" if place > STRAIGHT else ""
-                y, yaw = 1e3 * (q[2 * i] - bogie.rail(place)), 1e3 * q[2 * i + 1]
-                yield (f"{place:.2f};{vehicle}, {axle};{1e-3 * w.force[2]:.2f};{y:.3f};{yaw:.3f};"
+                y = 1e3 * (q[2 * i] + RADIUS * both.roll - bogie.rail(place))  # of the tread
+                yaw = 1e3 * q[2 * i + 1]
+                yield (f"{place:.2f};{vehicle}, {axle};{1e-3 * w.force[2]:.2f};{y:.3f};{yaw:.3f};{1e3 * both.roll:.4f};"
                        f"{w.creepage_x:.6f};{w.creepage_y:.6f};{curve};{bogie.speed};"
                        f"{-1e-3 * w.force[1]:.2f};{energy:.2f}")
         one = np.linalg.solve(matrix, one)
@@ -113,5 +115,5 @@ if __name__ == "__main__":
     given = (sys.argv[1], float(sys.argv[2]), float(sys.argv[3]))
     with multiprocessing.get_context("spawn").Pool(2) as pool:
         found = pool.starmap(series, [(vehicle, *given) for vehicle in VEHICLES], 1)
-    print("distance [m];name;Q [kN];y [mm];psi [mrad];creepage;lateral_creepage;curve_radius [m];speed [m/s];Y [kN];"
+    print("distance [m];name;Q [kN];y [mm];psi [mrad];roll [mrad];creepage;lateral_creepage;curve_radius [m];speed [m/s];Y [kN];"
           "T-gamma [N];mgt", *sum(found, []), sep="\n")

@@ -12,6 +12,7 @@
 
 #include "bem/pressure_on_rail.hpp"
 #include "core/faults.hpp"
+#include "core/root.hpp"
 
 namespace railstrata {
 
@@ -356,8 +357,7 @@ class WheelOnPatches {
     double creepage = 0, compliance = 0;
   };
 
-  /// Brings an excess of force, which rises with the creepage, to zero: by the secant, kept between two sides
-  /// (Illinois), for it hardly rises where all patches slide.
+  /// Brings an excess of force, which rises with the creepage, to zero; it hardly rises where all patches slide.
   template <class Excess>
   void find(Sought& sought, Excess&& excess_now) const {
     const auto excess_at = [&](double creepage) {
@@ -377,19 +377,8 @@ class WheelOnPatches {
       step *= 3;
     }
     sought.compliance = (b - a) / (at_b - at_a);
-    for (int i = 0; i < 100; ++i) {
-      const double c = (a * at_b - b * at_a) / (at_b - at_a), excess = excess_at(c);
-      if (std::abs(excess) <= close || std::abs(b - a) < kNoWidth) return;
-      if (excess * at_b < 0) {
-        a = b;
-        at_a = at_b;
-      } else {
-        at_a *= 0.5;
-      }
-      b = c;
-      at_b = excess;
-    }
-    throw NumericalError("the creepage of a wheel on several contacts was not found");
+    if (!narrow_root(a, at_a, b, at_b, close, kNoWidth, 100, excess_at))
+      throw NumericalError("the creepage of a wheel on several contacts was not found");
   }
 
   [[noreturn]] void refuse_traction() const {

@@ -47,7 +47,7 @@ inline double gross_tonnes(double wheel_force, double gravity) { return 2e-3 * w
 struct LoadSpec {
   std::string name;     ///< empty: "load 1", "load 2", … by its place
   double passages = 1;  ///< of such a wheel
-  std::optional<double> wheel_load, lateral_shift, yaw, curve_radius, speed;
+  std::optional<double> wheel_load, lateral_shift, yaw, roll, curve_radius, speed;
   std::optional<double> traction_coefficient, creepage;                  ///< at most one
   std::optional<double> lateral_traction_coefficient, lateral_creepage;  ///< at most one
   std::optional<double> friction_coefficient;
@@ -57,7 +57,10 @@ struct LoadSpec {
 struct CollectiveSpec {
   std::string file;  ///< empty once it is read into the rows
   WearLaw wear_law = WearLaw::usfd;
-  double lateral_deviation = 0;  ///< m across, of the wheels of each row about their place
+  double lateral_deviation = 0;      ///< m across, of the wheels of each row about their place
+  double wear_factor = 1;            ///< of wear over that of the laws
+  double bin_scale = 1;              ///< of the widths of a series' bins (case/load_series.hpp)
+  bool match_guiding_force = false;  ///< a row's shift is moved until its wheel has the row's guiding force
 };
 
 /// What lives are computed from beside the strengths (judge/zone_life.hpp).

@@ -68,6 +68,9 @@ OptionTable load_table() {
        option("lateral_shift", load<&LoadSpec::lateral_shift>, "Of the wheel, positive to the field side", kLength,
               {-0.05, 0.05}),
        option("yaw", load<&LoadSpec::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}),
+       option("roll", load<&LoadSpec::roll>,
+              "Of the wheelset, as geometry.roll: some tenths of a mrad move the load between tread and flange", kSlope,
+              {-0.05, 0.05}),
        option("curve_radius", load<&LoadSpec::curve_radius>, "Positive with the centre on the field side", kLength,
               {-1e6, 1e6}),
        option("speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200)),
@@ -108,7 +111,23 @@ OptionTable collective_table() {
           "track",
           kLength, {0, 0.03})
           .where(has_life);
-  return {"collective", "All rows of [[load]] together", {file, law, deviation}};
+  const Option factor =
+      option("wear_factor", at<&CaseSpec::collective, &C::wear_factor>,
+             "Wear of rail and wheel over that of the laws, which are of dry laboratory surfaces: from a measured "
+             "depth; a lubricated or wet rail has 0.2 and less",
+             kNumber, above(0, 1000))
+          .where(has_life);
+  const Option bins =
+      option("bin_scale", at<&CaseSpec::collective, &C::bin_scale>,
+             "Scale of the widths of the bins of a series of samples: 0.5 halves them", kNumber, {0.02, 50})
+          .where(never);
+  const Option match =
+      option(
+          "match_guiding_force", at<&CaseSpec::collective, &C::match_guiding_force>,
+          "Move the shift of each row with a guiding_force, by at most 0.2 mm, until its wheel has that force: where "
+          "tread and flange touch, some µm of the shift move the load from one to the other")
+          .where(has_loads);
+  return {"collective", "All rows of [[load]] together", {file, law, factor, deviation, bins, match}};
 }
 
 OptionTable life_table() {

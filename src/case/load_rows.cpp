@@ -53,6 +53,8 @@ constexpr std::array kColumnWords{ColumnWord{"name", "Name"},
                                   ColumnWord{"yaw", "Angle d'attaque"},
                                   ColumnWord{"yaw", "Anloppsvinkel"},
                                   ColumnWord{"yaw", "冲角"},
+                                  ColumnWord{"roll", "phi"},
+                                  ColumnWord{"roll", "Wankwinkel"},
                                   ColumnWord{"curve_radius", "Bogenradius"},
                                   ColumnWord{"curve_radius", "Rayon de courbe"},
                                   ColumnWord{"curve_radius", "Kurvradie"},
@@ -143,6 +145,7 @@ CaseSpec with_load(const CaseSpec& spec, const LoadSpec& load) {
   }
   take(load.lateral_shift, out.geometry.lateral_shift);
   take(load.yaw, out.geometry.yaw);
+  take(load.roll, out.geometry.roll);
   take(load.curve_radius, out.geometry.curve_radius);
   take(load.speed, out.drive.speed);
   take(load.friction_coefficient, out.drive.friction_coefficient);
@@ -184,7 +187,7 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
   }
   if (!series) return {};
   const std::size_t samples = spec.loads.size();
-  spec.loads = binned(spec.loads);
+  spec.loads = binned(spec.loads, spec.collective.bin_scale);
   std::string note = fmt::format("{}: {} samples of a wheel became {} loads; not read: {}", file.string(), samples,
                                  spec.loads.size(), fmt::join(table.ignored, ", "));
   const auto lacks = [](const LoadSpec& l) { return !l.lateral_creepage && !l.lateral_traction_coefficient; };
@@ -192,6 +195,8 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
     note +=
         "; without a column lateral_creepage the yaw alone slides the wheel sideways, which doubles T-gamma where the "
         "wheel moves across as it turns";
+  if (std::none_of(spec.loads.begin(), spec.loads.end(), [](const LoadSpec& l) { return l.roll.has_value(); }))
+    note += "; without a column roll, and y of the tread, forces of wheels that touch tread and flange are others";
   return note;
 }
 

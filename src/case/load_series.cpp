@@ -7,7 +7,9 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include "core/text.hpp"
 
@@ -30,15 +32,40 @@ const std::array kAxes{Axis{&LoadSpec::wheel_load, 10e3},
                        Axis{&LoadSpec::creepage, 5e-4},
                        Axis{&LoadSpec::lateral_creepage, 5e-4}};
 /// Means alone, which part no samples.
-const std::array kMeans{&LoadSpec::guiding_force, &LoadSpec::t_gamma};
-using Bin = std::array<std::optional<long>, kAxes.size()>;
+const std::array kMeans{&LoadSpec::roll, &LoadSpec::guiding_force, &LoadSpec::t_gamma};
+using Bin = std::pair<std::string, std::array<std::optional<long>, kAxes.size()>>;
 
 double on_axis(const Axis& axis, double value) { return axis.inverse ? 1 / value : value; }
 
-Bin bin_of(const LoadSpec& load) {
-  Bin out;
+Bin bin_of(const LoadSpec& load, double scale, bool by_name) {
+  Bin out{by_name ? load.name : "", {}};
   for (std::size_t k = 0; k < kAxes.size(); ++k)
-    if (const auto& value = load.*kAxes[k].member) out[k] = std::lround(on_axis(kAxes[k], *value) / kAxes[k].width);
+    if (const auto& value = load.*kAxes[k].member)
+      out.second[k] = std::lround(on_axis(kAxes[k], *value) / (scale * kAxes[k].width));
+  return out;
+}
+
+bool few_names(const std::vector<LoadSpec>& samples) {
+  constexpr std::size_t kMost = 40;
+  std::set<std::string> names;
+  for (const LoadSpec& sample : samples) {
+    names.insert(sample.name);
+    if (names.size() > kMost) return false;
+  }
+  return true;
+}
+
+/// "wagon, leading: 107 kN, 4.92 mm"
+std::string bin_name(const std::string& samples, std::size_t place, const LoadSpec& mean) {
+  std::string out = samples.empty() ? fmt::format("bin {}", place) : samples;
+  const char* before = ": ";
+  const auto add = [&](const std::optional<double>& value, double factor, const char* unit) {
+    if (!value) return;
+    out += fmt::format("{}{:.3g} {}", before, factor * *value, unit);
+    before = ", ";
+  };
+  add(mean.wheel_load, 1e-3, "kN");
+  add(mean.lateral_shift, 1e3, "mm");
   return out;
 }
 
@@ -81,18 +108,21 @@ bool names_series(std::string_view text) {
   return false;
 }
 
-std::vector<LoadSpec> binned(const std::vector<LoadSpec>& samples) {
+std::vector<LoadSpec> binned(const std::vector<LoadSpec>& samples, double scale) {
+  const bool by_name = few_names(samples);
   std::map<Bin, LoadSpec> bins;
   for (const LoadSpec& sample : samples) {
+    const Bin bin = bin_of(sample, scale, by_name);
     LoadSpec empty;
+    empty.name = bin.first;
     empty.passages = 0;
-    add(sample, bins.try_emplace(bin_of(sample), empty).first->second);
+    add(sample, bins.try_emplace(bin, empty).first->second);
   }
   std::vector<LoadSpec> out;
   for (const auto& [bin, sums] : bins) out.push_back(mean_of(sums));
   std::stable_sort(out.begin(), out.end(),
                    [](const LoadSpec& a, const LoadSpec& b) { return a.passages > b.passages; });
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].name = fmt::format("bin {}", i + 1);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].name = bin_name(out[i].name, i + 1, out[i]);
   return out;
 }
 

@@ -12,9 +12,10 @@ namespace railstrata {
 bool names_series(std::string_view text);
 
 /// Samples in the same bin become one load: the means of their numbers, each weighted by its passages, which are added
-/// up. Bins are 10 kN, 1 mm, 1 mrad, 5 m/s, 0.001 1/m of curvature, 0.02 of friction and traction and 0.0005 of
-/// creepage wide, about 0; of what a sample does not give there is none. Forces to compare with part no samples. The
-/// bins follow in the order of their passages, most first.
-std::vector<LoadSpec> binned(const std::vector<LoadSpec>& samples);
+/// up. Bins are `scale` times 10 kN, 1 mm, 1 mrad, 5 m/s, 0.001 1/m of curvature, 0.02 of friction and traction and
+/// 0.0005 of creepage wide, about 0; of what a sample does not give there is none. Samples of different names are apart
+/// where there are at most 40 names. Roll, and forces to compare with, part no samples. The bins follow in the order of
+/// their passages, most first; their names end with load and shift.
+std::vector<LoadSpec> binned(const std::vector<LoadSpec>& samples, double scale);
 
 }  // namespace railstrata

@@ -64,6 +64,7 @@ struct LifeRow {
   std::string body, zone, place, mechanism;
   LifeRange wheels{};             ///< that pass; of the wheel its turns
   LifeRange mgt{};                ///< million gross tonnes; NaN of the wheel
+  LifeRange distance{};           ///< m that the wheel runs; NaN of the rail
   double depth = kNotApplicable;  ///< m, below the surface of that time
   double y = kNotApplicable;      ///< m, from the axis of rail or tape circle, field side positive
   std::string rests_on{};         ///< or what is missing

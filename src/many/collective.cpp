@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <span>
 
 #include "case/load_rows.hpp"
 #include "core/faults.hpp"
+#include "core/root.hpp"
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
+#include "judge/traffic_damage.hpp"
 #include "many/each_case.hpp"
 #include "many/result_columns.hpp"
 #include "runs/life_passes.hpp"
@@ -30,7 +31,35 @@ void follow_passes(CollectiveRow& row, const Placement& placement, const BemResu
   }
 }
 
+/// Moves the shift until the wheel has the row's guiding force, within a twentieth of it or a hundredth of the load.
+void match_guiding_force(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
+  constexpr double kFirst = 10e-6, kFarthest = 0.2e-3, kNarrow = 1e-8, kClose = 0.05, kOfLoad = 0.01;
+  constexpr int kMost = 30;
+  const double shift = row.spec.geometry.lateral_shift, wanted = *row.given.guiding_force;
+  double close = kClose * std::abs(wanted);
+  const auto excess_at = [&](double moved) {
+    row.moved = moved;
+    row.spec.geometry.lateral_shift = shift + moved;
+    const Summary s = solve_half_space_contact(row.spec, place(row.spec, folder), options.bem).summary;
+    close = std::max(close, kOfLoad * s.contact.F_z);
+    return -s.contact.F_y - wanted;
+  };
+  double a = 0, at_a = excess_at(a), b = a, at_b = at_a;
+  if (std::abs(at_a) <= close) return;
+  const double side = at_a > 0 ? -1 : 1;  // the flange pushes the rail to its field side
+  for (double away = kFirst; at_a * at_b > 0 && std::abs(b) < kFarthest; away *= 3) {
+    a = b;
+    at_a = at_b;
+    b = side * std::min(away, kFarthest);
+    at_b = excess_at(b);
+  }
+  if (at_a * at_b < 0 && narrow_root(a, at_a, b, at_b, close, kNarrow, kMost, excess_at)) return;
+  row.spec.geometry.lateral_shift = shift;
+  row.moved = kNotApplicable;
+}
+
 void solve(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
+  if (row.spec.collective.match_guiding_force && row.given.guiding_force) match_guiding_force(row, folder, options);
   const Placement placement = place(row.spec, folder);
   row.track = placement.track;
   HalfSpaceSolution solution = solve_half_space_contact(row.spec, placement, options.bem);
@@ -57,9 +86,12 @@ void solve_or_tell(CollectiveRow& row, const std::filesystem::path& folder, cons
   }
 }
 
-/// None of a row whose checks failed: its numbers are shown, but not summed.
-std::span<const PatchDamage> patches_of(const CollectiveRow& row) {
-  return row.sound() ? std::span<const PatchDamage>(row.patches) : std::span<const PatchDamage>();
+/// Rows whose checks failed are shown, but not summed.
+std::vector<WheelKind> kinds_of(const std::vector<CollectiveRow>& rows) {
+  std::vector<WheelKind> out;
+  for (const CollectiveRow& row : rows)
+    if (row.sound()) out.push_back({row.passages, row.patches});
+  return out;
 }
 
 }  // namespace
@@ -97,22 +129,11 @@ void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::p
 }
 
 RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell) {
-  RailDamage out = undamaged(placement.rail, cell);
-  for (const CollectiveRow& row : rows)
-    for (const PatchDamage& patch : patches_of(row))
-      add_passages(out, placement.rail, placement.track, patch, row.passages);
-  if (!rows.empty()) spread_aside(out, rows.front().spec.collective.lateral_deviation);
-  return out;
+  return rail_damage(rows.front().spec, kinds_of(rows), placement, cell);
 }
 
 WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell) {
-  WheelDamage out = unworn_wheel(placement.wheel, cell);
-  double all = 0;
-  for (const CollectiveRow& row : rows) all += row.sound() ? row.passages : 0;
-  for (const CollectiveRow& row : rows)
-    for (const PatchDamage& patch : patches_of(row)) add_distance(out, patch, row.passages / all);
-  if (!rows.empty()) spread_aside(out, rows.front().spec.collective.lateral_deviation);
-  return out;
+  return wheel_damage(rows.front().spec, kinds_of(rows), placement, cell);
 }
 
 Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& rows, const RailDamage& rail,
@@ -125,10 +146,10 @@ Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& r
 
 double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law) {
   double area = 0;
-  for (const CollectiveRow& row : rows)
-    for (const PatchDamage& patch : patches_of(row))
-      for (const StreamlineRow& line : patch.rows) area += row.passages * line.width * line.depth(law);
-  return area;
+  for (const WheelKind& kind : kinds_of(rows))
+    for (const PatchDamage& patch : kind.patches)
+      for (const StreamlineRow& line : patch.rows) area += kind.passages * line.width * line.depth(law);
+  return rows.front().spec.collective.wear_factor * area;
 }
 
 const CollectiveRow* worst_row(const std::vector<CollectiveRow>& rows) {

@@ -31,7 +31,8 @@ struct CollectiveRow {
   LoadSpec given;                          ///< of the case
   PassedSections passed;                   ///< by life.passes, of its patches
   std::string not_followed;                ///< why there are none though life.passes asks for them
-  std::string fault;                       ///< empty: solved, and its checks hold
+  double moved = 0;   ///< m of the shift for the given guiding force; NaN: within 0.2 mm none has it
+  std::string fault;  ///< empty: solved, and its checks hold
   bool done = false;
   bool solved() const { return !summary_json.is_null(); }
   bool sound() const { return solved() && fault.empty(); }
@@ -62,8 +63,8 @@ WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement
 Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& rows, const RailDamage& rail,
                        const WheelDamage& wheel);
 
-/// m² per `passages` of all sound rows: the sum over their streamlines of depth times width. What rail_damage must
-/// conserve.
+/// m² per `passages` of all sound rows: the sum over their streamlines of depth times width, times
+/// collective.wear_factor. What rail_damage must conserve.
 double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law);
 
 /// The sound row with the smallest factor for wandering traffic; null where none is known.

@@ -82,6 +82,7 @@ Json row_json(const CollectiveRow& row) {
   for (const Warning& w : row.summary.warnings) warnings.push_back(w.name);
   return {{"name", row.name},
           {"passages", row.passages},
+          {"shift_moved_m", json_number(row.moved)},
           {"shakedown_wandering", json_number(factor)},
           {"warnings", warnings},
           {"passes_not_followed", row.not_followed.empty() ? Json(nullptr) : Json(row.not_followed)},
@@ -150,11 +151,19 @@ ReportAnswer comparison_answer(const std::vector<CollectiveRow>& rows) {
   compare("T-gamma", unit::kNewtons, &LoadSpec::t_gamma, [](const Summary& s) { return s.damage.t_gamma; });
   compare("Y", unit::kKilonewtons, &LoadSpec::guiding_force, [](const Summary& s) { return -s.contact.F_y; });
   if (text.empty()) return {};
+  const bool matched = rows.front().spec.collective.match_guiding_force;
+  const long unmatched =
+      std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return std::isnan(r.moved); });
+  double farthest = 0;
+  for (const CollectiveRow& row : rows) farthest = std::fmax(farthest, std::abs(row.moved));
+  if (farthest > 0)
+    text += fmt::format("; shifts moved by up to {} to have this Y", with_unit(unit::kMillimetres, farthest, 2));
+  if (unmatched > 0) text += fmt::format("; {} of {} loads have it nowhere within 0.2 mm", unmatched, rows.size());
   const auto two = std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return r.patches.size() > 1; });
   if (far && two > 0)
     text += fmt::format(
-        "; {} of {} loads touch at two places, where some µm of the shift move the load from tread to flange", two,
-        rows.size());
+        "; {} of {} loads touch at two places, where some µm of the shift move the load from tread to flange{}", two,
+        rows.size(), matched ? "" : " (collective.match_guiding_force moves them)");
   return {far ? "open" : "plain", "Beside the vehicle code", "mean of the wheels: " + text};
 }
 
@@ -206,10 +215,11 @@ ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
 ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
   ReportTable t{.id = "totals",
                 .title = "All passages together",
-                .note =
-                    "Wear of dry laboratory surfaces: a lubricated or wet rail wears less, by a factor of 5 and "
-                    "more. RCF damage: Burstow's function for R260 over the width of each patch; 1 is a visible "
-                    "crack, below zero wear removes the cracks.",
+                .note = fmt::format(
+                    "Wear of dry laboratory surfaces times collective.wear_factor = {:.3g}: a lubricated or wet rail "
+                    "has 0.2 and less. RCF damage: Burstow's function for R260 over the width of each patch; 1 is a "
+                    "visible crack, below zero wear removes the cracks.",
+                    rows.front().spec.collective.wear_factor),
                 .columns = {"what", "unit", "total", "largest", "at y [mm]"},
                 .rows = {}};
   const auto add = [&](const std::string& what, const char* units, const Json& total, const std::vector<double>& values,

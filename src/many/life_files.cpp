@@ -34,11 +34,16 @@ std::vector<TextColumn<LifeRow>> life_columns() {
     out.push_back({fmt::format("life{}_MGT", name), [value = value](const R& r) { return life_cell(r.mgt.*value); }});
   for (const auto& [name, value] : kVariants)
     out.push_back({fmt::format("wheels{}", name), [value = value](const R& r) { return life_cell(r.wheels.*value); }});
+  for (const auto& [name, value] : kVariants)
+    out.push_back({fmt::format("distance{}_km", name),
+                   [value = value](const R& r) { return life_cell(1e-3 * (r.distance.*value)); }});
   out.push_back({"depth_mm", [](const R& r) { return length_cell(r.depth); }});
   out.push_back({"y_mm", [](const R& r) { return length_cell(r.y); }});
   out.push_back({"rests_on", [](const R& r) { return r.rests_on; }});
   return out;
 }
+
+LifeRange scaled(const LifeRange& r, double factor) { return {factor * r.low, factor * r.best, factor * r.high}; }
 
 ReportSeries line(const std::string& name, const std::vector<double>& mgt, const std::vector<double>& depth) {
   ReportSeries out{.name = name, .x = mgt, .y = {}, .markers = false};
@@ -56,24 +61,28 @@ Json lives_json(const Lives& lives) { return json_rows(life_columns(), lives.row
 
 ReportTable lives_table(const Lives& lives) {
   using R = LifeRow;
-  ReportTable out{.id = "lives",
-                  .title = "How long each zone lasts",
-                  .note =
-                      "Best value and range, in million gross tonnes over this rail and in wheels (of the wheel: "
-                      "its turns). Ways to end do not add up: the shortest life counts. Not known: the key that "
-                      "is missing stands in the last column.",
-                  .columns = {},
-                  .rows = {}};
-  add_rows(out, lives.rows,
-           {{"body", [](const R& r) { return r.body; }},
-            {"zone", [](const R& r) { return r.zone; }},
-            {"place", [](const R& r) { return r.place; }},
-            {"ends by", [](const R& r) { return r.mechanism; }},
-            {"life [MGT]", [](const R& r) { return r.body == "rail" ? Json(range_text(r.mgt)) : Json(nullptr); }},
-            {"wheels", [](const R& r) { return range_text(r.wheels); }},
-            {titled("depth", unit::kMillimetres.shown), [](const R& r) { return length_cell(r.depth); }},
-            {titled("y", unit::kMillimetres.shown), [](const R& r) { return length_cell(r.y); }},
-            {"rests on", [](const R& r) { return r.rests_on; }}});
+  ReportTable out{
+      .id = "lives",
+      .title = "How long each zone lasts",
+      .note =
+          "Best value and range: of the rail in million gross tonnes and wheels over it, of the wheel in "
+          "turns and distance. Ways to end do not add up: the shortest life counts. Not known: the key that "
+          "is missing stands in the last column.",
+      .columns = {},
+      .rows = {}};
+  add_rows(
+      out, lives.rows,
+      {{"body", [](const R& r) { return r.body; }},
+       {"zone", [](const R& r) { return r.zone; }},
+       {"place", [](const R& r) { return r.place; }},
+       {"ends by", [](const R& r) { return r.mechanism; }},
+       {"life [MGT]", [](const R& r) { return r.body == "rail" ? Json(range_text(r.mgt)) : Json(nullptr); }},
+       {"wheels", [](const R& r) { return range_text(r.wheels); }},
+       {"distance [1000 km]",
+        [](const R& r) { return r.distance.known() ? Json(range_text(scaled(r.distance, 1e-6))) : Json(nullptr); }},
+       {titled("depth", unit::kMillimetres.shown), [](const R& r) { return length_cell(r.depth); }},
+       {titled("y", unit::kMillimetres.shown), [](const R& r) { return length_cell(r.y); }},
+       {"rests on", [](const R& r) { return r.rests_on; }}});
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include "case/case_spec.hpp"
 #include "core/faults.hpp"
 #include "damage/wear_indices.hpp"
+#include "judge/traffic_damage.hpp"
 #include "record/unit.hpp"
 #include "runs/life_passes.hpp"
 
@@ -27,16 +28,10 @@ std::vector<PatchDamage> patch_damages(const CaseSpec& spec, const HalfSpaceSolu
 Lives life_of_load(const CaseSpec& spec, const Placement& placement, const HalfSpaceSolution& solution,
                    const BemOptions& bem, const Control* control) {
   const std::vector<PatchDamage> patches = patch_damages(spec, solution);
-  RailDamage rail = undamaged(placement.rail, bem.cell);
-  WheelDamage wheel = unworn_wheel(placement.wheel, bem.cell);
-  for (const PatchDamage& patch : patches) {
-    add_passages(rail, placement.rail, placement.track, patch, 1);
-    add_distance(wheel, patch, 1);
-  }
-  spread_aside(rail, spec.collective.lateral_deviation);
-  spread_aside(wheel, spec.collective.lateral_deviation);
+  const std::vector<WheelKind> kinds{{1, patches}};
   const PassedSections passed = passed_sections(spec, placement, solution.result, bem, control);
-  return zone_lives(spec, {{1, solution.summary.contact.F_z, &patches, &solution.shakedown, &passed}}, rail, wheel);
+  return zone_lives(spec, {{1, solution.summary.contact.F_z, &patches, &solution.shakedown, &passed}},
+                    rail_damage(spec, kinds, placement, bem.cell), wheel_damage(spec, kinds, placement, bem.cell));
 }
 
 LifeSummary life_summary(const CaseSpec& spec, const Placement& placement, const HalfSpaceSolution& solution,

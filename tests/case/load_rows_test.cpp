@@ -188,6 +188,27 @@ TEST(LoadRows, ASeriesOfAVehicleCodeIsBinned) {
   EXPECT_NEAR(*spec.loads[0].guiding_force, 5.5e3, 1e-9);
   EXPECT_NEAR(*spec.loads[0].t_gamma, 75, 1e-12);
   expect_says(note, "3 samples of a wheel became 2 loads; not read: time [s]; without a column lateral_creepage");
+  expect_says(note, "; without a column roll, and y of the tread");
+  EXPECT_EQ(spec.loads[1].name, "bin 2: 80 kN, -3 mm");
+}
+
+TEST(LoadRows, NamesPartTheSamplesOfASeriesAndBinsHaveAScale) {
+  const char* series =
+      "time [s];name;y [mm];Q [kN];phi [mrad]\n0;wagon;2.2;82;0.1\n1;coach;1.8;78;0\n2;wagon;1.9;79;0.2\n"
+      "3;wagon;2.6;81;0.3\n";
+  const auto names = [&](double scale) {
+    CaseSpec spec;
+    spec.collective.bin_scale = scale;
+    EXPECT_EQ(read_load_table(series, "wheel.csv", spec).find("roll"), std::string::npos);
+    EXPECT_NEAR(*spec.loads[0].roll, scale == 1 ? 0.15e-3 : 0.2e-3, 1e-11);
+    EXPECT_EQ(with_load(spec, spec.loads[0]).geometry.roll, *spec.loads[0].roll);
+    std::vector<std::string> out;
+    for (const LoadSpec& load : spec.loads) out.push_back(load.name);
+    return out;
+  };
+  EXPECT_EQ(names(1),
+            (std::vector<std::string>{"wagon: 80.5 kN, 2.05 mm", "coach: 78 kN, 1.8 mm", "wagon: 81 kN, 2.6 mm"}));
+  EXPECT_EQ(names(6), (std::vector<std::string>{"wagon: 80.7 kN, 2.23 mm", "coach: 78 kN, 1.8 mm"}));
 }
 
 }  // namespace railstrata

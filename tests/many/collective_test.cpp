@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -258,6 +259,45 @@ TEST(Collective, PutsTheVehicleCodesForcesBesideItsOwn) {
   const std::string same = fmt::format("guiding_force = \"{} N\"\n", -own.contact.F_y);
   EXPECT_EQ(answer(same.c_str()).first.tone, "plain");
   EXPECT_EQ(answer("").first.title, "Wear");
+}
+
+// Tread and flange touch: 0.1 mm of the shift change the guiding force by 1.6 kN. And a
+// force that no shift has.
+TEST(Collective, MovesTheShiftUntilTheWheelHasTheGuidingForce) {
+  const auto row = [](const char* shift, const std::string& force) {
+    const CaseSpec spec =
+        parse_case(
+            std::string("[geometry]\nrail_profile = \"UIC60\"\nwheel_profile = \"S1002\"\ncant = "
+                        "\"1:40\"\nyaw = \"1 mrad\"\n[drive]\ntraction_coefficient = 0\nfriction_coefficient = 0.1\n"
+                        "[collective]\nmatch_guiding_force = true\n[[load]]\n"
+                        "wheel_load = \"73 kN\"\nlateral_shift = \"") +
+                shift + "\"\n" + force,
+            "a.toml")
+            .spec;
+    return solved(spec).front();
+  };
+  const double there = -row("5.05 mm", "").summary.contact.F_y;
+  const CollectiveRow matched = row("4.95 mm", fmt::format("guiding_force = \"{} N\"\n", there));
+  EXPECT_NEAR(-matched.summary.contact.F_y, there, 0.01 * 73e3);
+  EXPECT_GT(matched.moved, 10e-6);
+  EXPECT_LE(matched.moved, 200e-6);
+  EXPECT_DOUBLE_EQ(matched.spec.geometry.lateral_shift, 4.95e-3 + matched.moved);
+  const CollectiveRow out_of_reach = row("4.95 mm", "guiding_force = \"-50 kN\"\n");
+  EXPECT_TRUE(std::isnan(out_of_reach.moved));
+  EXPECT_DOUBLE_EQ(out_of_reach.spec.geometry.lateral_shift, 4.95e-3);
+}
+
+TEST(Collective, TheWearFactorMultipliesTheWearOfBothBodies) {
+  const auto worn = [](const char* more) {
+    const CaseSpec spec = parse_case(std::string(kArcs) + more + "[[load]]\npassages = 10\n", "a.toml").spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    const Placement placement = place(spec, {});
+    const RailDamage rail = rail_damage(rows, placement, 0.5e-3);
+    const WheelDamage wheel = wheel_damage(rows, placement, 0.5e-3);
+    return std::array{worn_area(rail, rail.usfd), worn_area(wheel, wheel.usfd), streamline_area(rows, WearLaw::usfd)};
+  };
+  const std::array given = worn(""), fifth = worn("[collective]\nwear_factor = 0.2\n");
+  for (std::size_t k = 0; k < given.size(); ++k) EXPECT_NEAR(fifth[k] / given[k], 0.2, 1e-12);
 }
 
 TEST(Collective, SumsTheRowsTimesTheirPassages) {
