@@ -115,5 +115,5 @@ if __name__ == "__main__":
     given = (sys.argv[1], float(sys.argv[2]), float(sys.argv[3]))
     with multiprocessing.get_context("spawn").Pool(2) as pool:
         found = pool.starmap(series, [(vehicle, *given) for vehicle in VEHICLES], 1)
-    print("distance [m];name;Q [kN];y [mm];psi [mrad];roll [mrad];creepage;lateral_creepage;curve_radius [m];speed [m/s];Y [kN];"
-          "T-gamma [N];mgt", *sum(found, []), sep="\n")
+    print("distance [m];name;Q [kN];y [mm];psi [mrad];roll [mrad];creepage;lateral_creepage;curve_radius [m];"
+          "speed [m/s];Y [kN];T-gamma [N];mgt", *sum(found, []), sep="\n")
