@@ -33,7 +33,7 @@ void follow_passes(CollectiveRow& row, const Placement& placement, const BemResu
 
 /// Moves the shift until the wheel has the row's guiding force, within a twentieth of it or a hundredth of the load.
 void match_guiding_force(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
-  constexpr double kFirst = 10e-6, kFarthest = 0.2e-3, kNarrow = 1e-8, kClose = 0.05, kOfLoad = 0.01;
+  constexpr double kFirst = 10e-6, kNarrow = 1e-8, kClose = 0.05, kOfLoad = 0.01;
   constexpr int kMost = 30;
   const double shift = row.spec.geometry.lateral_shift, wanted = *row.given.guiding_force;
   double close = kClose * std::abs(wanted);
@@ -47,10 +47,10 @@ void match_guiding_force(CollectiveRow& row, const std::filesystem::path& folder
   double a = 0, at_a = excess_at(a), b = a, at_b = at_a;
   if (std::abs(at_a) <= close) return;
   const double side = at_a > 0 ? -1 : 1;  // the flange pushes the rail to its field side
-  for (double away = kFirst; at_a * at_b > 0 && std::abs(b) < kFarthest; away *= 3) {
+  for (double away = kFirst; at_a * at_b > 0 && std::abs(b) < kFarthestMatch; away *= 3) {
     a = b;
     at_a = at_b;
-    b = side * std::min(away, kFarthest);
+    b = side * std::min(away, kFarthestMatch);
     at_b = excess_at(b);
   }
   if (at_a * at_b < 0 && narrow_root(a, at_a, b, at_b, close, kNarrow, kMost, excess_at)) return;

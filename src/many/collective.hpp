@@ -18,6 +18,9 @@
 
 namespace railstrata {
 
+/// m, as far as collective.match_guiding_force moves the shift of a row.
+inline constexpr double kFarthestMatch = 0.2e-3;
+
 /// A row of the collective with what came out of it.
 struct CollectiveRow {
   std::string name;
@@ -31,7 +34,7 @@ struct CollectiveRow {
   LoadSpec given;                          ///< of the case
   PassedSections passed;                   ///< by life.passes, of its patches
   std::string not_followed;                ///< why there are none though life.passes asks for them
-  double moved = 0;   ///< m of the shift for the given guiding force; NaN: within 0.2 mm none has it
+  double moved = 0;   ///< m of the shift for the given guiding force; NaN: none within kFarthestMatch has it
   std::string fault;  ///< empty: solved, and its checks hold
   bool done = false;
   bool solved() const { return !summary_json.is_null(); }

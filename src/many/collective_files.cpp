@@ -158,7 +158,9 @@ ReportAnswer comparison_answer(const std::vector<CollectiveRow>& rows) {
   for (const CollectiveRow& row : rows) farthest = std::fmax(farthest, std::abs(row.moved));
   if (farthest > 0)
     text += fmt::format("; shifts moved by up to {} to have this Y", with_unit(unit::kMillimetres, farthest, 2));
-  if (unmatched > 0) text += fmt::format("; {} of {} loads have it nowhere within 0.2 mm", unmatched, rows.size());
+  if (unmatched > 0)
+    text += fmt::format("; {} of {} loads have it nowhere within {}", unmatched, rows.size(),
+                        with_unit(unit::kMillimetres, kFarthestMatch, 1));
   const auto two = std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return r.patches.size() > 1; });
   if (far && two > 0)
     text += fmt::format(
