@@ -8,6 +8,7 @@
 
 #include "core/faults.hpp"
 #include "geometry/turned_wheel.hpp"
+#include "model/drive_at_contact.hpp"
 #include "model/sliding_waves.hpp"
 #include "model/thermal_body.hpp"
 
@@ -149,11 +150,6 @@ Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidCo
   return spin;
 }
 
-double geometric_spin(const CaseSpec& spec, const RigidContact& contact) {
-  const std::optional<double>& radius = spec.geometry.curve_radius;
-  return wheel_spin(contact) + (radius ? std::cos(contact.angle) / *radius : 0.0);
-}
-
 void drive_contact(const CaseSpec& spec, const RigidContact& contact, double weight, RollingContact& problem) {
   const DriveSpec& drive = spec.drive;
   problem.x = {drive.creepage.value_or(0), {}};
@@ -163,13 +159,13 @@ void drive_contact(const CaseSpec& spec, const RigidContact& contact, double wei
   if (drive.lateral_traction_coefficient) problem.y.force = -*drive.lateral_traction_coefficient * weight;
 }
 
-void carry_creepages(const CaseSpec& spec, const RigidContact& first, const RigidContact& own,
-                     RollingContact& problem) {
+void carry_creepages(double turn, const RigidContact& first, const RigidContact& own, RollingContact& problem) {
   const double cosines = std::cos(first.angle) / std::cos(own.angle),
                rail = own.rail_turn == 0 ? 1.0 : first.rail_turn / own.rail_turn;
-  problem.x.creepage = rail - (1 - problem.x.creepage) * own.rolling_radius / first.rolling_radius;
+  problem.x.creepage = rail - (1 - problem.x.creepage) * own.rolling_radius / first.rolling_radius -
+                       (own.point.y - first.point.y) * turn;
   problem.y.creepage *= cosines;
-  if (spec.drive.spin) problem.spin = wheel_spin(own) + (*spec.drive.spin - wheel_spin(first)) / cosines;
+  problem.spin = wheel_spin(own) + turn * std::cos(own.angle);
 }
 
 double normal_load(double weight, double lateral, const RigidContact& contact) {
@@ -238,7 +234,7 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   contact.target = target;
   contact.friction = spec.drive.friction_coefficient;
   contact.leading_edge = spec.bem.leading_edge;
-  contact.spin = spec.drive.spin.value_or(geometric_spin(spec, placement.contact));
+  contact.spin = spin_at(spec, placement.contact);
   contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, wheel_spin(placement.contact));
   if (const PlanePair& stretch = patch.surface.stretch; !stretch.x.empty()) {
     add_scaled(contact.extra_slip.x, 1, stretch.x);

@@ -43,10 +43,6 @@ PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const Bem
 /// Layers of one body from the case, from the surface down; a graded one cut to its grading_tolerance.
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 
-/// Spin that the geometry gives, 1/m: wheel_spin, and of a curve of radius R (positive with its centre on the field
-/// side), in which the wheelset turns about the vertical, + cos(delta)/R.
-double geometric_spin(const CaseSpec& spec, const RigidContact& contact);
-
 /// Spin that the lateral slip of each row of cells has beyond wheel_spin, 1/m: -sin(delta(y))/r with the angle of the
 /// middle between the two surfaces there. The wheel turns by V/r about its axle, so that a point at x moves up or down
 /// by x/r, over V, and slips by what of that lies along the surface. 0 where a profile has ended.
@@ -56,9 +52,9 @@ Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidCo
 /// no forces.
 void drive_contact(const CaseSpec& spec, const RigidContact& contact, double weight, RollingContact& problem);
 
-/// Turns the creepages, and a given spin, of the contact `first` of a wheel into those of another one: the wheel turns
-/// as a whole (several_patches.hpp).
-void carry_creepages(const CaseSpec& spec, const RigidContact& first, const RigidContact& own, RollingContact& problem);
+/// Turns the creepages and the spin of the contact `first` of a wheel into those of another one: the wheel moves as a
+/// whole (several_patches.hpp), turning about the vertical by `turn` (turn_about_vertical of the case, 1/m).
+void carry_creepages(double turn, const RigidContact& first, const RigidContact& own, RollingContact& problem);
 
 /// The normal force [N] that balances the weight G together with a lateral force T_y on the rail, in the contact plane
 /// at the angle delta: N cos(delta) - T_y sin(delta) = G.

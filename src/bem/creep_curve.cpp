@@ -9,6 +9,7 @@
 #include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
 #include "halfspace/creep_theories.hpp"
+#include "model/drive_at_contact.hpp"
 
 namespace railstrata {
 namespace {
@@ -41,7 +42,7 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
   const double hertz_bound = ellipse.friction * ellipse.contact.load;
   const bool along_x = varied == VariedCreepage::longitudinal;
   const auto share = [&](const CreepForce& force) { return (along_x ? force.x : force.y) / hertz_bound; };
-  drive_contact(spec, placement.contact, weight, patch.contact);
+  drive_contact(with_drive_at_contact(spec, placement.contact), placement.contact, weight, patch.contact);
   require_one_plane(
       placement, patch.frictionless.approach, "geometry.lateral_shift",
       "a creep curve is that of one patch: move the wheel (geometry.lateral_shift), or lower the load, until it "

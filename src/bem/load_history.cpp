@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bem/case_patch.hpp"
+#include "model/drive_at_contact.hpp"
 
 namespace railstrata {
 namespace {
@@ -21,7 +22,7 @@ std::size_t rows_of(const TransientSpec& t) {
 LoadHistory::LoadHistory(const CaseSpec& spec, const RigidContact& contact)
     : spec_(spec),
       static_load_(static_load(spec)),
-      spin_(spec.drive.spin.value_or(geometric_spin(spec, contact))),
+      spin_(spin_at(spec, contact)),
       lateral_creepage_(spec.drive.lateral_creepage.value_or(yaw_creepage(contact))),
       rolls_(spec.transient.kind == TransientKind::rolling) {
   const TransientSpec& t = spec.transient;

@@ -13,6 +13,7 @@
 #include "bem/pressure_on_rail.hpp"
 #include "core/faults.hpp"
 #include "core/root.hpp"
+#include "model/drive_at_contact.hpp"
 
 namespace railstrata {
 
@@ -296,7 +297,7 @@ class WheelOnPatches {
     problem.target.approach = m.approach;
     problem.x = {along_.creepage, {}};
     problem.y = {across_.creepage, {}};
-    carry_creepages(spec_, first_, m.contact(), problem);
+    carry_creepages(turn_about_vertical(spec_, first_), first_, m.contact(), problem);
   }
 
   void solve(Member& m) const {

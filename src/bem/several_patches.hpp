@@ -5,7 +5,7 @@
 // With the contact angle delta_k, the rolling radius r_k, the resultants N_k of the pressure and T_k, X_k of the
 // friction (on the rail)
 //   approach_k = (d - h_k) cos(delta_k) - sum over j of cos(delta_k - delta_j)/(pi E*) ∫ p_j/r_jk dA,
-//   xi_k = 1 - (1 - xi) r_k/r_1 (of a rail that turns too R_k/R_1 for the 1),   eta_k = eta_1
+//   xi_k = 1 - (1 - xi) r_k/r_1 (of a rail that turns too R_k/R_1 for the 1) - (y_k - y_1) Omega/V,   eta_k = eta_1
 //   cos(delta_1)/cos(delta_k), sum of N_k cos(delta_k) - T_k sin(delta_k) = G,   sum of X_k = X,   sum of T_k = T where
 //   these forces are given.
 // The sum in approach_k is the depression of both surfaces at the patch's centre of pressure by the other patches

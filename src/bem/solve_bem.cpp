@@ -14,6 +14,7 @@
 #include "case/engine_scope.hpp"
 #include "case/irregularity_rules.hpp"
 #include "core/faults.hpp"
+#include "model/drive_at_contact.hpp"
 
 namespace railstrata {
 
@@ -155,15 +156,14 @@ bool cut_off(const CaseSpec& spec, const PatchOnWheel& p, const PatchSurrounding
 }
 
 /// Turns moment, creepages, spin and approach of the plane into those of a place `from` [m] beside its own.
-void move_to_place(const CaseSpec& spec, const PatchOnWheel& p, double from, BemPatch& r) {
+void move_to_place(const PatchOnWheel& p, double from, BemPatch& r) {
   r.force.moment -= (r.place.x - r.contact.x) * r.force.tangential - from * r.force.x;
   RollingContact there;
   there.x.creepage = r.rigid_slip.x;
   there.y.creepage = r.rigid_slip.y;
-  carry_creepages(spec, r.contact, r.place, there);
-  r.rigid_slip = {there.x.creepage, there.y.creepage,
-                  wheel_spin(r.place) + (r.rigid_slip.spin - wheel_spin(r.contact)) * std::cos(r.place.angle) /
-                                            std::cos(r.contact.angle)};
+  const double turn = (r.rigid_slip.spin - wheel_spin(r.contact)) / std::cos(r.contact.angle);
+  carry_creepages(turn, r.contact, r.place, there);
+  r.rigid_slip = {there.x.creepage, there.y.creepage, there.spin};
   double least = ProfileGap::kNoSurface;
   for (std::size_t k = 0; k < r.field.p.size(); ++k)
     if (r.field.p[k] > 0) least = std::min(least, p.patch.profile.gap[k]);
@@ -183,7 +183,7 @@ BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const Pa
   if (p.patch.contact.kind == RollingKind::steady) r.motion_power = motion_power(p, spec.drive.speed);
   const bool beside = place.rail_s != p.contact.rail_s;
   const double from = beside ? along_plane(p.contact, place.point) : 0.0;
-  if (beside) move_to_place(spec, p, from, r);
+  if (beside) move_to_place(p, from, r);
   Placement own = placement;
   own.contact = place;
   r.surroundings = patch_surroundings(spec, own, solved_patch(r.grid, p.solution.normal, from));
@@ -209,7 +209,7 @@ struct OnePatch {
 /// Creepages or forces of the case, of the contact that touches first, in the patch's plane.
 void drive_patch(const CaseSpec& spec, const OnePatch& one, double weight, RollingContact& problem) {
   drive_contact(spec, one.first, weight, problem);
-  if (one.common()) carry_creepages(spec, one.first, one.placement.contact, problem);
+  if (one.common()) carry_creepages(turn_about_vertical(spec, one.first), one.first, one.placement.contact, problem);
 }
 
 struct LoadedPatch : PatchOnWheel {
@@ -421,6 +421,8 @@ BemResult bem_result(const CaseSpec& spec, const Placement& placement, const Pat
 
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
+  if (spec.drive.creepage_of == CreepageOf::wheel)
+    return solve_bem(with_drive_at_contact(spec, placement.contact), placement, options);
   require_half_spaces(spec);
   if (spec.run.rolling) require_same_along(spec, "steady rolling of half-spaces");
   SharedLoad shared =

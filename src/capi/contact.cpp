@@ -13,6 +13,7 @@
 #include "geometry/read_profile.hpp"
 #include "io/provenance.hpp"
 #include "judge/bem_summary.hpp"
+#include "model/drive_at_contact.hpp"
 #include "runs/solve_half_space.hpp"
 #include "runs/solve_settings.hpp"
 
@@ -97,7 +98,12 @@ using capi::patch_of;
 using capi::require;
 
 rs_contact* new_contact(LoadedCase loaded) {
-  const CaseSpec spec = half_space_case(loaded.spec);
+  CaseSpec spec = half_space_case(loaded.spec);
+  if (spec.drive.creepage_of == CreepageOf::wheel && (spec.drive.creepage || spec.drive.lateral_creepage))
+    throw CaseError("the C interface takes creepages of the contact, not of the wheel",
+                    "take out drive.creepage and drive.lateral_creepage, and give them with each state",
+                    "drive.creepage_of");
+  spec.drive.creepage_of = CreepageOf::contact;
   if (spec.transient.kind != TransientKind::none)
     throw CaseError("a history in time (transient) is not offered by the C interface", "use the program or Python",
                     loaded.file.string());
@@ -138,7 +144,7 @@ void fill_lifted(const rs_contact& contact, rs_state state, rs_forces& out) {
   out.size = sizeof(rs_forces);
   out.creepage_x = spec.drive.creepage.value_or(0);
   out.creepage_y = spec.drive.lateral_creepage.value_or(yaw_creepage(there));
-  out.spin = spec.drive.spin.value_or(geometric_spin(spec, there));
+  out.spin = spin_at(spec, there);
   out.approach = approach;
   out.contact_angle = there.angle;
   out.checks_hold = 1;

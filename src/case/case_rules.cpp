@@ -22,6 +22,19 @@ constexpr double kNanometre = 1e-9;
 /// For messages: rounded, since sums of lengths carry round-off.
 std::string length(double value) { return format_quantity(std::round(value / kNanometre) / 1e9, dimension::kLength); }
 
+/// Whose creepages follow from those of the wheel.
+void check_creepage_of(const CaseSpec& spec, CaseSource& source) {
+  if (spec.drive.creepage_of == CreepageOf::contact) return;
+  const auto refuse = [&](bool asked, const char* with) {
+    if (asked)
+      source.complain("drive.creepage_of", fmt::format("drive.creepage_of = \"wheel\" with {} is not computed", with),
+                      "give creepages of the contact");
+  };
+  refuse(spec.geometry.rail_radius.has_value(), "geometry.rail_radius");
+  refuse(spec.geometry.in_line(), "a line contact");
+  refuse(spec.transient.kind != TransientKind::none, "transient.kind");
+}
+
 /// Under a given approach the load is a result, and a force over it is not known beforehand.
 void check_approach(const CaseSpec& spec, CaseSource& source) {
   if (!spec.vehicle.approach) return;
@@ -345,6 +358,7 @@ void check_life(const CaseSpec& spec, CaseSource& source) {
 
 void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_drive(spec, source);
+  check_creepage_of(spec, source);
   check_approach(spec, source);
   check_transient(spec, source);
   check_friction_law(spec, source);

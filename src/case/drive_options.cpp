@@ -55,6 +55,14 @@ std::vector<Option> creepage_options() {
              "Along the contact plane, positive where the wheel slips towards the field side; finite elements: the "
              "wheel moves sideways on its way",
              kNumber, {-10, 10}),
+      choice_at<&C::drive, &D::creepage_of>("creepage_of",
+                                            "What creepages are of, here and in a collective: the contact that touches "
+                                            "first, in its plane; or the wheel, "
+                                            "(V - omega wheel_radius) / V of its tape circle and its slip sideways, "
+                                            "level, of which every contact has what "
+                                            "its radius and angle make of it. Of a wheel on tread and flange a change "
+                                            "of shift changes which touches first",
+                                            {{"contact", CreepageOf::contact}, {"wheel", CreepageOf::wheel}}),
       option("spin", at<&C::drive, &D::spin>,
              "About the normal of the contact plane, over V, positive from the rolling direction towards the field "
              "side; half-space engine",

@@ -20,6 +20,12 @@ struct VehicleSpec {
                                    ///< and does not add inertia to it)
 };
 
+/// What the creepages of a case are of.
+enum class CreepageOf {
+  contact,  ///< the contact that touches first, in its plane
+  wheel     ///< the wheel: longitudinal of its tape circle, lateral of the wheel sideways, level
+};
+
 /// Each direction is driven by a force or by a creepage. Forces act on the wheel, creepages are rigid slips of the
 /// wheel over the rail divided by the speed; lateral ones lie in the contact plane.
 struct DriveSpec {
@@ -28,6 +34,7 @@ struct DriveSpec {
   std::optional<double> creepage;                                        ///< longitudinal: negative drives
   std::optional<double> lateral_creepage, lateral_traction_coefficient;  ///< at most one; neither: no lateral creepage
   std::optional<double> spin;                                            ///< 1/m; if not given, of the geometry
+  CreepageOf creepage_of = CreepageOf::contact;
   double friction_coefficient = 0.5;
   double torque_ramp = 4e-3;    ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
   double creepage_start = 0.0;  ///< longitudinal creepage at the start, (V - omega r)/V: negative drives

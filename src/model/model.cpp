@@ -14,6 +14,7 @@
 #include "geometry/read_profile.hpp"
 #include "halfspace/line_contact.hpp"
 #include "mesh/quality.hpp"
+#include "model/drive_at_contact.hpp"
 #include "model/model_on_rail.hpp"
 #include "model/stretches.hpp"
 
@@ -42,6 +43,8 @@ LayerMesh mesh_of(const CaseSpec& spec, const LayerSpec& l) {
   LayerMesh out{l.name, l.thickness, width_of(spec, l), spec.mesh.elements_through_layer_one ? 1 : l.elements};
   out.from = l.begin();
   out.to = l.end();
+  for (const UnbondedStretch& s : l.unbonded) out.unbonded.push_back({s.from, s.to});
+  out.unbonded_friction = l.unbonded_friction;
   return out;
 }
 
@@ -87,6 +90,7 @@ std::vector<Row> rows_on(const CaseSpec& spec, BodyId body) {
       row.thickness = l.thickness / rows;
       row.elements = 1;
       row.continues = k + 1 < rows;
+      if (row.continues) row.unbonded.clear();
       const double in = taper_at(spec, l, l.thickness * (k + 0.5) / rows);
       row.from += in;
       row.to -= in;
@@ -102,12 +106,14 @@ std::vector<LayerMesh> layer_meshes(const CaseSpec& spec, BodyId body) {
   return out;
 }
 
-/// Where layers begin and end and stretches jump, in increasing order, m.
+/// Where layers begin, end and come off, and where stretches jump, in increasing order, m.
 std::vector<double> planes_of(const CaseSpec& spec, BodyId body, const std::vector<LayerMesh>& layers) {
   std::vector<double> out;
-  for (const LayerMesh& l : layers)
+  for (const LayerMesh& l : layers) {
     for (const double x : {l.from, l.to})
       if (std::isfinite(x)) out.push_back(x);
+    for (const SweepRange& stretch : l.unbonded) out.insert(out.end(), {stretch.from, stretch.to});
+  }
   for (const StretchSpec& stretch : spec.stretches)
     for (std::size_t i = 1; stretch.on == body && i < stretch.along.size(); ++i)
       if (const double a = stretch.along[i - 1].x, b = stretch.along[i].x; b - a < 0.5 * spec.mesh.element_size)
@@ -275,6 +281,25 @@ double end_length(const CaseSpec& spec, double begin, double end) {
   return out;
 }
 
+/// At rest layers are bonded everywhere: a stretch that has come off lies where the wheel at its start is not felt.
+void refuse_unbonded_at_start(const CaseSpec& spec, double semi_axis, double rail_end) {
+  constexpr double kFelt = 6;  // semi-axes of the patch
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    for (const UnbondedStretch& stretch : spec.layers[i].unbonded) {
+      const std::string key = fmt::format("layer.{}.unbonded", i);
+      if (stretch.from < kFelt * semi_axis)
+        throw CaseError(
+            fmt::format("a stretch begins at {:.1f} mm: the wheel starts on a bonded layer, and is felt as far as six "
+                        "times its patch's half length, {:.1f} mm",
+                        1e3 * stretch.from, 1e3 * kFelt * semi_axis),
+            "put the stretch farther on", key);
+      if (stretch.to >= rail_end)
+        throw CaseError(fmt::format("a stretch ends at {:.1f} mm, where the rail has ended: {:.1f} mm",
+                                    1e3 * stretch.to, 1e3 * rail_end),
+                        "let it end before, or give more run.positions or mesh.end_length", key);
+    }
+}
+
 /// rail: not null: its mesh.
 Model build(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail) {
   refuse_beyond_elements(spec);
@@ -292,6 +317,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   m.rail_at_surface = materials_at_surface(spec, BodyId::rail, m.rail_materials);
   m.wheel_at_surface = materials_at_surface(spec, BodyId::wheel, m.wheel_materials);
   const RigidContact& contact = m.placement.contact;
+  m.spec = with_drive_at_contact(std::move(m.spec), contact);
   m.hertz = hertz_estimate(spec, contact);
   const double last = spec.run.rolling ? *std::max_element(spec.run.positions.begin(), spec.run.positions.end()) : 0.0;
   m.x_end = spec.run.rolling ? last + 0.5 * spec.run.window : 0.0;
@@ -310,6 +336,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   rail.x_begin = -margin;
   rail.x_end = m.x_end + margin;
   rail.end_length = end_length(spec, rail.x_begin, rail.x_end);
+  refuse_unbonded_at_start(spec, m.hertz.a, rail.x_end + rail.end_length);
   rail.block_width = g.block_width;
   rail.block_height = g.block_height;
   rail.layers = layer_meshes(spec, BodyId::rail);
@@ -331,8 +358,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   m.wheel =
       mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);
   add_stretches(m);
-  require_sound_mesh(m.rail, BodyId::rail, spec);
-  require_sound_mesh(m.wheel, BodyId::wheel, spec);
+  for (const BodyId id : kBodies) require_sound_mesh(id == BodyId::rail ? m.rail : m.wheel, id, spec);
   return m;
 }
 

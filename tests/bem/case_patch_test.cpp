@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "geometry/wheelset.hpp"
+#include "model/drive_at_contact.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -64,6 +67,58 @@ TEST(LocalSpin, IsTheVelocityOfTheWheelAlongTheSurfaceAtEachPlace) {
   }
   EXPECT_GT(turns, 0.03);
   EXPECT_NEAR(spin[24], 0, 1e-3 * std::abs(wheel_spin(c))) << "the rigid contact point has the patch's own";
+}
+
+// On tread and flange, in a curve: from one contact to the other, and from the wheel to both, as the velocities of the
+// rigid wheelset are, but for products of creepages (1e-3 and r/r0 - 1 = 0.01) and the axle's turning by 1/r for V/r0.
+TEST(CarryCreepages, FollowsTheVelocitiesOfARigidWheelset) {
+  CaseSpec spec;
+  spec.geometry.rail_profile = "UIC60";
+  spec.geometry.wheel_profile = "S1002";
+  spec.geometry.gauge_depth = 14e-3;
+  spec.geometry.wheel_radius = 0.46;
+  spec.geometry.back_to_back = 1.36;
+  spec.geometry.cant = 0.025;
+  const auto contact_at = [&](double shift) {
+    spec.geometry.lateral_shift = shift;
+    return place(spec, {}).contact;
+  };
+  const RigidContact tread = contact_at(3e-3);
+  RigidContact flange = contact_at(6.5e-3);
+  const double moved = flange.wheel_offset_y - tread.wheel_offset_y;  // as places of one wheel
+  flange.point.y -= moved;
+  flange.wheel_offset_y -= moved;
+  ASSERT_LT(tread.angle, 0.1);
+  ASSERT_GT(flange.angle, 0.4);
+  constexpr double kSpeed = 20, kRadius = -800, kPitch = 0.05, kSideways = -0.02;  // m/s, m, rad/s, m/s
+  const Placement placement = place(spec, {});
+  const auto slip = [&](const RigidContact& c) {
+    WheelsetMotion m{.speed = kSpeed, .yaw_rate = kSpeed / kRadius, .pitch_rate = kPitch};
+    m.y_rate = kSideways;
+    m.z_rate = kSideways * std::tan(c.angle);  // along the surface: it cannot move into the rail
+    return slip_at(placement.track, c, m, {});
+  };
+  const WheelSlip from = slip(tread), to = slip(flange);
+  RollingContact problem;
+  problem.x.creepage = from.creepage_x;
+  problem.y.creepage = from.creepage_y;
+  carry_creepages(1 / kRadius, tread, flange, problem);
+  EXPECT_NEAR(problem.x.creepage, to.creepage_x, 2e-5);
+  EXPECT_NEAR(problem.y.creepage, to.creepage_y, 1e-12);
+  EXPECT_NEAR(problem.spin, to.spin, 0.02 * std::abs(to.spin));
+
+  spec.geometry.curve_radius = kRadius;
+  spec.drive.creepage_of = CreepageOf::wheel;
+  spec.drive.creepage =
+      -(kPitch * spec.geometry.wheel_radius + kSpeed / kRadius * tape_circle_distance(placement.track)) / kSpeed;
+  spec.drive.lateral_creepage = kSideways / kSpeed;
+  for (const RigidContact& c : {tread, flange}) {
+    const CaseSpec there = with_drive_at_contact(spec, c);
+    EXPECT_EQ(there.drive.creepage_of, CreepageOf::contact);
+    EXPECT_NEAR(there.drive.creepage.value(), slip(c).creepage_x, 2e-5);
+    EXPECT_NEAR(there.drive.lateral_creepage.value(), slip(c).creepage_y, 1e-12);
+  }
+  EXPECT_GT(std::abs(from.creepage_x - to.creepage_x), 1e-3);
 }
 
 TEST(DriveContact, GivesEachDirectionAForceOrACreepage) {

@@ -327,6 +327,42 @@ TEST(SeveralPatches, InOnePlaneAreTheSameWhicheverIsFirst) {
   EXPECT_NEAR(before.force.moment, after.force.moment, 1e-3 * std::abs(before.force.moment));
 }
 
+// A shift of a nanometre, at which the wheel touches first at another of its two places, changes nothing where
+// creepages are of the wheel; as those of the first contact they are of another motion.
+TEST(SeveralPatches, CreepagesOfTheWheelAreTheSameWhicheverIsFirst) {
+  CaseSpec spec = driven(0);
+  spec.geometry.wheel_profile = "S1002";
+  spec.geometry.rail_profile = "UIC60";
+  spec.geometry.gauge_depth = 14e-3;
+  spec.geometry.back_to_back = 1.36;
+  spec.geometry.wheel_radius = 0.46;
+  spec.geometry.cant = 0.025;
+  spec.drive.creepage = -1e-3;
+  spec.drive.lateral_creepage = 1e-3;
+  const auto at = [&](double shift) {
+    spec.geometry.lateral_shift = shift;
+    return place(spec, {});
+  };
+  double low = 3e-3, high = 6.5e-3;
+  const double between = 0.3;  // rad
+  ASSERT_LT(at(low).contact.angle, between);
+  ASSERT_GT(at(high).contact.angle, between);
+  while (high - low > 1e-9) (at(0.5 * (low + high)).contact.angle < between ? low : high) = 0.5 * (low + high);
+  BemOptions options;
+  options.cell = 1e-3;
+  const auto change = [&](CreepageOf of) {
+    spec.drive.creepage_of = of;
+    const Placement before = at(low);
+    const BemResult one = solve_bem(spec, before, options);
+    EXPECT_EQ(one.further.size(), 1U);
+    const Placement after = at(high);
+    const Vec3 d = force_on_rail(solve_bem(spec, after, options)) - force_on_rail(one);
+    return std::hypot(d.x, d.y) / static_load(spec);
+  };
+  EXPECT_LT(change(CreepageOf::wheel), 2e-4);
+  EXPECT_GT(change(CreepageOf::contact), 0.05);
+}
+
 TEST(SeveralPatches, ALateralCreepageIsCommonToAll) {
   CaseSpec spec = driven(0);
   spec.drive.lateral_creepage = 1e-3;

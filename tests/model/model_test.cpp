@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -92,6 +93,34 @@ TEST(BuildModel, RefusesWhatOnlyTheHalfSpaceEngineTakes) {
       EXPECT_NE(std::string(e.what()).find("`railstrata bem` takes it"), std::string::npos) << e.what();
     }
   }
+}
+
+TEST(BuildModel, AnUnbondedStretchLiesBeyondTheReachOfTheWheelAtItsStart) {
+  CaseSpec spec = crossed_cylinders();
+  spec.run.rolling = true;
+  spec.run.positions = {0.1};
+  spec.run.window = 0;
+  spec.layers.push_back({});
+  spec.layers[0].thickness = 3e-3;
+  const double reach = 6 * hertz_estimate(spec, place(spec, {}).contact).a;
+  const auto refusal = [&](double from, double to) {
+    spec.layers[0].unbonded = {{from, to}};
+    try {
+      build_model(spec, {});
+    } catch (const CaseError& e) {
+      return std::string(e.what());
+    }
+    return std::string("taken");
+  };
+  EXPECT_NE(refusal(reach - 1e-3, 0.09).find("put the stretch farther on"), std::string::npos);
+  EXPECT_NE(refusal(reach + 1e-3, 5).find("where the rail has ended"), std::string::npos);
+  EXPECT_EQ(refusal(reach + 1e-3, 0.09), "taken");
+  spec.layers[0].unbonded = {{reach + 1e-3, 0.09}};
+  const Model model = build_model(spec, {});
+  const SweptBody& rail = model.rail;
+  EXPECT_EQ(rail.interfaces.at(0).friction, spec.layers[0].unbonded_friction);
+  const std::vector<double>& at = rail.blocks[static_cast<std::size_t>(rail.contact.block)].stations.at;
+  for (const double x : {reach + 1e-3, 0.09}) EXPECT_NE(std::find(at.begin(), at.end(), x), at.end()) << x;
 }
 
 TEST(StaticLoad, IsTheWeightOfWheelAndSprungMass) {

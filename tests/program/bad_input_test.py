@@ -23,7 +23,7 @@ class InTheCase(Refusal):
         self.answers('[drive]\nsped = "20 m/s"\n', "FOLDER/case.toml:2:1: error: unknown key drive.sped",
                      "did you mean speed? keys of [drive]: speed, rail_rotation, traction_coefficient, tractive_force, "
                      "friction_coefficient, torque_ramp, creepage_start, creepage, wheel_rotation, lateral_force, "
-                     "lateral_traction_coefficient, lateral_creepage, spin")
+                     "lateral_traction_coefficient, lateral_creepage, creepage_of, spin")
 
     def test_a_wrong_unit(self):
         self.answers('[mesh]\nelement_size = "1 MPa"\n',

@@ -61,6 +61,7 @@ const std::map<std::string, std::string>& others() {
       {"vehicle.approach", "half-space engine"},
       {"drive.spin", "half-space engine"},
       {"geometry.rail_radius", "refused: CaseFile.TellsWhatTheFiniteElementsDoNotDoWithItsPlace"},
+      {"drive.creepage_of", "the model's"},
       {"drive.rail_rotation", "another word for drive.speed"},
       {"drive.wheel_rotation", "another word for drive.creepage"},
       {"third_body.residual_shear", "half-space engine"},
