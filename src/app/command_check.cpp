@@ -240,14 +240,15 @@ ExitCode check_without_mesh(const LoadedCase& loaded, bool json) {
 Model model_for_run(const LoadedCase& loaded) {
   try {
     return build_model(loaded.spec, loaded.folder());
-  } catch (const CaseError&) {
+  } catch (const CaseError& e) {
     const RigidContact c = place(loaded.spec, loaded.folder()).contact;
     spdlog::info(
         "the bodies touch at y = {:.3f} mm, z = {:.3f} mm, at an angle of {:.1f} degrees; `railstrata bem` makes no "
         "mesh "
         "and takes the case, `railstrata run` refuses it:",
         1e3 * c.point.y, 1e3 * c.point.z, c.angle * 180 / std::numbers::pi);
-    throw;
+    if (e.diagnostics.front().where.empty()) throw;
+    throw in_case_file(loaded, e);
   }
 }
 

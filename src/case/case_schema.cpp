@@ -48,10 +48,10 @@ struct TypeSchema {
     if (option.form == RowForm::one_named) return named_schema();
     if (option.form == RowForm::named) return {{"type", "array"}, {"items", named_schema()}};
     const std::size_t width = option.columns.size();
-    const bool texts = option.form == RowForm::by_depth;
+    const bool ranges = option.form == RowForm::ranges, texts = ranges || option.form == RowForm::by_depth;
     const Json item = texts ? Json{{"type", "string"}} : Json{{"type", {"string", "number"}}};
     return {{"type", "array"},
-            {"minItems", 2},
+            {"minItems", ranges ? 0 : 2},
             {"items", {{"type", "array"}, {"minItems", width}, {"maxItems", width}, {"items", item}}}};
   }
   Json operator()(const std::vector<double>*) const {

@@ -64,22 +64,40 @@ void refuse_irregularities(const CaseSpec& spec, std::vector<BeyondEngine>& out)
   }
 }
 
+/// Of the rail's layers; layer_rules.cpp has those of a wheel.
+bool any_unbonded(const CaseSpec& spec) {
+  return std::any_of(spec.layers.begin(), spec.layers.end(), [](const LayerSpec& l) { return !l.unbonded.empty(); });
+}
+
+/// Stretches of a layer that have come off: what moves their two sides one by one.
+void refuse_unbonded(const CaseSpec& spec, std::vector<BeyondEngine>& out) {
+  if (!any_unbonded(spec)) return;
+  const auto refuse = [&](bool asked, const char* key, const char* why, const char* remedy) {
+    if (asked)
+      out.push_back({key, fmt::format("{} with an unbonded layer is not in this engine: {}", key, why), remedy});
+  };
+  const TimeStepMethod method = spec.run.time_step_method;
+  refuse(!spec.run.rolling, "run.rolling", "a wheel at rest stands beside the stretch, and does not feel it",
+         "give run.rolling = true, or take unbonded out");
+  refuse(method != TimeStepMethod::automatic && method != TimeStepMethod::uniform, "run.time_step_method",
+         "the two sides of the interface meet with the masses that they have, once a step",
+         "give time_step_method = \"uniform\"");
+}
+
 /// Layers that begin and end, and stretches: what is written while the wheel passes their ends, and what knows bodies
 /// that are the same all along only.
 void refuse_changes_along(const CaseSpec& spec, std::vector<BeyondEngine>& out) {
   const bool ends = std::any_of(spec.layers.begin(), spec.layers.end(), [](const LayerSpec& l) { return l.ends(); });
-  if (!ends && spec.stretches.empty()) return;
+  const bool unbonded = any_unbonded(spec);
+  if (!ends && !unbonded && spec.stretches.empty()) return;
+  const char* const changes = ends ? "a layer that ends" : unbonded ? "an unbonded layer" : "a [[stretch]]";
   const auto refuse = [&](bool asked, const std::string& key, const char* why, const char* remedy) {
-    if (asked)
-      out.push_back(
-          {key,
-           fmt::format("{} with {} is not in this engine: {}", key, ends ? "a layer that ends" : "a [[stretch]]", why),
-           remedy});
+    if (asked) out.push_back({key, fmt::format("{} with {} is not in this engine: {}", key, changes, why), remedy});
   };
   refuse(spec.geometry.rail_radius.has_value(), "geometry.rail_radius", "a roller is the same all round",
-         "take from and to of layers and [[stretch]] out");
-  refuse(spec.run.device != ComputeDevice::cpu, "run.device", "a device has one material for a row of elements",
-         "give run.device = \"cpu\"");
+         "take from, to and unbonded of layers and [[stretch]] out");
+  refuse(spec.run.device != ComputeDevice::cpu, "run.device",
+         "a device has one material for a row of elements, and layers that hold", "give run.device = \"cpu\"");
   refuse(spec.run.rolling && spec.run.window > 0, "run.window",
          "the mean over a stretch of the way is no state of a rail that varies along it", kNoWindow);
   const auto refuse_stress = [&](const std::string& table, const MaterialSpec& material) {
@@ -114,6 +132,7 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   refuse_on_ring(spec, out);
   refuse_irregularities(spec, out);
   refuse_changes_along(spec, out);
+  refuse_unbonded(spec, out);
   beyond(g.roll != 0, "geometry.roll", "a roll of the wheelset", "the wheel is meshed upright");
   if (!spec.run.rolling) return out;
   if (spec.friction.law != FrictionForm::coulomb && !(spec.friction.memory_distance > 0))
@@ -145,12 +164,18 @@ void require_half_spaces(const CaseSpec& spec) {
   if (!spec.track.held())
     throw CaseError("half-spaces have no inertia, and no track below them",
                     "take [track] out, or roll over it with `railstrata run`", "track.preset");
-  for (std::size_t i = 0; i < spec.layers.size(); ++i)
-    if (const LayerSpec& layer = spec.layers[i]; layer.ends())
+  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
+    const LayerSpec& layer = spec.layers[i];
+    if (!layer.unbonded.empty())
+      throw CaseError(
+          fmt::format("layer \"{}\" has come off in a stretch; the layers of half-spaces are bonded", layer.name),
+          "take its unbonded out, or roll over it with `railstrata run`", fmt::format("layer.{}.unbonded", i));
+    if (layer.ends())
       throw CaseError(fmt::format("layer \"{}\" ends along the {}; the layers of half-spaces are endless", layer.name,
                                   body_word(layer.on)),
                       "take its from and to out, or roll over its ends with `railstrata run`",
                       fmt::format("layer.{}.{}", i, layer.from ? "from" : "to"));
+  }
   if (!spec.stretches.empty())
     throw CaseError("half-spaces are the same all along, and the case has a [[stretch]]",
                     "take it out, or roll over it with `railstrata run`", "stretch");

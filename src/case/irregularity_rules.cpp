@@ -166,8 +166,9 @@ void require_fine_enough(const CaseSpec& spec, double size, const char* what, co
 
 std::string varying_key(const CaseSpec& spec) {
   if (!spec.irregularities.empty()) return "irregularity";
-  const auto ends = std::find_if(spec.layers.begin(), spec.layers.end(), [](const LayerSpec& l) { return l.ends(); });
-  if (ends != spec.layers.end()) return fmt::format("layer.{}", ends - spec.layers.begin());
+  const auto changes =
+      std::find_if(spec.layers.begin(), spec.layers.end(), [](const LayerSpec& l) { return l.changes_along(); });
+  if (changes != spec.layers.end()) return fmt::format("layer.{}", changes - spec.layers.begin());
   return spec.stretches.empty() ? "" : "stretch";
 }
 
@@ -182,14 +183,13 @@ void require_same_along(const CaseSpec& spec, const char* what) {
   const std::string key = varying_key(spec);
   if (key.empty()) return;
   const bool heights = !spec.irregularities.empty();
-  throw CaseError(
-      fmt::format("{} is of a rail and a wheel that are the same all along: the case has {}", what,
-                  heights ? "an [[irregularity]]" : "a layer that ends, or a [[stretch]]"),
-      heights
-          ? "take it out; half-spaces roll over it with transient.kind = \"rolling\", the finite "
-            "elements with `railstrata run`"
-          : "take from and to of layers and [[stretch]] out; the finite elements roll over them with `railstrata run`",
-      key);
+  throw CaseError(fmt::format("{} is of a rail and a wheel that are the same all along: the case has {}", what,
+                              heights ? "an [[irregularity]]" : "a layer that ends or is unbonded, or a [[stretch]]"),
+                  heights ? "take it out; half-spaces roll over it with transient.kind = \"rolling\", the finite "
+                            "elements with `railstrata run`"
+                          : "take from, to and unbonded of layers and [[stretch]] out; the finite elements roll over "
+                            "them with `railstrata run`",
+                  key);
 }
 
 void read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec, std::size_t index) {

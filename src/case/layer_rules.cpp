@@ -56,6 +56,23 @@ void check_ends(const CaseSpec& spec, std::size_t i, CaseSource& source) {
                     "a wheel is round: give both ends of the layer");
 }
 
+/// Stretches where the layer has come off: of the rail, where the layer is as thick as it is.
+void check_unbonded(const CaseSpec& spec, std::size_t i, CaseSource& source) {
+  const LayerSpec& layer = spec.layers[i];
+  const std::string key = key_of(i, "unbonded");
+  if (layer.unbonded.empty() || !source.sound({key, key_of(i, "from"), key_of(i, "to")})) return;
+  if (layer.on == BodyId::wheel)
+    return source.complain(key, fmt::format("{} is of layers of the rail: this one is on the wheel", key),
+                           "take it out, or give on = \"rail\"");
+  const double begin = layer.begin() + layer.taper_length, end = layer.end() - layer.taper_length;
+  for (std::size_t k = 0; k < layer.unbonded.size(); ++k)
+    if (layer.unbonded[k].from < begin || layer.unbonded[k].to > end)
+      return source.complain(fmt::format("{}.{}", key, k),
+                             fmt::format("{} reaches from {} to {}: the layer is not there, or tapers", key,
+                                         way_text(layer.unbonded[k].from), way_text(layer.unbonded[k].to)),
+                             "let it lie between from and to of the layer, without the taper_length at these ends");
+}
+
 /// Layers of a body of which any ends are meshed as one stack.
 void check_widths(const CaseSpec& spec, BodyId body, CaseSource& source) {
   std::vector<std::size_t> on;
@@ -86,6 +103,7 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
   for (std::size_t i = 0; i < spec.layers.size(); ++i) {
     check_name(spec, i, source);
     check_ends(spec, i, source);
+    check_unbonded(spec, i, source);
   }
   for (const BodyId body : kBodies) check_widths(spec, body, source);
   for (std::size_t i = 0; i < spec.stretches.size(); ++i) check_stretch(spec.stretches[i], i, source);

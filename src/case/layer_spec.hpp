@@ -24,6 +24,13 @@ struct ModulusPoint {
 
 inline std::array<double*, 2> columns(ModulusPoint& p) { return {&p.depth, &p.young}; }
 
+/// A stretch along the rail where a layer has come off its base, m.
+struct UnbondedStretch {
+  double from = 0, to = 0;
+};
+
+inline std::array<double*, 2> columns(UnbondedStretch& s) { return {&s.from, &s.to}; }
+
 /// m, of a layer's thickness: the range of a case, and from where on finite elements take it.
 inline constexpr double kThinnestLayer = 0.01e-3, kThickestLayer = 50e-3, kThinnestMeshedLayer = 0.05e-3;
 
@@ -40,8 +47,11 @@ struct LayerSpec {
   /// m, along the rail, of the wheel along its arc from the first contact; not given: endless to that side.
   std::optional<double> from, to;
   double taper_length = 0;  ///< m, over which the thickness runs out at these ends, within them; 0: a step
+  std::vector<UnbondedStretch> unbonded;  ///< in order, apart from each other; empty: bonded all along
+  double unbonded_friction = 0.3;         ///< Coulomb's coefficient on the interface there
   bool graded() const { return !young_table.empty(); }
   bool ends() const { return from || to; }
+  bool changes_along() const { return ends() || !unbonded.empty(); }
   double begin() const { return from.value_or(-std::numeric_limits<double>::infinity()); }
   double end() const { return to.value_or(std::numeric_limits<double>::infinity()); }
 };

@@ -21,6 +21,7 @@ double of_matrix_modulus(const CaseSpec& spec, std::size_t index, double ratio) 
 
 bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).graded(); }
 bool ends(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).ends(); }
+bool unbonded(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).unbonded.empty(); }
 bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).graded(); }
 
 // Thickness, Poisson's ratio and the ratio of moduli: what tests/bem/layer_range_test.cpp and
@@ -98,7 +99,17 @@ OptionTable layer_table() {
               "Over which the thickness runs out at from and to, within them; 0: a step. In steps of the rows of "
               "elements through the layer",
               kLength, {0, 20})
-           .where(ends)},
+           .where(ends),
+       option(
+           "unbonded", layer<&L::unbonded>,
+           "Finite elements, rail: stretches where the layer has come off its base. The interface bears pressure and "
+           "friction there and no tension, across the fine columns of the mesh (mesh.fine_width) that the layer has, "
+           "but for its edges")
+           .with_rows(RowForm::ranges, {column("from", "", kLength, kLayerWay), column("to", "", kLength, kLayerWay)},
+                      R"([["180 mm", "192 mm"]])"),
+       option("unbonded_friction", layer<&L::unbonded_friction>, "Coulomb's coefficient on the interface there",
+              kNumber, {0, 2})
+           .where(unbonded)},
       list_of<&C::layers>(),
       strength_rivals()};
   const std::vector<Option> modulus = layer_modulus_options();

@@ -119,6 +119,7 @@ struct Derivation {
 enum class RowForm {
   by_depth,  ///< [["0 mm", "400 MPa"], ["5 mm", "300 MPa"]]
   by_value,  ///< the same from anywhere on: [["-20 mm", 0.2], ["10 mm", 0.4]]
+  ranges,    ///< [["180 mm", "192 mm"]]: from and to, one after the other
   named,     ///< [{ modulus = "60 GPa", recall = 250 }]: the keys are those of the columns
   one_named  ///< { saturation = "80 MPa", rate = 12 }
 };

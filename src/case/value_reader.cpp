@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "case/toml_document.hpp"
@@ -114,8 +115,9 @@ class ValueReader {
       if (c.word == *value) return target.set(c.value);
     const std::string near = nearest_word(*value, choices_of(w.option));
     source_.complain(w.key, fmt::format("{} = \"{}\": must be {}", w.key, *value, wanted(w.option)),
-                     near.empty() ? fmt::format("write {} = \"{}\"", w.option.key, w.option.choices.front().word)
-                                  : fmt::format("did you mean \"{}\"?", near));
+                     near.empty()
+                         ? fmt::format("write {} = \"{}\"", w.option.key, fmt::join(choices_of(w.option), "\" or \""))
+                         : fmt::format("did you mean \"{}\"?", near));
   }
 
   void assign(const WrittenValue& w, std::vector<double>* target) {
@@ -214,8 +216,24 @@ class ValueReader {
     return sound;
   }
 
+  /// Every range ends beyond its beginning, the next one begins beyond its end.
+  bool fit_as_ranges(const std::string& key, const RowsSlot::Rows& rows) {
+    double last = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (const double at : rows[i]) {
+        if (!(at > last)) {
+          source_.complain(fmt::format("{}.{}", key, i), fmt::format("{}: places must increase from row to row", key),
+                           "write from and to of each, one after the other; join those that meet");
+          return false;
+        }
+        last = at;
+      }
+    return true;
+  }
+
   /// At least two rows, in order, by depth from 0 down.
   bool fits(const Option& option, const std::string& key, const RowsSlot::Rows& rows) {
+    if (option.form == RowForm::ranges) return fit_as_ranges(key, rows);
     const auto refuse = [&](const std::string& at, const std::string& what, const std::string& remedy) {
       source_.complain(at, what, remedy);
       return false;

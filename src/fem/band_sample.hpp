@@ -18,6 +18,8 @@ struct BandSample {
   std::vector<ElementPlasticity> plastic;  ///< of the elements, as stress; empty where nothing may yield
   std::vector<Vec3> displacement;  ///< of the nodes, m, model frame, without the wheel's rigid motion; index (station *
                                    ///< (rows + 1) + row) * (columns + 1) + column
+  std::vector<Vec3> below;         ///< the same of the nodes below split interfaces; station by station, in the order
+                                   ///< of nodes_below (mesh/split_interface.hpp)
 };
 
 }  // namespace railstrata

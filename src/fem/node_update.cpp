@@ -46,11 +46,9 @@ struct BodyUpdate {
   bool measured;  // with run-up damping and sums
 };
 
-// The run-up damping would drag on the bending of a rail on a track, which travels with the wheel; pads damp it.
 BodyUpdate update_of(RollingBody& b, BodyState& state, const StepScope& scope) {
-  const double rate = b.body.mesh.on_pads.empty() ? scope.damping_rate : 0.0;
   const auto step = b.turns() ? node_step<SweepKind::revolve> : node_step<SweepKind::extrude>;
-  return {b, state, step(b.frame, b.mean, scope.dt, rate, scope.gravity), scope.sums_wanted()};
+  return {b, state, step(b.frame, b.mean, scope.dt, damping_of(b, scope), scope.gravity), scope.sums_wanted()};
 }
 
 UpdateSums update_sums(const NodeSums& s) { return {0.5 * s.twice_kinetic, s.power, s.px, s.pz, s.angular}; }
@@ -198,6 +196,10 @@ UpdateSums complete_planes(const BodyUpdate& of, const Chain& chain) {
 }
 
 }  // namespace
+
+double damping_of(const RollingBody& body, const StepScope& scope) {
+  return body.body.mesh.on_pads.empty() ? scope.damping_rate : 0.0;
+}
 
 void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
                        const StepScope& scope, RankExchange* exchange) {

@@ -22,6 +22,10 @@ struct StepScope {
   }
 };
 
+/// Rate of a body's run-up damping [1/s]. It would drag on the bending of a rail on a track, which travels with the
+/// wheel; pads damp it.
+double damping_of(const RollingBody& body, const StepScope& scope);
+
 class RankExchange;
 
 /// Internal forces of both bodies at their displacements; drift: rotation of the body relative to its frame [rad].

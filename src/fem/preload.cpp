@@ -12,6 +12,7 @@
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "fem/static_preconditioner.hpp"
+#include "mesh/split_interface.hpp"
 
 namespace railstrata {
 namespace {
@@ -370,10 +371,19 @@ class Preload {
   std::vector<char> active_;
 };
 
+// At rest layers are bonded everywhere. Fields of both systems have the same places.
+RollingSystem bonded(const RollingSystem& system) {
+  Model model = system.model;
+  model.rail = bonded(std::move(model.rail));
+  return RollingSystem(model);
+}
+
 }  // namespace
 
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress,
                             const ClusterSizes& clusters, const RailBefore* before, const Ranks& ranks) {
+  if (!system.rail().mesh.interfaces.empty())
+    return solve_preload(bonded(system), tolerance, progress, clusters, before, ranks);
   const auto start = std::chrono::steady_clock::now();
   PreloadResult result = Preload(system, clusters, before, ranks).solve(tolerance, progress);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "fem/contact_law.hpp"
+#include "mesh/split_interface.hpp"
 
 namespace railstrata {
 namespace {
@@ -38,6 +39,11 @@ UpdateSchedule schedule_of(const Body& body, const ContactSurface& surface, cons
   };
   for (int c = 0; c < surface.columns; ++c) wait(mesh.contact.block, c);
   for (const SectionNode& n : mesh.on_pads) wait(n.block, n.node);
+  for (const SplitInterface& interface : mesh.interfaces)
+    each_pair(interface, mesh.contact, [&](int above, int below) {
+      wait(mesh.contact.block, above);
+      wait(mesh.contact.block, below);
+    });
   for (const Tie& t : mesh.ties) {
     wait(t.master_block, t.master_node0);
     wait(t.master_block, t.master_node1);

@@ -8,6 +8,7 @@
 #include "body/plastic_field.hpp"
 #include "body/stress.hpp"
 #include "core/rotation.hpp"
+#include "mesh/split_interface.hpp"
 
 namespace railstrata {
 namespace {
@@ -106,9 +107,14 @@ BandSample band_sample(const Body& body, const ContactBand& band, const SampledB
     }
   }
   const RigidMotion motion(pose, yaw_turn);
-  for (int k = 0; k <= s.stations; ++k)
-    for (int n = 0; n < (band.rows + 1) * (band.columns + 1); ++n)
-      s.displacement.push_back(elastic_displacement(body, at.u, {band.block, n}, planes.station(plane(k)), motion));
+  const std::vector<int> below = nodes_below(body.mesh);
+  for (int k = 0; k <= s.stations; ++k) {
+    const auto of = [&](int node) {
+      return elastic_displacement(body, at.u, {band.block, node}, planes.station(plane(k)), motion);
+    };
+    for (int n = 0; n < (band.rows + 1) * (band.columns + 1); ++n) s.displacement.push_back(of(n));
+    for (int n : below) s.below.push_back(of(n));
+  }
   return s;
 }
 
@@ -246,7 +252,8 @@ HistoryRow history_row(const Stepper& st, const EnergyBalance& start) {
           sleeper_below(st),
           patch_on_way(st),
           stress_on_way(st),
-          stress_at_points(st)};
+          stress_at_points(st),
+          st.interface_gap()};
 }
 
 }  // namespace railstrata

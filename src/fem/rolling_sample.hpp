@@ -44,6 +44,7 @@ struct HistoryRow {
   PatchOnWay way;            ///< over what changes along rail or wheel
   StressOnWay stress;        ///< the same
   std::vector<WatchedStress> points;
+  InterfaceGap interface;  ///< between layers that have come off and their base
 };
 
 /// A body as it is sampled.

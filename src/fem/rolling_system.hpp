@@ -103,7 +103,8 @@ struct RollingSystem {
   /// Whether surfaces or materials change along the way.
   bool varies_along() const {
     const auto varies = [](const ContactSurface& surface, const Body& body) {
-      return !surface.heights.none() || !body.mesh.blocks[body.mesh.contact.block].along.empty();
+      return !surface.heights.none() || !body.mesh.blocks[body.mesh.contact.block].along.empty() ||
+             !body.mesh.interfaces.empty();
     };
     return varies(rail_surface(), rail()) || varies(wheel_surface(), wheel());
   }

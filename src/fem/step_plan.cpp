@@ -74,7 +74,7 @@ StepPlan::StepPlan(const RollingSystem& sys) {
   limits.unscaled = limits.lanczos = std::min(parts[0].own, parts[1].own);
   if (spec.run.time_step_method == TimeStepMethod::local)
     refine_steps(parts, spec);
-  else if (spec.run.time_step_method != TimeStepMethod::uniform)
+  else if (spec.run.time_step_method != TimeStepMethod::uniform && sys.rail().mesh.interfaces.empty())
     scale_masses(parts, spec);
   double least = limits.lanczos;
   if (spec.contact.method == ContactMethod::penalty) {

@@ -55,13 +55,17 @@ Stepper::Stepper(const RollingSystem& system, const Ranks& ranks)
       plan_(system),
       bodies_(rolling_bodies(system, plan_, ranks)),
       contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)),
-      track_(system.pads) {
+      track_(system.pads),
+      interface_(system.rail()) {
   require_stable(system.pads, system.rail(), dt(), system.model.spec.run.step_safety);
   if (!ranks.alone() && sys_.on_ring())
     throw CaseError(
         "a rail that is a ring (geometry.rail_radius) is not shared by ranks: they exchange what stands "
         "around a wheel that travels along a straight rail",
         "run the case in one process");
+  if (!ranks.alone() && !interface_.none())
+    throw CaseError("an unbonded layer (layer.unbonded) is not shared by ranks: its two sides meet in one process",
+                    "run the case in one process");
   if (!ranks.alone()) exchange_.emplace(ranks, system.model, bodies_);
 }
 
@@ -188,11 +192,13 @@ void Stepper::step() {
   scope.lap(StepPart::tie_forces);
   if (!sys_.pads.none())
     track_.press(state_.bodies[kRail].u, state_.bodies[kRail].v, dt(), state_.sleepers, state_.bodies[kRail].f);
+  interface_.join(state_.bodies[kRail].f);
   absorb_at_ends();
   const AxleLoads loads = bore_loads(sys_.axle.bore, state_.bodies[kWheel].f, rotation_by(turned[kWheel]),
                                      tie_moment[kWheel], bodies_[kWheel].frame);
   if (sys_.on_ring()) book_ring_drive(tie_moment[kRail]);
   for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].steps.scaling.scale(state_.bodies[k].f);
+  press_interface(scope);
   scope.lap(StepPart::ends);
 
   contact_.find_rows(state_.step, bodies_, state_.bodies, pose, state_.tractions);
@@ -296,6 +302,15 @@ void Stepper::book_track() {
   const TrackLosses losses = track_.losses(state_.bodies[kRail].v);
   balance_.dashpot += losses.pads + losses.ballast;
   if (want_energy_) balance_.spring += track_.elastic();
+}
+
+// The absorbers have come to both sides of the end planes since the sides were joined.
+void Stepper::press_interface(const StepScope& scope) {
+  BodyState& rail = state_.bodies[kRail];
+  interface_.join(rail.f);
+  const InterfaceLosses losses = interface_.press(rail.u, rail.v, scope.dt, damping_of(bodies_[kRail], scope), rail.f);
+  balance_.friction += losses.friction;
+  balance_.contact_normal += losses.normal;
 }
 
 void Stepper::book_contact(const ContactLosses& losses) {

@@ -23,6 +23,7 @@
 #include "fem/axle_step.hpp"
 #include "fem/contact_step.hpp"
 #include "fem/energy.hpp"
+#include "fem/interface_step.hpp"
 #include "fem/preload.hpp"
 #include "fem/rank_exchange.hpp"
 #include "fem/rolling_state.hpp"
@@ -85,6 +86,8 @@ class Stepper {
   const EnergyBalance& energy() const { return recorded_; }
   /// Ask for the energies with the next step.
   void want_energy() { want_energy_ = true; }
+  /// Between layers that have come off and their base.
+  InterfaceGap interface_gap() const { return interface_.gap(state_.bodies[kRail].u); }
   /// Time the parts of the steps that follow; nullptr: no more.
   void time_parts(StepLaps* laps) { laps_ = laps; }
   bool reached_edge() const { return engine_ ? record_.reached_edge : contact_.reached_edge(); }
@@ -108,6 +111,7 @@ class Stepper {
   void absorb_at_ends();
   double absorbing_velocity(const EndDashpot& d) const;
   void book_track();
+  void press_interface(const StepScope& scope);
   void step_on_engine();
   void take_over(const StepRecord& record);
   int steps_until_look() const;
@@ -127,6 +131,7 @@ class Stepper {
   std::optional<RankExchange> exchange_;  // none: one rank
   ContactStep contact_;
   TrackStep track_;
+  InterfaceStep interface_;
   EnergyBalance balance_, recorded_;
   std::array<UpdateSums, 2> sums_;  // of this step
   double axle_rest_z_ = 0, side_force_ = 0;

@@ -56,6 +56,10 @@ std::vector<WatchedPoint> watched_points(const CaseSpec& spec, const SweptBody& 
       if (std::isfinite(x))
         for (const int row : {0, below - 1, below})
           for (const int back : {1, 0}) points.add(x + kRoundOff, row, back);
+    for (const UnbondedStretch& stretch : layer.unbonded)
+      for (const double x : {stretch.from, stretch.to})
+        for (const int row : {below - 1, below})
+          for (const int back : {1, 0}) points.add(x + kRoundOff, row, back);
   }
   const int inside = points.row_at(0.5 * semi_axis);
   const auto add_place = [&](double x) {

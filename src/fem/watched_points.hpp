@@ -14,7 +14,8 @@ struct WatchedPoint {
   int layer;        ///< 0 the rail, then its layers from the surface down
 };
 
-/// On either side of a layer's end: at the surface, above and below the layer's bottom. At the rows of a stretch, and
+/// On either side of a layer's end: at the surface, above and below the layer's bottom; there too on either side of the
+/// ends of an unbonded stretch. At the rows of a stretch, and
 /// at the beginning, the middle and the end of an irregularity: at the surface and half a contact's semi-axis below it.
 /// end: of the wheel's way, m; semi_axis: m, along it. None where the rail is the same all along.
 std::vector<WatchedPoint> watched_points(const CaseSpec& spec, const SweptBody& rail, double end, double semi_axis);

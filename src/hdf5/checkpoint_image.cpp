@@ -383,6 +383,7 @@ void describe(Archive& a, BandSample& b) {
   a.rows("stress", b.stress, visit_sym);
   a.rows("plasticity", b.plastic, visit_plasticity);
   a.rows("displacement", b.displacement, visit_vec);
+  if (Archive::reading || !b.below.empty()) a.later_rows("below", b.below, visit_vec);
 }
 
 template <class Archive>
@@ -431,6 +432,18 @@ void describe_points(Archive& a, std::vector<HistoryRow>& history) {
   for (std::size_t k = 0; k < history.size(); ++k)
     history[k].points.assign(all.begin() + static_cast<std::ptrdiff_t>(k * points),
                              all.begin() + static_cast<std::ptrdiff_t>((k + 1) * points));
+}
+
+template <class Archive>
+void describe_interface(Archive& a, std::vector<HistoryRow>& history) {
+  const bool apart =
+      std::any_of(history.begin(), history.end(), [](const HistoryRow& h) { return h.interface.slip > 0; });
+  std::vector<HistoryRow> rows = Archive::reading ? std::vector<HistoryRow>{} : history;
+  if (Archive::reading || apart)
+    a.later_rows("interface_history", rows,
+                 [](auto& h, auto&& on) { on("opening", h.interface.opening), on("slip", h.interface.slip); });
+  if (Archive::reading)
+    for (std::size_t k = 0; k < std::min(rows.size(), history.size()); ++k) history[k].interface = rows[k].interface;
 }
 
 template <class Archive>
@@ -485,6 +498,7 @@ void describe(Archive& a, RunResult& r) {
       r.history[k].way = on_way[k].way;
       r.history[k].stress = on_way[k].stress;
     }
+  describe_interface(a, r.history);
   describe_points(a, r.history);
   each(a, "positions", r.positions, [](auto& part, PositionSamples& p) {
     part.row("wanted", p, [](auto& v, auto&& on) { on("position", v.position); });

@@ -1,9 +1,11 @@
 #include "io/result_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "material/elastic.hpp"
+#include "mesh/split_interface.hpp"
 #include "record/csv.hpp"
 
 namespace railstrata {
@@ -183,36 +185,71 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
   return mesh;
 }
 
+namespace {
+
+/// The points of a band's picture: the nodes of its grid, station by station, then those below split interfaces.
+class BandPoints {
+ public:
+  explicit BandPoints(const BandStress& b)
+      : sample_(b.sample),
+        grid_((b.body->contact.columns + 1) * (b.body->contact.rows + 1)),
+        below_(nodes_below(*b.body)) {}
+
+  /// visit(node of the section, station, displacement), in order.
+  template <class Visit>
+  void each(Visit&& visit) const {
+    for (int s = 0; s <= sample_.stations; ++s)
+      for (int node = 0; node < grid_; ++node)
+        visit(node, s, sample_.displacement[static_cast<std::size_t>(s) * grid_ + node]);
+    std::size_t k = 0;
+    for (int s = 0; s <= sample_.stations; ++s)
+      for (int node : below_) visit(node, s, sample_.below[k++]);
+  }
+  long long number(int node, int station) const {
+    const long long s = station;
+    if (node < grid_) return s * grid_ + node;
+    const auto doubled = static_cast<long long>(below_.size());
+    return (sample_.stations + 1LL) * grid_ + s * doubled +
+           (std::find(below_.begin(), below_.end(), node) - below_.begin());
+  }
+
+ private:
+  const BandSample& sample_;
+  int grid_;
+  std::vector<int> below_;
+};
+
+}  // namespace
+
 VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
   VtkHexahedra mesh;
   const ContactBand& band = b.body->contact;
   const Section& section = b.body->blocks[band.block].section;
-  const int nc = band.columns + 1, nr = band.rows + 1, per_station = nc * nr;
   const bool turning = b.body->kind == SweepKind::revolve;
+  const BandPoints points(b);
   std::vector<float> displacement;
-  for (int s = 0; s <= b.sample.stations; ++s)
-    for (int k = 0; k < per_station; ++k) {
-      // the wheel as it stands over the rail: station angle counted from the vertical below the axle
-      const double radius = turning ? -section.nodes[static_cast<std::size_t>(band.columns / 2)].z : 1.0;
-      const double along = turning ? b.sample.along[s] / radius : b.sample.along[s];
-      const double t = b.body->rises() ? b.body->contact_at - along : along;
-      Vec3 p = swept_point(b.body->kind, b.body->origin, section.nodes[k], t);
-      p.x += wheel_x;
-      mesh.points.push_back(p);
-      const Vec3 u = b.sample.displacement[static_cast<std::size_t>(s) * per_station + k];
-      for (double v : {u.x, u.y, u.z}) displacement.push_back(static_cast<float>(kToMilli * v));
-    }
+  points.each([&](int node, int s, Vec3 u) {
+    // the wheel as it stands over the rail: station angle counted from the vertical below the axle
+    const double radius = turning ? -section.nodes[static_cast<std::size_t>(band.columns / 2)].z : 1.0;
+    const double along = turning ? b.sample.along[s] / radius : b.sample.along[s];
+    const double t = b.body->rises() ? b.body->contact_at - along : along;
+    Vec3 p = swept_point(b.body->kind, b.body->origin, section.nodes[node], t);
+    p.x += wheel_x;
+    mesh.points.push_back(p);
+    for (double v : {u.x, u.y, u.z}) displacement.push_back(static_cast<float>(kToMilli * v));
+  });
   std::vector<S> cells;
   std::vector<Sym3> sum(mesh.points.size());
   std::vector<int> count(mesh.points.size(), 0), top_material(mesh.points.size(), -1);
   for (int s = 0; s < b.sample.stations; ++s)
     for (int r = 0; r < band.rows; ++r)
       for (int c = 0; c < band.columns; ++c) {
-        const long long a = static_cast<long long>(s) * per_station;
         const auto& q = section.quads[static_cast<std::size_t>(r) * band.columns + c];
         const int one = b.body->rises() ? 3 : 1, three = 4 - one;  // a section on its head is seen from behind
-        mesh.cells.push_back({a + q[0], a + q[one], a + q[2], a + q[three], a + per_station + q[0],
-                              a + per_station + q[one], a + per_station + q[2], a + per_station + q[three]});
+        const std::array<int, 4> around{q[0], q[one], q[2], q[three]};
+        std::array<long long, 8> corners{};
+        for (int k = 0; k < 8; ++k) corners[k] = points.number(around[k % 4], s + k / 4);
+        mesh.cells.push_back(corners);
         const Sym3 value = b.at(c, r, s);
         const int m = b.layer(c, r, s);
         cells.push_back({0, 0, 0, value, m, plastic_at(b.sample.plastic, cells.size())});
@@ -238,7 +275,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
   return mesh;
 }
 
-Columns<HistoryRow> history_columns(bool on_track, bool varies_along) {
+Columns<HistoryRow> history_columns(bool on_track, bool varies_along, bool unbonded) {
   using H = HistoryRow;
   Columns<H> out{{"time", unit::kMilliseconds, &H::time},
                  {"position", unit::kMillimetres, &H::position},
@@ -270,6 +307,9 @@ Columns<HistoryRow> history_columns(bool on_track, bool varies_along) {
                  {"von_mises", unit::kMPa, [](const H& h) { return h.stress.von_mises; }},
                  {"von_mises_x", unit::kMillimetres, [](const H& h) { return h.stress.x; }},
                  {"von_mises_depth", unit::kMillimetres, [](const H& h) { return h.stress.depth; }}});
+  if (unbonded)
+    append(out, {{"interface_opening", unit::kMicrometres, [](const H& h) { return h.interface.opening; }},
+                 {"interface_slip", unit::kMicrometres, [](const H& h) { return h.interface.slip; }}});
   return out;
 }
 

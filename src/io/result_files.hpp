@@ -58,7 +58,7 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
 VtkHexahedra band_mesh(const BandStress& band, double wheel_x);
 
 /// history.csv, a row at a time (RecordLog); of a rail on a track with its foot and the nearest sleeper.
-Columns<HistoryRow> history_columns(bool on_track, bool varies_along);
+Columns<HistoryRow> history_columns(bool on_track, bool varies_along, bool unbonded);
 
 /// A row of points_history.csv: stress at one of the points where the rail changes (fem/watched_points.hpp).
 struct PointRow {

@@ -118,6 +118,10 @@ PassageSummary passage_summary(const RollingSystem& system, const RunResult& run
       out.p_max_position = row.position;
     }
     if (!system.varies_along()) continue;
+    if (!system.rail().mesh.interfaces.empty()) {
+      if (!(row.interface.opening < out.interface_opening)) out.interface_opening = row.interface.opening;
+      if (!(row.interface.slip < out.interface_slip)) out.interface_slip = row.interface.slip;
+    }
     if (!(row.way.patches < out.parts)) out.parts = row.way.patches;
     if (!(row.stress.von_mises < out.von_mises)) {
       out.von_mises = row.stress.von_mises;

@@ -10,7 +10,7 @@
 
 namespace railstrata {
 
-/// One bonded layer, from the surface down. elements = 0: chosen (height at most 1 mm and at most the element size, at
+/// One layer, from the surface down. elements = 0: chosen (height at most 1 mm and at most the element size, at
 /// least 2; at least 3 from 3 mm on).
 struct LayerMesh {
   std::string name;
@@ -22,6 +22,8 @@ struct LayerMesh {
   /// m along the rail, of a wheel along its arc from the first contact; infinite: endless. A layer lies below those
   /// before it that it meets; where they are not, it reaches up into their place.
   double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+  std::vector<SweepRange> unbonded = {};  ///< where it has come off what lies below it
+  double unbonded_friction = 0;
   bool ends() const { return std::isfinite(from) || std::isfinite(to); }
 };
 

@@ -36,21 +36,9 @@ std::vector<Present> all_stacks(const std::vector<LayerMesh>& layers) {
 struct Interval {
   double top, bottom;
 };
-/// Depths of the layers' bottoms: each lies below those before it that it meets.
-std::vector<double> bottoms_of(const std::vector<LayerMesh>& layers) {
-  std::vector<double> out;
-  for (const LayerMesh& layer : layers) {
-    double top = 0;
-    for (std::size_t i = 0; i < out.size(); ++i)
-      if (layers[i].from < layer.to && layer.from < layers[i].to) top = std::max(top, out[i]);
-    out.push_back(top + layer.thickness);
-  }
-  return out;
-}
-
 /// Depths of the layers of a stack; of one that is not there an empty interval.
 std::vector<Interval> depths_of(const std::vector<LayerMesh>& layers, const Present& present) {
-  const std::vector<double> bottoms = bottoms_of(layers);
+  const std::vector<double> bottoms = layer_bottoms(layers);
   std::vector<Interval> out;
   double top = 0;
   for (std::size_t k = 0; k < layers.size(); ++k) {
@@ -132,6 +120,17 @@ void set_block(Block& block, const std::vector<LayerMesh>& layers, const std::ve
 }
 
 }  // namespace
+
+std::vector<double> layer_bottoms(const std::vector<LayerMesh>& layers) {
+  std::vector<double> out;
+  for (const LayerMesh& layer : layers) {
+    double top = 0;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (layers[i].from < layer.to && layer.from < layers[i].to) top = std::max(top, out[i]);
+    out.push_back(top + layer.thickness);
+  }
+  return out;
+}
 
 std::vector<LayerMesh> slabs_of(const std::vector<LayerMesh>& layers) {
   if (!any_ends(layers)) return layers;

@@ -7,6 +7,9 @@
 
 namespace railstrata {
 
+/// Depths of the layers' bottoms: each lies below those before it that it meets.
+std::vector<double> layer_bottoms(const std::vector<LayerMesh>& layers);
+
 /// The slabs from the surface down, as layers of which none ends; the layers themselves where none does. Layers of
 /// which any ends have one width.
 std::vector<LayerMesh> slabs_of(const std::vector<LayerMesh>& layers);

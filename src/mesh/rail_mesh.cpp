@@ -11,6 +11,7 @@
 #include "mesh/layer_stacks.hpp"
 #include "mesh/offset_frame.hpp"
 #include "mesh/rail_sections.hpp"
+#include "mesh/split_interface.hpp"
 
 namespace railstrata {
 
@@ -252,6 +253,7 @@ SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const Ra
   else
     fill_block(body, profile, whole, sizes, stations);
   set_stacks(body, spec.layers, 1.0);
+  split_interfaces(body, spec.layers);
   for (Block& block : body.blocks)
     for (Vec2& p : block.section.nodes) p = rail_to_model(track, p);
   return body;

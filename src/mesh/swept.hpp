@@ -104,6 +104,22 @@ struct SectionNode {
   int block = 0, node = 0;
 };
 
+/// From and to of a stretch along the sweep.
+struct SweepRange {
+  double from = 0, to = 0;
+};
+
+/// The interface below a layer that has come off its base in some stretches. The nodes of the band's block there stand
+/// twice in its section, at one place: those of the band's grid belong to what lies above, the others to what lies
+/// below. Nothing in the mesh holds them together, in the stretches or elsewhere.
+struct SplitInterface {
+  int row = 0;             ///< of nodes of the band
+  int first_column = 0;    ///< of `below`
+  std::vector<int> below;  ///< nodes of the section, by column
+  std::vector<SweepRange> open;
+  double friction = 0;  ///< Coulomb's coefficient where it is open
+};
+
 struct SweptBody {
   std::string name;  ///< "rail", "wheel"
   SweepKind kind = SweepKind::extrude;
@@ -112,6 +128,7 @@ struct SweptBody {
   std::vector<Block> blocks;  ///< masters and slaves in any order; a tie's slave is never master of a cycle
   std::vector<Tie> ties;
   ContactBand contact;
+  std::vector<SplitInterface> interfaces;
   /// Rail: nodes of the foot's base (fixed); wheel: nodes of the bore (they move with the rigid axle).
   std::vector<SectionNode> prescribed;
   /// Nodes of the base of a rail on a track: free, pads press on them.

@@ -240,7 +240,12 @@ std::vector<ResultNumber> passage_numbers() {
           marks),
       row("F_z_passing", kKilonewtons, on_way<&W::F_z_passing>, "F_z at it",
           "Amplitude of the wheel force at the passing frequency",
-          "Of the last whole waves of one sleeper spacing, or of eight waves on a held foot", marks)};
+          "Of the last whole waves of one sleeper spacing, or of eight waves on a held foot", marks),
+      row("interface_opening", kMicrometres, on_way<&W::interface_opening>, "interface opening",
+          "Largest opening of an unbonded interface on the way", "Of its nodes; null where all layers are bonded",
+          marks),
+      row("interface_slip", kMicrometres, on_way<&W::interface_slip>, "interface slip",
+          "Largest shift along an unbonded interface on the way", "Likewise, of nodes that are apart too", marks)};
 }
 
 std::vector<ResultNumber> energy_numbers() {

@@ -65,6 +65,7 @@ void add(BandSample& sum, const BandSample& s, double weight) {
     for (Sym3& v : sum.stress) v = {};
     for (ElementPlasticity& v : sum.plastic) v = {};
     for (Vec3& v : sum.displacement) v = {};
+    for (Vec3& v : sum.below) v = {};
   }
   for (std::size_t i = 0; i < sum.along.size(); ++i) sum.along[i] += weight * s.along[i];
   for (std::size_t i = 0; i < sum.stress.size(); ++i) sum.stress[i] = sum.stress[i] + weight * s.stress[i];
@@ -74,6 +75,7 @@ void add(BandSample& sum, const BandSample& s, double weight) {
     sum.plastic[i].accumulated += weight * s.plastic[i].accumulated;
   }
   for (std::size_t i = 0; i < sum.displacement.size(); ++i) sum.displacement[i] += weight * s.displacement[i];
+  for (std::size_t i = 0; i < sum.below.size(); ++i) sum.below[i] += weight * s.below[i];
 }
 
 }  // namespace

@@ -96,7 +96,8 @@ struct PassageSummary {
   double P1 = kNotApplicable, P2 = kNotApplicable;                                                    ///< N, over a dip
   double P1_jenkins_low = kNotApplicable, P1_jenkins_high = kNotApplicable;
   double P2_jenkins_low = kNotApplicable, P2_jenkins_high = kNotApplicable;
-  double passing_frequency = kNotApplicable, F_z_passing = kNotApplicable;  ///< Hz, N: of waves of rail or wheel
+  double passing_frequency = kNotApplicable, F_z_passing = kNotApplicable;     ///< Hz, N: of waves of rail or wheel
+  double interface_opening = kNotApplicable, interface_slip = kNotApplicable;  ///< m, of an unbonded layer
 };
 
 /// Factors by which the elastic stress of the case may be multiplied (damage/shakedown.hpp).

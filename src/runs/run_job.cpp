@@ -42,7 +42,12 @@ FolderHold RunJob::hold() { return order_.resume ? FolderHold(folder()) : CaseJo
 void RunJob::mesh() {
   control_.info("meshing wheel and rail");
   control_.progress("meshing");
-  system_ = std::unique_ptr<const RollingSystem>(new RollingSystem(fem_system(loaded_.spec, loaded_.folder())));
+  try {
+    system_ = std::unique_ptr<const RollingSystem>(new RollingSystem(fem_system(loaded_.spec, loaded_.folder())));
+  } catch (const CaseError& e) {
+    if (e.diagnostics.front().where.empty()) throw;
+    throw in_case_file(loaded_, e);
+  }
   for (const std::string& note : system_->model.placement.notes) control_.info("{}", note);
 }
 

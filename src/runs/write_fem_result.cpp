@@ -136,7 +136,9 @@ struct FemWriter::GrowingFiles {
   RecordLog<HistoryRow>& history_in(const fs::path& folder, const RollingSystem& system,
                                     const std::vector<std::string>& provenance) {
     if (!history)
-      history.emplace(folder / "history.csv", provenance, history_columns(!system.pads.none(), system.varies_along()));
+      history.emplace(
+          folder / "history.csv", provenance,
+          history_columns(!system.pads.none(), system.varies_along(), !system.rail().mesh.interfaces.empty()));
     return *history;
   }
   void add(const HistoryRow& row, const fs::path& folder, const RollingSystem& system,

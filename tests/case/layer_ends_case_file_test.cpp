@@ -80,5 +80,60 @@ TEST(LayerEndsCaseFile, EnginesSayWhatTheyDoNotTake) {
   }
 }
 
+const std::string kUnbonded = "unbonded = [[\"180 mm\", \"192 mm\"], [\"200 mm\", \"210 mm\"]]\n";
+
+TEST(LayerEndsCaseFile, UnbondedStretchesAreReadAndWrittenOutAgain) {
+  const LoadedCase loaded = parse_case(kClad + kUnbonded + "unbonded_friction = 0.2\n", "a.toml");
+  const LayerSpec& layer = loaded.spec.layers.at(0);
+  ASSERT_EQ(layer.unbonded.size(), 2u);
+  EXPECT_EQ(layer.unbonded[0].to, 0.192);
+  EXPECT_EQ(layer.unbonded[1].from, 0.2);
+  EXPECT_EQ(layer.unbonded_friction, 0.2);
+  EXPECT_EQ(parse_case(loaded.resolved_toml, "b.toml").resolved_toml, loaded.resolved_toml);
+  EXPECT_EQ(parse_case(kClad + "unbonded = []\n", "a.toml").resolved_toml, parse_case(kClad, "a.toml").resolved_toml);
+}
+
+TEST(LayerEndsCaseFile, UnbondedStretchesLieInOrderWhereTheLayerIs) {
+  const std::pair<std::string, std::vector<const char*>> all[] = {
+      {"unbonded = [[\"192 mm\", \"180 mm\"]]\n", {"a.toml:5", "layer.0.unbonded", "must increase", "one after"}},
+      {"unbonded = [[\"180 mm\", \"192 mm\"], [\"190 mm\", \"195 mm\"]]\n", {"must increase", "join"}},
+      {"unbonded = [[\"180 mm\"]]\n", {"a from and a to"}},
+      {"unbonded = [[180, 192]]\n", {"unit"}},
+      {"from = \"170 mm\"\nto = \"195 mm\"\ntaper_length = \"5 mm\"\nunbonded = [[\"180 mm\", \"192 mm\"]]\n",
+       {"a.toml:8", "reaches from 180 mm to 192 mm", "tapers", "taper_length"}},
+      {"on = \"wheel\"\n" + kUnbonded, {"a.toml:6", "layers of the rail", "take it out"}},
+      {kUnbonded + "unbonded_friction = -1\n", {"layer.0.unbonded_friction", "between 0 and 2"}},
+  };
+  for (const auto& [text, words] : all) {
+    const std::string said = refusal(kClad + text);
+    for (const char* word : words) EXPECT_NE(said.find(word), std::string::npos) << said << "\n  lacks: " << word;
+  }
+}
+
+TEST(LayerEndsCaseFile, EnginesSayWhereALayerMustHold) {
+  const auto beyond = [](const std::string& run) {
+    std::vector<std::string> keys;
+    for (const BeyondEngine& b : beyond_finite_elements(parse_case(run + kClad + kUnbonded, "a.toml").spec))
+      keys.push_back(b.key);
+    return keys;
+  };
+  using Keys = std::vector<std::string>;
+  EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\n"), Keys{});
+  EXPECT_EQ(beyond(""), Keys{"run.window"});
+  EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\ntime_step_method = \"local\"\n"), Keys{"run.time_step_method"});
+  EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\ndevice = \"gpu\"\n"), Keys{"run.device"});
+  EXPECT_EQ(beyond("[run]\nrolling = false\n"), Keys{"run.rolling"});
+  const CaseSpec spec = parse_case(kClad + kUnbonded, "a.toml").spec;
+  try {
+    require_half_spaces(spec);
+    FAIL() << "taken";
+  } catch (const CaseError& e) {
+    const std::string said = e.what();
+    for (const char* word : {"come off", "take its unbonded out", "railstrata run"})
+      EXPECT_NE(said.find(word), std::string::npos) << said;
+  }
+  EXPECT_THROW(require_same_along(spec, "steady rolling"), CaseError);
+}
+
 }  // namespace
 }  // namespace railstrata

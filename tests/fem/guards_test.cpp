@@ -84,6 +84,16 @@ TEST(Guards, ASoundRunPassesThemAllAndEachSaysWhatWentWrong) {
   EXPECT_EQ(r.verdict(), "sound");
   r.system.model.spec.run.plasticity = false;
 
+  // over heights it may fly, not away
+  r.row = sound;
+  r.row.forces.z = 0;
+  r.system.model.spec.irregularities.emplace_back();
+  r.row.way.lowering = -4e-3;
+  EXPECT_EQ(r.verdict(), "sound");
+  r.row.way.lowering = -6e-3;
+  EXPECT_NE(r.verdict().find("the wheel lost contact with the rail at t = "), std::string::npos);
+  r.system.model.spec.irregularities.clear();
+
   // a state that is not finite is not kept
   while (!r.st.is_restart_point()) r.st.step();
   EXPECT_NO_THROW(require_finite(r.st));
@@ -91,6 +101,29 @@ TEST(Guards, ASoundRunPassesThemAllAndEachSaysWhatWentWrong) {
   const NodeLine& line = r.system.rail().lines.back();
   memory.state.bodies[0].u[line.first] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(require_finite(Stepper(r.system, memory)), NumericalError);
+}
+
+// Deeper than it falls while it passes: for some millimetres nothing bears it, then it lands.
+TEST(Guards, AWheelFliesOverAHollowAndComesDown) {
+  CaseSpec spec = small_case();
+  spec.drive.traction_coefficient = 0;
+  spec.run.window = 0;
+  spec.run.positions = {0.14};
+  spec.irregularities.emplace_back();
+  spec.irregularities.back().at = 0.07;
+  spec.irregularities.back().length = 0.04;
+  spec.irregularities.back().depth = 1e-3;
+  const RunResult run = run_rolling(small_system(spec), {});
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const HistoryRow& row : run.history) {
+    least = std::min(least, std::abs(row.forces.z));
+    most = std::max(most, std::abs(row.forces.z));
+  }
+  const double load = static_load(spec);
+  EXPECT_EQ(least, 0);
+  EXPECT_GT(most, 1.3 * load);
+  EXPECT_GT(std::abs(run.history.back().forces.z), 0.3 * load) << "it has landed";
+  EXPECT_LT(run.closure, 1e-4);
 }
 
 }  // namespace railstrata
