@@ -281,9 +281,9 @@ typedef struct rs_wheel {
   double moment[3];                   /* N m, of the contact on the wheelset, about its centre */
   double normal_force, lateral_force; /* N, along the contact normal and across it, on the wheel */
   double spin_moment;                 /* N m, on the wheel about the contact normal */
-  double creepage_x, creepage_y;
-  double spin;           /* 1/m */
-  double approach;       /* m, along the normal of the contact that touches first; < 0: lifted */
+  double creepage_x, creepage_y;      /* of the contact that touches first, */
+  double spin;                        /* 1/m, of that contact */
+  double approach;                    /* m, along the normal of the contact that touches first; < 0: lifted */
   double point[3];       /* m, the contact that touches first, from the middle of the track below the centre */
   double on_wheel[2];    /* m, y and z of it on the wheel's profile, */
   double on_rail[2];     /* on the rail's: profiles' own axes, y to the field side */

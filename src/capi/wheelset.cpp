@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "capi/guarded.hpp"
 #include "capi/patch_forces.hpp"
+#include "core/root.hpp"
 #include "halfspace/hertz.hpp"
 
 using namespace railstrata;
@@ -163,7 +166,7 @@ double expected_height(const rs_wheelset& set, double load) {
 /// The height under a load, with the roll that is given.
 double sink(rs_wheelset& set, double load) {
   begin_stiffening(set);
-  while (set.solutions < kMostSolutions) {
+  for (int i = 0; i < kMostSolutions; ++i) {
     const double z = expected_height(set, load);
     press(set, {approach_at(set.wheels[0], z), approach_at(set.wheels[1], z)});
     if (std::abs(set.wheels[0].force.z + set.wheels[1].force.z - load) <= tolerance_of(set) * load) return z;
@@ -190,8 +193,9 @@ std::array<double, 2> wanted_forces(const rs_wheelset& set, double load, double 
   return {left, load - left};
 }
 
-/// The roll at which both wheels have their approaches, and the height.
-double tilt(rs_wheelset& set, const rs_wheelset_state& state, const std::array<double, 2>& approach, bool hold) {
+/// The roll at which both wheels have their approaches, and the height; none was found: nothing.
+std::optional<double> tilt(rs_wheelset& set, const rs_wheelset_state& state, const std::array<double, 2>& approach,
+                           bool hold) {
   constexpr double kClose = 1e-10;  // m
   double height[2];
   const auto apart = [&](double roll) {
@@ -214,25 +218,71 @@ double tilt(rs_wheelset& set, const rs_wheelset_state& state, const std::array<d
     roll = next;
     error = after;
   }
-  throw NumericalError("the roll at which both wheels touch was not found");
+  return {};
 }
 
-/// Height and roll under a load and a roll moment. Where the wheels touch changes with the roll; after some solutions
-/// they keep to a place, for no roll may balance the moment where a wheel changes between two.
-double lean(rs_wheelset& set, const rs_wheelset_state& state) {
+/// Height and roll by wheels whose force follows their own approach, which is soon done. Where the wheels touch changes
+/// with the roll; after some solutions they keep to a place. None: a wheel on tread and flange does not follow it.
+std::optional<double> lean_by_approaches(rs_wheelset& set, const rs_wheelset_state& state) {
+  constexpr int kSoon = 8;
   place(set, state, set.roll);
   begin_stiffening(set);
   std::array<double, 2> wanted{0.5 * state.load, 0.5 * state.load};
-  while (set.solutions < kMostSolutions) {
+  while (set.solutions < kSoon) {
     const std::array<double, 2> approach{set.stiffening[0].approach_at(wanted[0]),
                                          set.stiffening[1].approach_at(wanted[1])};
-    const double z = tilt(set, state, approach, set.solutions > kFreeSolutions);
+    const std::optional<double> z = tilt(set, state, approach, set.solutions > kFreeSolutions);
+    if (!z) return {};
     press(set, approach);
     wanted = wanted_forces(set, state.load, state.roll_moment);
     const double missed =
         std::max(std::abs(wanted[0] - set.wheels[0].force.z), std::abs(wanted[1] - set.wheels[1].force.z));
     if (missed <= tolerance_of(set) * state.load) return z;
   }
+  return {};
+}
+
+/// Height and roll: of all rolls, under each of which the wheelset sinks until it bears its load, the one whose moment
+/// is that wanted. The moment falls as the roll grows, until a wheel is lifted; with the place of the first contact it
+/// jumps by some 1e-4.
+std::optional<double> lean_by_moment(rs_wheelset& set, const rs_wheelset_state& state, double from) {
+  constexpr double kSame = 1e-10;  // rad
+  double z = 0;
+  bool hold = false;
+  const auto excess = [&](double roll) {
+    place(set, state, roll, hold);
+    z = sink(set, state.load);
+    return set.wheels[0].moment.x - set.wheels[1].moment.x + state.roll_moment;
+  };
+  const double arm = tape_circle_distance(set.wheels[0].at_rest), close = tolerance_of(set) * state.load * arm;
+  double a = from, at_a = excess(a);
+  if (std::abs(at_a) <= close) return z;
+  double step = 1.2 * at_a / (arm * arm * (set.stiffening[0].slope() + set.stiffening[1].slope()));
+  while (set.wheels[at_a > 0 ? 0 : 1].force.z > 0) {
+    const double b = a + step, at_b = excess(b);
+    if (std::abs(at_b) <= close) return z;
+    hold = at_a * at_b < 0;
+    if (hold)
+      return narrow_root(a, at_a, b, at_b, close, kSame, kMostSolutions, excess) ? std::optional(z) : std::nullopt;
+    a = b;
+    at_a = at_b;
+    step *= 2;
+  }
+  return {};
+}
+
+double lean(rs_wheelset& set, const rs_wheelset_state& state) {
+  const double from = set.roll;
+  const std::array<Stiffening, 2> stiffening = set.stiffening;
+  std::exception_ptr refused;
+  try {
+    if (const std::optional<double> z = lean_by_approaches(set, state)) return *z;
+  } catch (const NoAnswer&) {  // perhaps of forces on the way
+    refused = std::current_exception();
+  }
+  set.stiffening = stiffening;
+  if (const std::optional<double> z = lean_by_moment(set, state, from)) return *z;
+  if (refused) std::rethrow_exception(refused);
   throw NumericalError("height and roll of the wheelset under its load were not found");
 }
 
@@ -289,6 +339,7 @@ void put(double (&out)[3], Vec3 v, bool mirror, bool axial) {
 rs_wheel wheel_of(const Wheel& w, double y, bool mirror) {
   const double odd = mirror ? -1 : 1;
   const Placement& p = w.contact->placement;
+  const WheelSlip slip = slip_at(w.track(), w.touching(), w.motion, w.rail);
   const Vec2 wheel = p.wheel.at(w.touching().wheel_s).position, rail = p.rail.at(w.touching().rail_s).position;
   rs_wheel out{};
   put(out.force, w.force, mirror, false);
@@ -296,9 +347,9 @@ rs_wheel wheel_of(const Wheel& w, double y, bool mirror) {
   out.normal_force = w.forces.normal_force;
   out.lateral_force = odd * w.forces.lateral_force;
   out.spin_moment = odd * w.forces.spin_moment;
-  out.creepage_x = w.forces.creepage_x;
-  out.creepage_y = odd * w.forces.creepage_y;
-  out.spin = odd * w.forces.spin;
+  out.creepage_x = slip.creepage_x;
+  out.creepage_y = odd * slip.creepage_y;
+  out.spin = odd * slip.spin;
   out.approach = w.approach;
   const Vec3 arm = arm_of(w.track(), w.touching(), w.motion, w.touching().x, w.touching().point);
   put(out.point, {arm.x, arm.y, w.touching().point.z + w.rail.z}, mirror, false);
@@ -324,7 +375,8 @@ void forget(rs_wheelset& set) {
   for (Wheel& w : set.wheels) rs_forget(w.contact.get());
 }
 
-void solve_from_here(rs_wheelset& set, const rs_wheelset_state& state, rs_wheelset_forces& forces) {
+void solve(rs_wheelset& set, const rs_wheelset_state& state, rs_wheelset_forces& forces) {
+  require_state(state);
   set.solutions = 0;
   if (state.given & RS_WHEELSET_ROLL) place(set, state, state.roll);
   forces.z = state.z;
@@ -339,17 +391,6 @@ void solve_from_here(rs_wheelset& set, const rs_wheelset_state& state, rs_wheels
   for (int i : {0, 1, 2}) {
     forces.force[i] = forces.wheel[0].force[i] + forces.wheel[1].force[i];
     forces.moment[i] = forces.wheel[0].moment[i] + forces.wheel[1].moment[i];
-  }
-}
-
-/// Where a wheel changes between two places, what the states before have left may lead astray: once more from nothing.
-void solve(rs_wheelset& set, const rs_wheelset_state& state, rs_wheelset_forces& forces) {
-  require_state(state);
-  try {
-    solve_from_here(set, state, forces);
-  } catch (const NumericalError&) {
-    forget(set);
-    solve_from_here(set, state, forces);
   }
 }
 

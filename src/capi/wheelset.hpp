@@ -15,6 +15,7 @@ struct Stiffening {
   double approach = 0, force = 0;  ///< that it goes through
   double force_at(double a) const;
   double approach_at(double q) const;
+  double slope() const { return approach > 0 ? power * force / approach : 0; }  ///< there
   void add(double a, double q);
 };
 
