@@ -97,6 +97,10 @@ struct Spectrum {
   }
 };
 
+/// i z and z / i: a product of complex numbers would look for infinities in each.
+Complex times_i(Complex z) { return {-z.imag(), z.real()}; }
+Complex over_i(Complex z) { return {z.imag(), -z.real()}; }
+
 struct Direction {
   double k, c, s;  ///< wave number; cosine and sine of the wave's direction
 };
@@ -104,10 +108,9 @@ struct Direction {
 /// Forces of a row's plastic strain, 2 mu E^p against the virtual strains of row_stiffness().
 void add_load(const Spectrum& plastic, int r, Direction n, double h, double mu, Node& upper, Node& lower) {
   const Complex xx = plastic(0, r), yy = plastic(1, r), xy = plastic(3, r), yz = plastic(4, r), xz = plastic(5, r);
-  const Complex over_i{0, -1};
   const double g = 2 * mu, cs = n.c * n.s;
-  const Complex nn = g * over_i * (n.c * n.c * xx + n.s * n.s * yy + 2 * cs * xy), zz = g * over_i * plastic(2, r);
-  const Complex nm = g * over_i * (cs * (yy - xx) + (n.c * n.c - n.s * n.s) * xy);
+  const Complex nn = g * over_i(n.c * n.c * xx + n.s * n.s * yy + 2 * cs * xy), zz = g * over_i(plastic(2, r));
+  const Complex nm = g * over_i(cs * (yy - xx) + (n.c * n.c - n.s * n.s) * xy);
   const Complex nz = g * (n.c * xz + n.s * yz), mz = g * (n.c * yz - n.s * xz);
   const double half = 0.5 * n.k * h;
   const Node same{half * nn, -half * nz, half * nm}, slope{nz, zz, mz};
@@ -119,14 +122,13 @@ void add_load(const Spectrum& plastic, int r, Direction n, double h, double mu, 
 
 /// The strain of a row between its nodes.
 void put_strain(const Node& upper, const Node& lower, Direction n, double h, const Spectrum& strain, int r) {
-  const Complex i{0, 1};
   const double d = 1 / h, half = 0.5 * n.k, cs = n.c * n.s;
-  const Complex nn = half * i * (upper[0] + lower[0]);
+  const Complex nn = half * times_i(upper[0] + lower[0]);
   const Complex nz = 0.5 * (d * (lower[0] - upper[0]) - half * (upper[1] + lower[1]));
-  const Complex nm = 0.5 * half * i * (upper[2] + lower[2]), mz = 0.5 * d * (lower[2] - upper[2]);
+  const Complex nm = 0.5 * half * times_i(upper[2] + lower[2]), mz = 0.5 * d * (lower[2] - upper[2]);
   strain(0, r) = n.c * n.c * nn - 2 * cs * nm;
   strain(1, r) = n.s * n.s * nn + 2 * cs * nm;
-  strain(2, r) = d * i * (lower[1] - upper[1]);
+  strain(2, r) = d * times_i(lower[1] - upper[1]);
   strain(3, r) = cs * nn + (n.c * n.c - n.s * n.s) * nm;
   strain(4, r) = n.s * nz + n.c * mz;
   strain(5, r) = n.c * nz - n.s * mz;
@@ -136,7 +138,7 @@ void put_strain(const Node& upper, const Node& lower, Direction n, double h, con
 void put_surface(const Node& top, Direction n, const Spectrum& surface) {
   surface(0, 0) = n.c * top[0] - n.s * top[2];
   surface(1, 0) = n.s * top[0] + n.c * top[2];
-  surface(2, 0) = Complex{0, 1} * top[1];
+  surface(2, 0) = times_i(top[1]);
 }
 
 }  // namespace
