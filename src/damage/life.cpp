@@ -56,8 +56,10 @@ std::vector<double> points_of(const DamagedPlace& place, double removed) {
   return out;
 }
 
-/// Follows points of the zone until `end`, in steps that are short in the beginning.
-Failure follow(const DamagedPlace& place, const Removal& removal, double from_depth, double to_depth, double end) {
+/// Follows points of the zone until `end`, in steps that are short in the beginning. failed(depth below the new
+/// surface, when, depth at that time) of every point that has failed, in each step that it is there; true: a last step.
+template <class Failed>
+void follow(const DamagedPlace& place, const Removal& removal, double end, Failed&& failed) {
   constexpr int kSteps = 300;
   const std::vector<double> z0 = points_of(place, removal.after(end));
   std::vector<double> damage(z0.size(), 0.0);
@@ -70,7 +72,7 @@ Failure follow(const DamagedPlace& place, const Removal& removal, double from_de
       step[j] = is - before[j];
       before[j] = is;
     }
-    Failure first;
+    bool enough = false;
     for (std::size_t p = 0; p < z0.size(); ++p) {
       if (z0[p] < removed || (z0[p] == removed && then > removed)) continue;
       const double gone = std::min(then, z0[p]);  // what is removed of the point's way to the surface in this step
@@ -78,15 +80,14 @@ Failure follow(const DamagedPlace& place, const Removal& removal, double from_de
                    depth = z0[p] - gone;
       const double more = there * at_depth(place.depth, step, z0[p] - 0.5 * (removed + gone));
       damage[p] += more;
-      if (damage[p] < 1 || depth < from_depth || depth > to_depth) continue;
+      if (damage[p] < 1) continue;
       const double when = since + (t - since) * there * std::clamp((1 - was) / more, 0.0, 1.0);
-      if (when < first.traffic) first = {when, depth};
+      enough = failed(z0[p], when, depth) || enough;
     }
-    if (first.traffic < kNever) return first;
+    if (enough) return;
     since = t;
     removed = then;
   }
-  return {};
 }
 
 /// The first of the depths that fails with nothing removed.
@@ -134,9 +135,23 @@ Failure first_failure(const DamagedPlace& place, const Removal& removal, double 
   // Beyond this every point of the zone, or all that is damaged, has come to the surface and gone.
   const double last = removal.until(std::min(place.bottom, 2 * place.depth.back())) + removal.every;
   for (double end = std::min(2 * unworn.traffic, last);; end = std::min(3 * end, last)) {
-    const Failure found = follow(place, removal, from_depth, to_depth, end);
+    Failure found;
+    follow(place, removal, end, [&](double, double when, double depth) {
+      if (depth < from_depth || depth > to_depth) return false;
+      if (when < found.traffic) found = {when, depth};
+      return true;
+    });
     if (found.traffic < kNever || end >= last) return found;
   }
+}
+
+std::map<double, double> failures_until(const DamagedPlace& place, const Removal& removal, double end) {
+  std::map<double, double> out;
+  follow(place, removal, end, [&](double below_new, double when, double) {
+    out.emplace(below_new, when);
+    return false;
+  });
+  return out;
 }
 
 double magic_wear_rate(const DamagedPlace& place) {

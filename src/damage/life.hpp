@@ -11,6 +11,7 @@
 //   D(z0, t) = 1/w integral of rate over z from z0 - w t to z0,
 // and nothing ever fails where w is above the integral of the rate over all depths: the magic wear rate.
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace railstrata {
@@ -65,6 +66,10 @@ struct Failure {
   double depth = 0;                                          ///< m, of the point below the surface of that time
 };
 Failure first_failure(const DamagedPlace& place, const Removal& removal, double from_depth, double to_depth);
+
+/// When points fail while what lies above them is removed, by their depth below the new surface [m]; without those that
+/// do not fail before `end`.
+std::map<double, double> failures_until(const DamagedPlace& place, const Removal& removal, double end);
 
 /// Units of traffic after which each depth fails if nothing is removed.
 std::vector<double> failures_by_depth(const DamagedPlace& place);

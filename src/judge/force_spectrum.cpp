@@ -15,28 +15,34 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Hann's weight of a row between two times.
-double weight(const HistoryRow& row, double begin, double end) {
-  const double s = std::sin(0.5 * kTurn * (row.time - begin) / (end - begin));
-  return s * s;
-}
-
-/// At one frequency, of rows at equal intervals.
-double amplitude_at(std::span<const HistoryRow> rows, double frequency) {
-  const double begin = rows.front().time, end = rows.back().time;
-  double weights = 0, mean = 0;
-  for (const HistoryRow& row : rows) {
-    const double w = weight(row, begin, end);
-    weights += w;
-    mean += w * wheel_force(row);
+/// The force of rows at equal intervals, less its mean, under Hann's weights.
+class WindowedForce {
+ public:
+  explicit WindowedForce(std::span<const HistoryRow> rows) {
+    const double begin = rows.front().time, length = rows.back().time - begin;
+    std::vector<double> weights;
+    double mean = 0;
+    for (const HistoryRow& row : rows) {
+      times_.push_back(row.time - begin);
+      const double s = std::sin(0.5 * kTurn * times_.back() / length);
+      weights.push_back(s * s);
+      sum_ += weights.back();
+      mean += weights.back() * wheel_force(row);
+    }
+    mean /= sum_;
+    for (std::size_t k = 0; k < rows.size(); ++k) values_.push_back(weights[k] * (wheel_force(rows[k]) - mean));
   }
-  mean /= weights;
-  std::complex<double> sum = 0;
-  for (const HistoryRow& row : rows)
-    sum +=
-        weight(row, begin, end) * (wheel_force(row) - mean) * std::polar(1.0, -kTurn * frequency * (row.time - begin));
-  return 2 * std::abs(sum) / weights;
-}
+
+  double amplitude(double frequency) const {
+    std::complex<double> sum = 0;
+    for (std::size_t k = 0; k < times_.size(); ++k) sum += values_[k] * std::polar(1.0, -kTurn * frequency * times_[k]);
+    return 2 * std::abs(sum) / sum_;
+  }
+
+ private:
+  std::vector<double> times_, values_;
+  double sum_ = 0;  // of the weights
+};
 
 std::span<const HistoryRow> between(const std::vector<HistoryRow>& history, double from, double to) {
   const auto before = [](const HistoryRow& row, double x) { return row.position < x; };
@@ -45,8 +51,8 @@ std::span<const HistoryRow> between(const std::vector<HistoryRow>& history, doub
   return {first, last};
 }
 
-ForceLine line_at(const CaseSpec& spec, std::span<const HistoryRow> rows, double frequency) {
-  return {frequency, spec.drive.speed / frequency, amplitude_at(rows, frequency)};
+ForceLine line_at(const CaseSpec& spec, const WindowedForce& force, double frequency) {
+  return {frequency, spec.drive.speed / frequency, force.amplitude(frequency)};
 }
 
 }  // namespace
@@ -59,8 +65,9 @@ std::vector<ForceLine> force_spectrum(const CaseSpec& spec, const std::vector<Hi
   if (rows.size() < kFewest) return {};
   const double time = rows.back().time - rows.front().time,
                highest = std::min(kHighest, static_cast<double>(rows.size()) / time / 6);
+  const WindowedForce force(rows);
   std::vector<ForceLine> out;
-  for (int k = 1; 0.5 * k / time <= highest; ++k) out.push_back(line_at(spec, rows, 0.5 * k / time));
+  for (int k = 1; 0.5 * k / time <= highest; ++k) out.push_back(line_at(spec, force, 0.5 * k / time));
   return out;
 }
 
@@ -76,7 +83,7 @@ std::optional<ForceLine> passing_force(const CaseSpec& spec, const std::vector<H
     const double wanted = spec.track.held() ? kHeldWaves * wave : spec.track.support.spacing,
                  waves = std::floor(std::min(wanted, to - from) / wave);
     if (waves < kFewestWaves) continue;
-    return line_at(spec, between(history, to - waves * wave, to), spec.drive.speed / wave);
+    return line_at(spec, WindowedForce(between(history, to - waves * wave, to)), spec.drive.speed / wave);
   }
   return std::nullopt;
 }

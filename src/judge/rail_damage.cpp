@@ -113,10 +113,11 @@ double nearest_on_rail(const Profile& rail, const TrackGeometry& track, Vec2 poi
 }
 
 std::vector<double> smoothed_wear(const RailDamage& damage, WearLaw law) {
-  constexpr double kSpread = 4;                                     // cells, standard deviation
-  constexpr int kRounds = static_cast<int>(2 * kSpread * kSpread);  // each adds half a cell squared to the variance
+  constexpr double kSpread = 1e-3;  // m, standard deviation
+  const double cells = kSpread / damage.cell;
+  const long rounds = std::max(1L, std::lround(2 * cells * cells));  // each adds half a cell squared to the variance
   std::vector<double> depth = damage.depth(law);
-  for (int round = 0; round < kRounds; ++round) {
+  for (long round = 0; round < rounds; ++round) {
     std::vector<double> next = depth;
     for (std::size_t i = 1; i < depth.size(); ++i) {
       if (!(damage.passages[i - 1] > 0 && damage.passages[i] > 0)) continue;

@@ -78,7 +78,7 @@ void spread_aside(RailDamage& damage, double deviation);
 double worn_area(const RailDamage& damage, const std::vector<double>& depth);
 
 /// The wear depth of every cell [m]: neighbouring cells that wheels have rolled over exchange a quarter of their
-/// difference until a peak of one cell has a standard deviation of four cells; the area stays.
+/// difference, at least once, until a peak of one cell has a standard deviation of 1 mm; the area stays.
 std::vector<double> smoothed_wear(const RailDamage& damage, WearLaw law);
 
 /// Arc length of the profile's point nearest to a point of the model frame, from a guess near it.

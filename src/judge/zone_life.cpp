@@ -439,6 +439,7 @@ LifeCurve curve_of(const LifeAcross& across, const DamagedPlace& place, std::siz
   constexpr int kPoints = 400;
   LifeCurve out;
   const Removal removal = across.removal(cell, across.law);
+  out.y = across.y[cell];
   for (int k = 0; k <= kPoints; ++k) {
     out.mgt.push_back(mgt * end * k / kPoints);
     out.removed.push_back(removal.after(end * k / kPoints));
@@ -449,6 +450,11 @@ LifeCurve curve_of(const LifeAcross& across, const DamagedPlace& place, std::siz
       out.damaged_mgt.push_back(mgt * when[j]);
       out.damaged.push_back(place.depth[j]);
     }
+  if (!(removal.mean() > 0)) return out;
+  for (const auto& [depth, failed] : failures_until(place, removal, end)) {
+    out.failed_mgt.push_back(mgt * failed);
+    out.failed.push_back(depth);
+  }
   return out;
 }
 

@@ -75,7 +75,9 @@ struct LifeRow {
 struct LifeCurve {
   std::vector<double> mgt, removed;          ///< by wear and grinding
   std::vector<double> damaged_mgt, damaged;  ///< how deep everything would have failed if nothing were removed
+  std::vector<double> failed_mgt, failed;    ///< points by their depth below the new surface, and when they fail
   double layer = kNotApplicable;             ///< thickness of the uppermost layer
+  double y = kNotApplicable;                 ///< m, of the place, from the rail's axis
 };
 
 struct Lives {

@@ -110,7 +110,7 @@ ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const Collectiv
   const std::vector<KnownWear> known = known_wear(d);
   const auto asked = std::find_if(known.begin(), known.end(), [&](const KnownWear& w) { return w.law == wanted; });
   if (asked == known.end()) return {};
-  const std::vector<double>& depth = d.depth(wanted);
+  const std::vector<double> depth = smoothed_wear(d, wanted);
   const auto deepest = std::max_element(depth.begin(), depth.end());
   double passages = 0;
   for (const CollectiveRow& row : rows) passages += row.sound() ? row.passages : 0;
@@ -135,6 +135,7 @@ ReportAnswer comparison_answer(const std::vector<CollectiveRow>& rows) {
   constexpr double kFar = 0.2;  // of the vehicle code's
   std::string text;
   bool far = false;
+  bool turned = false;
   const auto compare = [&](const char* name, const Unit& unit, std::optional<double> LoadSpec::*given, auto&& here) {
     double wheels = 0, theirs = 0, ours = 0;
     for (const CollectiveRow& row : rows) {
@@ -145,12 +146,16 @@ ReportAnswer comparison_answer(const std::vector<CollectiveRow>& rows) {
     }
     if (!(wheels > 0)) return;
     far = far || std::abs(ours - theirs) > kFar * std::abs(theirs);
+    turned = turned || ours * theirs < 0;
     text += fmt::format("{}{} {} here, {} there", text.empty() ? "" : "; ", name, with_unit(unit, ours / wheels, 3),
                         with_unit(unit, theirs / wheels, 3));
   };
   compare("T-gamma", unit::kNewtons, &LoadSpec::t_gamma, [](const Summary& s) { return s.damage.t_gamma; });
+  compare("friction energy", unit::kNewtons, &LoadSpec::friction_energy,
+          [](const Summary& s) { return s.damage.friction_energy; });
   compare("Y", unit::kKilonewtons, &LoadSpec::guiding_force, [](const Summary& s) { return -s.contact.F_y; });
   if (text.empty()) return {};
+  if (turned) text += "; Y has the other sign: are y, psi and roll positive to the field side?";
   const bool matched = rows.front().spec.collective.match_guiding_force;
   const long unmatched =
       std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return std::isnan(r.moved); });
@@ -236,7 +241,7 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
   add("friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
       damage.friction_energy, [](double v) { return unit::kSurfaceEnergy.factor * v; });
   for (const KnownWear& wear : known_wear(damage)) {
-    std::vector<double> of_thousand = damage.depth(wear.law);
+    std::vector<double> of_thousand = smoothed_wear(damage, wear.law);
     for (double& depth : of_thousand) depth *= 1000 / passages;
     add("wear of 1000 passages, " + wear.words, "mm²; µm",
         as_shown(unit::kSquareMillimetres, worn_area(damage, of_thousand)), of_thousand,
@@ -244,7 +249,7 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
   }
   for (const KnownWear& wear : known_wear(damage))
     add("wear of all, " + wear.words, "mm²; µm",
-        as_shown(unit::kSquareMillimetres, worn_area(damage, damage.depth(wear.law))), damage.depth(wear.law),
+        as_shown(unit::kSquareMillimetres, worn_area(damage, damage.depth(wear.law))), smoothed_wear(damage, wear.law),
         [](double v) { return as_shown(unit::kMicrometres, v); });
   add("RCF damage", "", nullptr, damage.rcf_damage, plain);
   return t;
@@ -318,7 +323,7 @@ ReportChart head_chart(const RailDamage& d) {
   out.series.push_back(beside_profile("rail", d, nothing));
   const std::vector<KnownWear> known = known_wear(d);
   if (!known.empty()) {
-    std::vector<double> depth = d.depth(known.front().law);
+    std::vector<double> depth = smoothed_wear(d, known.front().law);
     const double factor = magnification(depth);
     for (double& v : depth) v *= -factor;
     out.series.push_back(
@@ -341,7 +346,7 @@ std::vector<ReportChart> charts_of(const RailDamage& d) {
     return out;
   };
   Lines wear;
-  for (const KnownWear& known : known_wear(d)) wear.emplace_back(known.words, d.depth(known.law));
+  for (const KnownWear& known : known_wear(d)) wear.emplace_back(known.words, smoothed_wear(d, known.law));
   return {head_chart(d),
           chart("wear", "Wear depth over the rail", "All passages together.", "wear depth", unit::kMicrometres, wear),
           chart("rcf", "RCF damage over the rail", "Below zero wear removes cracks.", "RCF damage", unit::kNone,
@@ -419,7 +424,7 @@ Json collective_json(const std::string& title, const std::vector<CollectiveRow>&
               {"friction_energy_J_m", worn_area(damage, damage.friction_energy)}};
   for (const KnownWear& wear : known_wear(damage)) {
     totals[wear.key + "_area_m2"] = worn_area(damage, damage.depth(wear.law));
-    totals[wear.key + "_deepest"] = extreme(damage, damage.depth(wear.law), "depth_m");
+    totals[wear.key + "_deepest"] = extreme(damage, smoothed_wear(damage, wear.law), "depth_m");
   }
   totals["rcf_damage_largest"] = extreme(damage, damage.rcf_damage, "damage");
   totals["wheel"] = wheel_json(both.wheel);
@@ -445,8 +450,11 @@ std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& r
       out.push_back({std::string(words.tone), std::string(words.title),
                      fmt::format("load \"{}\", {}", worst->name, answer->reason)});
     }
-  for (const ReportAnswer& answer :
-       {life_answer(both.lives), rcf_answer(both), wear_answer(rows, both), comparison_answer(rows)})
+  ReportAnswer life = life_answer(both.lives);
+  if (const auto failed = std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return !r.sound(); });
+      failed > 0 && !life.text.empty())
+    life.text += fmt::format("; without {} of {} loads, which failed", failed, rows.size());
+  for (const ReportAnswer& answer : {life, rcf_answer(both), wear_answer(rows, both), comparison_answer(rows)})
     if (!answer.text.empty()) out.push_back(answer);
   return out;
 }

@@ -89,16 +89,18 @@ ReportTable lives_table(const Lives& lives) {
 std::optional<ReportChart> life_chart(const Lives& lives) {
   const LifeCurve& c = lives.curve;
   if (c.mgt.empty() || !std::isfinite(c.mgt.back())) return std::nullopt;
-  ReportChart out{
-      "life",
-      "Damage against removal where the rail fails first",
-      "Depth from the new surface. Failed: how deep every point would have failed if nothing were removed. "
-      "Removed: by wear and grinding. Where removed lies deeper than failed, the damage is taken away first.",
-      "traffic [MGT]",
-      titled("depth", unit::kMillimetres.shown),
-      {}};
+  ReportChart out{"life",
+                  "Damage against removal where the metal fails first",
+                  fmt::format("At y = {:.1f} mm; depth from the new surface. Removed: by wear and grinding. Fails: "
+                              "points when they fail while they come nearer to the surface; the first of them is the "
+                              "life. Unworn: the same if nothing were removed.",
+                              as_shown(unit::kMillimetres, c.y)),
+                  "traffic [MGT]",
+                  titled("depth", unit::kMillimetres.shown),
+                  {}};
   out.series.push_back(line("removed", c.mgt, c.removed));
-  if (!c.damaged.empty()) out.series.push_back(line("failed", c.damaged_mgt, c.damaged));
+  if (!c.failed.empty()) out.series.push_back(line("fails", c.failed_mgt, c.failed));
+  if (!c.damaged.empty()) out.series.push_back(line("unworn", c.damaged_mgt, c.damaged));
   if (std::isfinite(c.layer))
     out.series.push_back(line("bottom of the layer", {c.mgt.front(), c.mgt.back()}, {c.layer, c.layer}));
   return out;

@@ -17,8 +17,7 @@ void write_lives(const std::filesystem::path& file, const std::vector<std::strin
 /// The same rows as objects.
 nlohmann::ordered_json lives_json(const Lives& lives);
 
-/// For the page; the picture has the removed depth and the depth that has failed, over gross tonnes: they cross where
-/// wear and grinding take the damage away, or the zone fails first.
+/// For the page; the picture has the removed depth and the points that fail, over gross tonnes.
 ReportTable lives_table(const Lives& lives);
 std::optional<ReportChart> life_chart(const Lives& lives);
 /// How long the rail lasts, by what, and what is not known; empty where there are no rows.

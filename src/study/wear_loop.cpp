@@ -154,8 +154,8 @@ void note_layer(const LayerLeft& layer, const std::vector<double>& depth, double
 }
 
 double tonnes_of(const std::vector<CollectiveRow>& rows, double gravity) {
-  double out = 0;  // of the wheels on this rail, half of the gross tonnes
-  for (const CollectiveRow& row : rows) out += 0.5 * row.passages * gross_tonnes(row.summary.contact.F_z, gravity);
+  double out = 0;
+  for (const CollectiveRow& row : rows) out += row.passages * gross_tonnes(row.summary.contact.F_z, gravity);
   return out;
 }
 

@@ -3,7 +3,7 @@
 //
 // A step takes as many passages as wear the deepest place by a chosen depth. The wear of a cell is moved inwards along
 // the profile's normal. Before that neighbouring cells that wheels have rolled over exchange a quarter of their
-// difference, again and again until a peak of one cell has a standard deviation of four cells: the area stays, and
+// difference, again and again until a peak of one cell has a standard deviation of 1 mm: the area stays, and
 // where nothing rolled nothing wears. The uppermost layer of the rail thins: every load is solved with the thickness
 // that is left where it touches, and a step takes no more than what is left where the layer wears through first. The
 // rail stays in its place in the track: what wears off its gauge face widens
@@ -51,7 +51,7 @@ struct WearStep {
   double layer_left = kNotApplicable;  ///< m, of the rail's uppermost layer where least is left after the step; 0: worn
                                        ///< through; NaN without a layer
   double layer_y = kNotApplicable;     ///< m, of that place in the rail's frame
-  double tonnes = 0;                   ///< of the loads of this step's wheels
+  double tonnes = 0;                   ///< gross, of this step's wheels
   bool stopped = false;                ///< on request: nothing of this is complete
 };
 

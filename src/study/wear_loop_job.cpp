@@ -28,7 +28,7 @@ struct WearLoopRow {
   double t_gamma = 0;             ///< likewise
   double layer_left = 0;          ///< least of the rail's uppermost layer after the step; NaN without one
   double layer_y = 0;             ///< there, from the rail's axis
-  double tonnes = 0;              ///< on this rail with this step
+  double traffic = 0;             ///< kg gross, with this step
   double first_y = 0;             ///< where the first load touches, from the rail's axis
 };
 using R = WearLoopRow;
@@ -48,10 +48,10 @@ const StateColumns<R> kColumns{{"step", &R::step},
                                {"t_gamma_max", &R::t_gamma, unit::kNewtons},
                                {"layer_left", &R::layer_left, unit::kMicrometres},
                                {"layer_left_y", &R::layer_y, unit::kMillimetres},
-                               {"tonnes", &R::tonnes},
+                               {"traffic", &R::traffic, unit::kMGT},
                                {"rail_y_first", &R::first_y, unit::kMillimetres}};
 
-WearLoopRow row_of(const WearStep& step, double area_before, double tonnes_before) {
+WearLoopRow row_of(const WearStep& step, double area_before, double traffic_before) {
   double pressure = 0, t_gamma = 0;
   for (const CollectiveRow& row : step.rows) {
     pressure = std::max(pressure, row.summary.contact.patch.p_max);
@@ -68,7 +68,7 @@ WearLoopRow row_of(const WearStep& step, double area_before, double tonnes_befor
                              .t_gamma = t_gamma,
                              .layer_left = step.layer_left,
                              .layer_y = step.layer_y,
-                             .tonnes = tonnes_before + step.tonnes,
+                             .traffic = traffic_before + 1e3 * step.tonnes,
                              .first_y = model_to_rail(first.track, first.patches.front().contact.point).y});
 }
 
@@ -92,6 +92,8 @@ class WearLoopJob : public CaseJob {
     options_.max_wear = wanted_.max_wear;
     rail_ = unworn(original_, wanted_.cell);
     plan_collective(loaded_.spec);
+    if (loaded_.spec.grinding.every)
+      control.warn("the loop wears the rail and does not grind it: [grinding] is left out");
   }
   const WornRail& rail() const { return rail_; }
 
@@ -153,7 +155,7 @@ class WearLoopJob : public CaseJob {
     write_rail_damage(in / "rail_damage.csv", origin(), step.damage);
     for (const WearLoad& load : wear_loads(step, rail_.passages)) loads_.push_back(load);
     write_rows(folder() / kWearLoads, origin(), wear_load_columns(), loads_);
-    rows_.push_back(row_of(step, rail_.area, rows_.empty() ? 0 : rows_.back().tonnes));
+    rows_.push_back(row_of(step, rail_.area, rows_.empty() ? 0 : rows_.back().traffic / unit::kMGT.factor));
     write_rows(folder() / kWearTable, origin(), kColumns, rows_);
     warn_of_jump();
     const WearLoopRow& row = rows_.back();
@@ -179,9 +181,9 @@ class WearLoopJob : public CaseJob {
   void finish() override {
     if (worn_through())
       control_.warn(
-          "the rail's uppermost layer is worn through at y = {:.1f} mm after {:.6g} passages, {:.4g} tonnes on this "
-          "rail; the loop ends here",
-          rows_.back().layer_y, rail_.passages, rows_.back().tonnes);
+          "the rail's uppermost layer is worn through at y = {:.1f} mm after {:.6g} passages, {:.4g} MGT; the loop "
+          "ends here",
+          rows_.back().layer_y, rail_.passages, rows_.back().traffic);
     control_.info("{:.6g} passages in {} steps, {:.4g} mm² worn off; the worn rail: {}", rail_.passages, rail_.step,
                   unit::kSquareMillimetres.factor * rail_.area, rail_.file.string());
   }

@@ -61,6 +61,18 @@ TEST(Life, WearAgainstAUniformSkin) {
   EXPECT_TRUE(std::isinf(first_failure(place, {.wear = 1.02 * rate * skin}, 0, kDeep).traffic));
 }
 
+// A point below the skin comes into it at (z0 - skin)/w and fails 1/rate later, while it is still in it.
+TEST(Life, PointsOfAUniformSkinFailAsTheyComeUp) {
+  const double rate = 0.01, skin = 1e-3, wear = 0.5 * rate * skin, end = 800;
+  const std::map<double, double> when = failures_until(uniform(rate, skin), {.wear = wear}, end);
+  EXPECT_GT(when.size(), 100U);
+  for (const auto& [depth, failed] : when) {
+    EXPECT_GE(depth, wear * failed - 1e-9) << "it is still there";
+    if (depth > wear * (end - 1 / rate)) continue;
+    EXPECT_NEAR(failed, std::max(0.0, depth - skin) / wear + 1 / rate, 5) << depth;
+  }
+}
+
 // rate exp(-z/l): D at the surface after t is rate l/w (1 - exp(-w t/l)), so t = -l/w ln(1 - w/(rate l)).
 TEST(Life, WearAgainstDamageThatFallsWithDepth) {
   const double rate = 0.01, l = 1e-3;

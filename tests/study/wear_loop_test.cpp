@@ -83,7 +83,7 @@ TEST(WearLoop, TheLayerThinsWhereItWearsAndTheStepEndsWhereItIsThrough) {
   EXPECT_NEAR(first.deepest, 0.02e-3, 1e-12);
   EXPECT_NEAR(first.layer_left, 0.03e-3, 1e-9);
   EXPECT_EQ(first.rows[0].spec.layers[0].thickness, 0.05e-3) << "a new rail";
-  EXPECT_NEAR(first.tonnes, first.passages * first.rows[0].summary.contact.F_z / (1e3 * spec.vehicle.gravity),
+  EXPECT_NEAR(first.tonnes, 2 * first.passages * first.rows[0].summary.contact.F_z / (1e3 * spec.vehicle.gravity),
               1e-9 * first.tonnes);
   rail = first.rail;
   rail.file = folder.path() / "worn.csv";
@@ -181,15 +181,18 @@ TEST(WearLoop, NothingWearsWhereNothingRolled) {
   EXPECT_NEAR(depth[3], depth[5], 1e-18);
 }
 
-TEST(WearLoop, APeakSpreadsToFourCells) {
-  RailDamage damage;
-  damage.passages.assign(101, 1);
-  damage.usfd.assign(101, 0);
-  damage.usfd[50] = 1;
-  const std::vector<double> depth = smoothed_wear(damage, WearLaw::usfd);
-  double variance = 0;
-  for (int i = 0; i < 101; ++i) variance += depth[static_cast<std::size_t>(i)] * (i - 50) * (i - 50);
-  EXPECT_NEAR(variance, 16, 1e-9);
+TEST(WearLoop, APeakSpreadsToAMillimetreWithAnyCells) {
+  for (const double cell : {0.1e-3, 0.25e-3, 1e-3}) {
+    RailDamage damage;
+    damage.cell = cell;
+    damage.passages.assign(301, 1);
+    damage.usfd.assign(301, 0);
+    damage.usfd[150] = 1;
+    const std::vector<double> depth = smoothed_wear(damage, WearLaw::usfd);
+    double variance = 0;
+    for (int i = 0; i < 301; ++i) variance += depth[static_cast<std::size_t>(i)] * std::pow((i - 150) * cell, 2);
+    EXPECT_NEAR(variance, 1e-6, 1e-12) << cell;
+  }
 }
 
 TEST(WearLoop, TheRailStaysInItsPlaceAndTheGaugeWidens) {
