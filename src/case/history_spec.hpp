@@ -51,7 +51,8 @@ struct LoadSpec {
   std::optional<double> traction_coefficient, creepage;                  ///< at most one
   std::optional<double> lateral_traction_coefficient, lateral_creepage;  ///< at most one
   std::optional<double> friction_coefficient;
-  std::optional<double> guiding_force, t_gamma;  ///< N, of the vehicle code, to compare with what comes out
+  std::optional<double> guiding_force, t_gamma,
+      friction_energy;  ///< N, of the vehicle code, to compare with what comes out
 };
 
 struct CollectiveSpec {

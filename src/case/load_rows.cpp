@@ -50,12 +50,22 @@ constexpr std::array kColumnWords{ColumnWord{"name", "Name"},
                                   ColumnWord{"lateral_shift", "横移量"},
                                   ColumnWord{"yaw", "psi"},
                                   ColumnWord{"yaw", "Anlaufwinkel"},
+                                  ColumnWord{"yaw", "Gierwinkel"},
                                   ColumnWord{"yaw", "Angle d'attaque"},
                                   ColumnWord{"yaw", "Anloppsvinkel"},
                                   ColumnWord{"yaw", "冲角"},
                                   ColumnWord{"roll", "phi"},
                                   ColumnWord{"roll", "Wankwinkel"},
+                                  ColumnWord{"creepage", "Längsschlupf"},
+                                  ColumnWord{"creepage", "Glissement longitudinal"},
+                                  ColumnWord{"creepage", "Längskryp"},
+                                  ColumnWord{"creepage", "纵向蠕滑率"},
+                                  ColumnWord{"lateral_creepage", "Querschlupf"},
+                                  ColumnWord{"lateral_creepage", "Glissement latéral"},
+                                  ColumnWord{"lateral_creepage", "Tvärkryp"},
+                                  ColumnWord{"lateral_creepage", "横向蠕滑率"},
                                   ColumnWord{"curve_radius", "Bogenradius"},
+                                  ColumnWord{"curve_radius", "Bogenhalbmesser"},
                                   ColumnWord{"curve_radius", "Rayon de courbe"},
                                   ColumnWord{"curve_radius", "Kurvradie"},
                                   ColumnWord{"curve_radius", "曲线半径"},
@@ -164,6 +174,35 @@ std::string load_name(const CaseSpec& spec, std::size_t index) {
   return name.empty() ? fmt::format("load {}", index + 1) : name;
 }
 
+namespace {
+
+/// What a series does not give and the case has instead.
+std::string lacking_of(const UnitTable& table, const std::vector<LoadSpec>& samples) {
+  const auto without = [&](auto&& gives) {
+    return samples.size() - static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), gives));
+  };
+  const auto named = [&](std::string_view key) {
+    return std::any_of(table.columns.begin(), table.columns.end(), [&](const Option* o) { return o->key == key; });
+  };
+  std::vector<std::string> out;
+  const auto look = [&](const char* key, auto&& gives) {
+    if (const std::size_t count = without(gives); count == samples.size())
+      out.emplace_back(key);
+    else if (count > 0)
+      out.push_back(fmt::format("{} ({} of {} samples)", key, count, samples.size()));
+  };
+  look("wheel_load", [](const LoadSpec& l) { return l.wheel_load.has_value(); });
+  look("lateral_shift", [](const LoadSpec& l) { return l.lateral_shift.has_value(); });
+  look("yaw", [](const LoadSpec& l) { return l.yaw.has_value(); });
+  look("creepage", [](const LoadSpec& l) { return l.creepage || l.traction_coefficient; });
+  std::string text =
+      out.empty() ? "" : fmt::format("; taken from the case, for the table has none: {}", fmt::join(out, ", "));
+  if (!named("mgt") && !named("passages")) text += "; without a column passages or mgt every sample is one wheel";
+  return text;
+}
+
+}  // namespace
+
 std::string read_load_table(const std::string& text, const std::filesystem::path& path, CaseSpec& spec) {
   const std::filesystem::path file = path.filename();
   const OptionTable& options = *find_table("load");
@@ -187,9 +226,13 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
   }
   if (!series) return {};
   const std::size_t samples = spec.loads.size();
+  const std::string lacking = lacking_of(table, spec.loads);
   spec.loads = binned(spec.loads, spec.collective.bin_scale);
-  std::string note = fmt::format("{}: {} samples of a wheel became {} loads; not read: {}", file.string(), samples,
-                                 spec.loads.size(), fmt::join(table.ignored, ", "));
+  std::vector<std::string> unread = table.ignored;
+  std::erase_if(unread, [](const std::string& name) { return names_way(name); });
+  std::string note =
+      fmt::format("{}: {} samples of a wheel became {} loads{}{}{}", file.string(), samples, spec.loads.size(),
+                  unread.empty() ? "" : "; not read: ", fmt::join(unread, ", "), lacking);
   const auto lacks = [](const LoadSpec& l) { return !l.lateral_creepage && !l.lateral_traction_coefficient; };
   if (std::any_of(spec.loads.begin(), spec.loads.end(), lacks))
     note +=
@@ -197,6 +240,11 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
         "wheel moves across as it turns";
   if (std::none_of(spec.loads.begin(), spec.loads.end(), [](const LoadSpec& l) { return l.roll.has_value(); }))
     note += "; without a column roll, and y of the tread, forces of wheels that touch tread and flange are others";
+  if (spec.drive.creepage_of == CreepageOf::contact &&
+      std::any_of(spec.loads.begin(), spec.loads.end(), [](const LoadSpec& l) { return l.creepage.has_value(); }))
+    note +=
+        "; its creepages are taken for those of the contact that touches first: give drive.creepage_of = \"wheel\" and "
+        "(V - omega r0) / V where wheels touch tread and flange";
   return note;
 }
 

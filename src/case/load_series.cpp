@@ -32,7 +32,7 @@ const std::array kAxes{Axis{&LoadSpec::wheel_load, 10e3},
                        Axis{&LoadSpec::creepage, 5e-4},
                        Axis{&LoadSpec::lateral_creepage, 5e-4}};
 /// Means alone, which part no samples.
-const std::array kMeans{&LoadSpec::roll, &LoadSpec::guiding_force, &LoadSpec::t_gamma};
+const std::array kMeans{&LoadSpec::roll, &LoadSpec::guiding_force, &LoadSpec::t_gamma, &LoadSpec::friction_energy};
 using Bin = std::pair<std::string, std::array<std::optional<long>, kAxes.size()>>;
 
 double on_axis(const Axis& axis, double value) { return axis.inverse ? 1 / value : value; }
@@ -94,17 +94,20 @@ LoadSpec mean_of(LoadSpec sums) {
 
 }  // namespace
 
+bool names_way(std::string_view column) {
+  const std::array words{"time", "distance", "Zeit", "Weg"};
+  return std::any_of(words.begin(), words.end(), [&](const char* word) { return column.starts_with(word); });
+}
+
 bool names_series(std::string_view text) {
-  std::istringstream lines{std::string(text)};
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  std::istringstream lines{std::string(text.starts_with(kMark) ? text.substr(kMark.size()) : text)};
   std::string line;
   while (std::getline(lines, line) && trimmed(line.substr(0, line.find('#')), " \t\r").empty()) {
   }
   std::istringstream cells(line);
-  for (std::string cell; std::getline(cells, cell, line.find(';') == std::string::npos ? ',' : ';');) {
-    const std::string_view name = trimmed(cell, " \t\r\"");
-    for (const std::string_view word : {"time", "distance", "Zeit", "Weg"})
-      if (name.starts_with(word)) return true;
-  }
+  for (std::string cell; std::getline(cells, cell, line.find(';') == std::string::npos ? ',' : ';');)
+    if (names_way(trimmed(cell, " \t\r\""))) return true;
   return false;
 }
 

@@ -8,6 +8,8 @@
 
 namespace railstrata {
 
+/// Whether a column is the time or the distance of samples.
+bool names_way(std::string_view column);
 /// Whether a line of names has a column of time or distance: its rows are then samples of one wheel.
 bool names_series(std::string_view text);
 

@@ -92,6 +92,7 @@ class TableReader {
   void read_line(const std::string& line, const Place& at) {
     if (columns_.empty()) return read_names(line, at);
     const std::vector<std::string> cells = cells_of(line, separator_, form_.blanks ? columns_.size() : 1);
+    if (std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); })) return;
     if (cells.size() != columns_.size()) refuse_width(cells.size(), columns_.size(), separator_, at);
     UnitTable::Row& row = table_.rows.emplace_back();
     row.line = at.line;

@@ -142,6 +142,9 @@ MaterialFit fit_shear_yield(const std::filesystem::path& file) {
   out.monotonic = read_shear_yield(file_text(file), file);
   out.whole = out.stabilised = at_place(file.string(), [&] { return fit_yield_stresses(out.monotonic); });
   note_rate_at_edge(out.whole.law, out.monotonic, file.string(), out.notes);
+  if (out.whole.law.saturation < 0)
+    out.notes.push_back(fmt::format(
+        "{}: the yield stress falls as strain grows, and sheared steel hardens: look at the columns", file.string()));
   if (longest(out.monotonic) > kNoClaim)
     out.notes.push_back(fmt::format(
         "{}: plastic strain reaches {:.0f} %: the card has the strength of sheared steel, no law of small strains",

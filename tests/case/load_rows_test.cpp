@@ -187,9 +187,28 @@ TEST(LoadRows, ASeriesOfAVehicleCodeIsBinned) {
   EXPECT_DOUBLE_EQ(spec.loads[1].passages, 1);
   EXPECT_NEAR(*spec.loads[0].guiding_force, 5.5e3, 1e-9);
   EXPECT_NEAR(*spec.loads[0].t_gamma, 75, 1e-12);
-  expect_says(note, "3 samples of a wheel became 2 loads; not read: time [s]; without a column lateral_creepage");
+  expect_says(note,
+              "3 samples of a wheel became 2 loads; taken from the case, for the table has none: creepage; "
+              "without a column passages or mgt every sample is one wheel; without a column lateral_creepage");
   expect_says(note, "; without a column roll, and y of the tread");
   EXPECT_EQ(spec.loads[1].name, "bin 2: 80 kN, -3 mm");
+}
+
+TEST(LoadRows, ASpreadsheetsSeriesIsReadAndSaysWhatItLacks) {
+  CaseSpec spec;
+  spec.drive.creepage_of = CreepageOf::wheel;
+  const std::string note = read_load_table(
+      "\xEF\xBB\xBFWeg [m];Radlast [kN];y [mm];Gierwinkel [mrad];Längsschlupf;Querschlupf;Fahrweg\n"
+      "0;80;2,1;1;0,001;0;a\n;;;;;;\n1;80;;1;0,001;0;b\n",
+      "wheel.csv", spec);
+  expect_says(note,
+              "2 samples of a wheel became 2 loads; not read: Fahrweg; taken from the case, for the table has "
+              "none: lateral_shift (1 of 2 samples); without a column passages or mgt every sample is one wheel");
+  EXPECT_NEAR(spec.loads.at(0).creepage.value(), 1e-3, 1e-15);
+  EXPECT_EQ(note.find("creepages are taken"), std::string::npos);
+  spec = {};
+  expect_says(read_load_table("time [s];Q [kN];creepage\n0;80;0.001\n", "wheel.csv", spec),
+              "its creepages are taken for those of the contact that touches first");
 }
 
 TEST(LoadRows, NamesPartTheSamplesOfASeriesAndBinsHaveAScale) {
