@@ -32,7 +32,7 @@ class Bogie:
     six, the pitch rates of the wheelsets beyond speed/RADIUS [rad/s]."""
 
     def __init__(self, case, vehicle):
-        self.load, base, self.frame, self.speed, self.aside, self.turn, self.drive, self.mgt = VEHICLES[vehicle]
+        self.load, base, self.frame, self.speed, self.aside, self.stiff, self.drive, self.mgt = VEHICLES[vehicle]
         self.axles, self.places, self.found = [rs.Wheelset(case, cell=1e-3) for _ in range(2)], (base, -base), [0, 0]
         self.outwards = self.speed**2 / CURVE - GRAVITY * CANT / BASE  # m/s^2
 
@@ -42,13 +42,17 @@ class Bogie:
     def into(self, x):
         return min(1, max(0, x - STRAIGHT) / RAMP)  # share of the curvature and of the cant
 
+    def turn(self, axle, x, q):
+        """rad/s of a wheelset about the vertical; the track itself turns to the right."""
+        return float(q[2 * axle + 7]) - self.into(x + self.places[axle]) * self.speed / CURVE
+
     def contact(self, axle, x, q):
         """Force sideways, moments about the axle and the vertical, of both wheels."""
         place = x + self.places[axle]
-        y, yaw, y_rate, yaw_rate = (float(q[2 * axle + k]) for k in (0, 1, 6, 7))
+        y, yaw, y_rate = (float(q[2 * axle + k]) for k in (0, 1, 6))
         f = self.found[axle] = self.axles[axle].solve(
             load=self.load, speed=self.speed, y=y, yaw=yaw, y_rate=y_rate, pitch_rate=float(q[12 + axle]),
-            yaw_rate=yaw_rate - self.into(place) * self.speed / CURVE, rail_y=2 * (self.rail(place),),
+            yaw_rate=self.turn(axle, x, q), rail_y=2 * (self.rail(place),),
             roll_moment=-self.load / GRAVITY * self.outwards * self.into(place) * HEIGHT)
         return f.force[1], f.moment[1], f.moment[2]
 
@@ -58,7 +62,7 @@ class Bogie:
         moment = -TURNING * q[11]
         for i, at in enumerate(self.places):
             spring = self.aside * (q[2 * i] + bend * at * at / 2 - q[4] - at * q[5])
-            turn = self.turn * (q[2 * i + 1] + bend * at - q[5])
+            turn = self.stiff * (q[2 * i + 1] + bend * at - q[5])
             out[6 + 2 * i] = (contacts[i][0] - spring) / WHEELSET + push
             out[7 + 2 * i] = (contacts[i][2] - turn) / YAW_INERTIA
             out[12 + i] = (contacts[i][1] + self.drive * self.load * RADIUS) / PITCH_INERTIA
@@ -97,9 +101,10 @@ def rows(vehicle, case, begin, end):
                 energy = w.dissipation / bogie.speed
                 curve = f"{-CURVE / bogie.into(place):.1f}" if place > STRAIGHT else ""
                 y = 1e3 * (q[2 * i] + RADIUS * both.roll - bogie.rail(place))  # of the tread
-                yaw = 1e3 * q[2 * i + 1]
-                yield (f"{place:.2f};{vehicle}, {axle};{1e-3 * w.force[2]:.2f};{y:.3f};{yaw:.3f};{1e3 * both.roll:.4f};"
-                       f"{w.creepage_x:.6f};{w.creepage_y:.6f};{curve};{bogie.speed};"
+                yaw, rates = q[2 * i + 1], (RADIUS * q[12 + i] + BASE / 2 * bogie.turn(i, x, q), q[2 * i + 6])
+                along, across = -rates[0] / bogie.speed, rates[1] / bogie.speed - yaw  # creepages of the wheel
+                yield (f"{place:.2f};{vehicle}, {axle};{1e-3 * w.force[2]:.2f};{y:.3f};{1e3 * yaw:.3f};"
+                       f"{1e3 * both.roll:.4f};{along:.6f};{across:.6f};{curve};{bogie.speed};"
                        f"{-1e-3 * w.force[1]:.2f};{energy:.2f}")
         one = np.linalg.solve(matrix, one)
         two = np.linalg.solve(matrix, bogie.all_rates(x + STEP, q + h * one) - 2 * one)
@@ -116,4 +121,4 @@ if __name__ == "__main__":
     with multiprocessing.get_context("spawn").Pool(2) as pool:
         found = pool.starmap(series, [(vehicle, *given) for vehicle in VEHICLES], 1)
     print("distance [m];name;Q [kN];y [mm];psi [mrad];roll [mrad];creepage;lateral_creepage;curve_radius [m];"
-          "speed [m/s];Y [kN];T-gamma [N];mgt", *sum(found, []), sep="\n")
+          "speed [m/s];Y [kN];friction_energy [N];mgt", *sum(found, []), sep="\n")
