@@ -222,35 +222,26 @@ TEST(Unbonded, AStretchWithoutNodesIsTheBondedLayer) {
   EXPECT_NEAR(a.forces().z, b.forces().z, 1e-9 * std::abs(b.forces().z));
 }
 
-TEST(Unbonded, WithoutFrictionTheLayerLiftsAndSlidesAndNeverPenetrates) {
-  const RollingSystem system = small_system(unbonded_case(0));
+TEST(Unbonded, TheLayerLiftsAndSlidesWithoutPenetrationAndFrictionHoldsItBack) {
+  const CaseSpec smooth = unbonded_case(0);
+  const RollingSystem system = small_system(smooth);
   Stepper st(system, solve_preload(system, 1e-6));
-  double least = 0;
-  InterfaceGap most;
-  while (st.position() < 0.06) {
+  double least = 0, opening = 0;
+  while (st.position() < smooth.run.positions.back()) {
     for (int k = 0; k < 20; ++k) st.step();
     least = std::min(least, least_opening(st));
-    const InterfaceGap gap = st.interface_gap();
-    most = {std::max(most.opening, gap.opening), std::max(most.slip, gap.slip)};
+    opening = std::max(opening, st.interface_gap().opening);
   }
+  const double slip = st.interface_gap().slip;
   EXPECT_GT(least, -1e-9);
-  EXPECT_GT(most.opening, 0.1e-6) << "the layer lifts beside the wheel";
-  EXPECT_GT(most.slip, 1e-6);
-  RecordProperty("opening", std::to_string(1e6 * most.opening));
-  RecordProperty("slip", std::to_string(1e6 * most.slip));
-}
-
-TEST(Unbonded, FrictionHoldsTheLayerBackAndEnergyCloses) {
-  double slip = 1;
-  for (const double friction : {0.0, 0.3, 50.0}) {
-    const RunResult run = run_rolling(small_system(unbonded_case(friction)), {});
-    const HistoryRow& last = run.history.back();
-    EXPECT_LT(run.closure, 1e-4) << friction;
-    EXPECT_GT(last.way.patches, 0);
-    EXPECT_GT(last.interface.slip, 0);
-    EXPECT_LT(last.interface.slip, 0.9 * slip) << friction;
-    slip = last.interface.slip;
-  }
+  EXPECT_GT(opening, 0.1e-6) << "the layer lifts beside the wheel";
+  EXPECT_GT(slip, 1e-6);
+  const RunResult rough = run_rolling(small_system(unbonded_case(0.3)), {});
+  const HistoryRow& last = rough.history.back();
+  EXPECT_LT(rough.closure, 1e-4);
+  EXPECT_GT(last.way.patches, 0);
+  EXPECT_GT(last.interface.slip, 0);
+  EXPECT_LT(last.interface.slip, 0.9 * slip);
 }
 
 TEST(Unbonded, OnATrackAndWithElementsThatYieldEnergyClosesToo) {
