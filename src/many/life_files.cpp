@@ -94,7 +94,7 @@ std::optional<ReportChart> life_chart(const Lives& lives) {
                   fmt::format("At y = {:.1f} mm; depth from the new surface. Removed: by wear and grinding. Fails: "
                               "points when they fail while they come nearer to the surface; the first of them is the "
                               "life. Unworn: the same if nothing were removed.",
-                              as_shown(unit::kMillimetres, c.y)),
+                              unit::kMillimetres.factor * c.y),
                   "traffic [MGT]",
                   titled("depth", unit::kMillimetres.shown),
                   {}};
