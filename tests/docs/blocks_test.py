@@ -30,7 +30,7 @@ CELL = "1 mm"
 # The program as pages call it: shorter, and content with a check that does not hold on so coarse a mesh.
 SHIM = """#!/bin/sh
 case " $* " in
-  *" --help "* | " run --resume "*) ;;
+  *" --help "* | *" --cell "* | " run --resume "*) ;;
   " python "*) shift; exec /usr/bin/python3 "$@" ;;
   " run "* | *" --engine fem "*) set -- "$@" {sets} ;;
   " bem "* | " passes "* | " shakedown "* | " sweep "* | " creep-curve "* | " creep-table "* | " collective "*)
