@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Runs the tests of a build by CTest: what `./railstrata test` does once all is built.
 
-usage: run_tests.py BUILD [--slow] [--costs CSV] [CTEST'S OWN OPTION]...
+usage: run_tests.py BUILD [--slow | --windows] [--costs CSV] [CTEST'S OWN OPTION]...
 
-Without --slow all tests but those with the label long or slow, with it those with the label slow. Tests get a temporary
+Tests without a label of LABELS, or those with the label slow or windows. Tests get a temporary
 folder (TMPDIR) of their own; what they leave there is a fault. After CTest's lines those that were skipped are named,
 with their reasons.
 --costs: measures the processor time of each test, children included, and keeps the sums by room in CSV
@@ -26,6 +26,8 @@ import xml.etree.ElementTree as xml
 
 sys.dont_write_bytecode = True
 import records
+
+LABELS = ("slow", "windows", "long")
 
 # Tests share the cores: a thread that spins while it waits takes one from another test, and on a busy machine a test of
 # two threads of 4 s takes 19 s of processor time.
@@ -104,7 +106,8 @@ def keep_costs(csv, commit, tests, costs):
 
 
 def run(given, words, folder):
-    chosen = [*(["-L", "^slow$"] if given.slow else ["-LE", "^(long|slow)$"]), *words]
+    label = next((name for name in LABELS if vars(given).get(name)), None)
+    chosen = [*(["-L", f"^{label}$"] if label else ["-LE", f"^({'|'.join(LABELS)})$"]), *words]
     build = measured(given.build, chosen, folder) if given.costs else given.build
     results, temporary = folder / "results.xml", folder / "tmp"
     temporary.mkdir()
@@ -118,7 +121,7 @@ def run(given, words, folder):
     if left:
         print(f"left in the temporary folder by tests: {', '.join(left)}", file=sys.stderr)
     if given.costs:
-        keep_costs(given.costs, commit_of(given.build), "slow" if given.slow else "default", folder / "costs")
+        keep_costs(given.costs, commit_of(given.build), label or "default", folder / "costs")
     return code or bool(left)
 
 
@@ -127,7 +130,9 @@ def main():
         return one(*sys.argv[2:])
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--slow", action="store_true")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--slow", action="store_true")
+    which.add_argument("--windows", action="store_true")
     parser.add_argument("--costs", metavar="CSV", type=pathlib.Path)
     given, words = parser.parse_known_args()
     given.build = given.build.resolve()

@@ -1,6 +1,7 @@
 """A minimal Debian 12 in a folder, made by mmdebstrap; commands in it see nothing of this machine but its network."""
 import os
 import pathlib
+import shlex
 import shutil
 import subprocess
 import sys
@@ -26,16 +27,20 @@ def done(*words, **options):
 
 
 class Tree:
-    """A system in a folder."""
+    """A system in a folder; it sees folders of this machine at the places that `shared` maps them to."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
+        self.shared, self.environment = {}, {}
 
     def run(self, command):
+        shared = "".join(f'mkdir -p "$0"{shlex.quote(inside)}; mount --bind {shlex.quote(outside)} '
+                         f'"$0"{shlex.quote(inside)}; ' for outside, inside in self.shared.items())
+        environment = " ".join(shlex.quote(f"{name}={value}") for name, value in self.environment.items())
         return done("unshare", "--mount", "--pid", "--fork", "sh", "-ec",
                     'mount -t proc proc "$0/proc"; mount --bind /dev "$0/dev"; mount -t tmpfs tmpfs "$0/dev/shm"; '
-                    'exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 '
-                    'DEBIAN_FRONTEND=noninteractive sh -ec "$1"', self.folder, command)
+                    f'{shared}exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 '
+                    f'DEBIAN_FRONTEND=noninteractive {environment} sh -ec "$1"', self.folder, command)
 
     def apt(self, *names):
         return self.run("apt-get install -y -qq --no-install-recommends " + " ".join(names))

@@ -3,23 +3,33 @@
 
 usage: fresh_tree_test.py SOURCE FOLDER [--test-first] [--keep]
 
-Clones the commit of SOURCE into a new system and runs `./railstrata demo` there to its exit code, without a compiler
-cache; then `./railstrata test` with the tests that need each optional part (MPI, Python, a browser, Fortran), none of
-which may be skipped. --test-first: in the other order. --keep: the tree stays. Needs root, mmdebstrap and an archive of
-Debian; skipped (77) without.
+Clones the commit of SOURCE into a new system and runs `./railstrata demo` there to its exit code; then
+`./railstrata test` with the tests that need each optional part (MPI, Python, a browser, Fortran), none of
+which may be skipped. What this machine's ccache has compiled of the same sources with the same options
+(RAILSTRATA_CMAKE) is not compiled again. --test-first: in the other order. --keep: the tree stays. Needs root,
+mmdebstrap and an archive of Debian; skipped (77) without.
 """
 import argparse
 import json
+import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 
 from debian_tree import done, made, missing
 
 HOME = "/root/checkout"
+CACHE = "/root/.cache/ccache"
 # Of every optional part a test that needs it: tests/program, tests/python, tests/report, tests/install.
 PARTS = {"MPI": "mpi:ranks", "Python": "python", "browser": "report:page", "Fortran": "install:CConsumer"}
+
+
+def share_cache(tree):
+    where = subprocess.run(["ccache", "--get-config", "cache_dir"], capture_output=True, text=True, check=True).stdout
+    tree.shared[where.strip()] = CACHE
+    tree.environment["RAILSTRATA_CMAKE"] = os.environ.get("RAILSTRATA_CMAKE", "")
 
 
 def demo(tree):
@@ -58,7 +68,10 @@ def main():
         return 77
     shutil.rmtree(given.folder, ignore_errors=True)
     given.folder.mkdir(parents=True)
-    tree = made(given.folder / "tree", "git", "ca-certificates")
+    cached = shutil.which("ccache")
+    tree = made(given.folder / "tree", "git", "ca-certificates", *(["ccache"] if cached else []))
+    if cached:
+        share_cache(tree)
     done("git", "clone", "--quiet", given.source, tree.folder / HOME[1:])
     for step in [test, parts, demo] if given.test_first else [demo, parts, test, parts]:
         step(tree)

@@ -9,6 +9,6 @@ if(RAILSTRATA_LIBRARY AND NOT RAILSTRATA_SANITIZE AND NOT RAILSTRATA_COVERAGE)
       $<TARGET_FILE:railstrata_library${installed_suffix}> $<TARGET_FILE:contact_addon> ${what})
     set_tests_properties(windows:${name} PROPERTIES FIXTURES_REQUIRED windows TIMEOUT 900 RESOURCE_LOCK wine)
   endforeach()
-  set_tests_properties(windows:build windows:program windows:library windows:contact PROPERTIES LABELS slow
+  set_tests_properties(windows:build windows:program windows:library windows:contact PROPERTIES LABELS windows
     SKIP_RETURN_CODE 77 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endif()
