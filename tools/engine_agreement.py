@@ -44,9 +44,9 @@ def difference(a, b, column):
 
 def point_difference(fem, equal):
     """Of the largest |q| of a point; tables without that column have it as q_max."""
-    if equal and equal.get("q_max_point_MPa"):
-        equal = equal | {"q_max_MPa": equal["q_max_point_MPa"]}
-    return difference(fem, equal, "q_max_MPa")
+    def of_point(row):
+        return row and (row | {"q_max_MPa": row.get("q_max_point_MPa") or row["q_max_MPa"]})
+    return difference(of_point(fem), of_point(equal), "q_max_MPa")
 
 
 def von_mises_below(row, element_mm):

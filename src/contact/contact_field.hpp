@@ -20,12 +20,11 @@ struct ContactField {
   std::vector<double> p, q_x, q_y;     ///< Pa
   std::vector<double> slip_x, slip_y;  ///< m/s, or m: see slip_is_distance
   std::vector<ContactState> state;
-  std::vector<double> slip_share;  ///< of the time in which a point passes the element around it, that in which it
-                                   ///< slips; empty: the state is all that is known
   /// W/m², of the element ahead of a point, means over the time in which it is passed: q·slip, and p over the path of
   /// the slips. Empty: of q, p and slip above, which are states of single moments in finite elements.
   std::vector<double> friction_power, pressed_slip;
   std::vector<double> bound;      ///< Pa, what a sticking point carries at most; empty: in proportion to p
+  bool at_points = false;         ///< values are those of points (finite elements), not means over cells
   bool slip_is_distance = false;  ///< of a shift, which has no speed: m, over its last increment
   double p_noise = 0;             ///< Pa, points with p below this count as separated in areas and ratios
   double line_length = 0;         ///< m, of a line contact: its columns are equal; 0: none

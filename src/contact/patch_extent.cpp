@@ -1,12 +1,32 @@
 #include "contact/patch_extent.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/parabola.hpp"
 
 namespace railstrata {
 namespace {
 
+/// Distance from the edge of a row to its third point in contact, whatever the force per length outside it. A value at
+/// a point is a force over the length that the point stands for; p is as the root of d (L - d), d from the edge, L the
+/// row's length [Johnson1985 sec. 4.2]. Of the third point's force, half less h² p'/6 lies outside.
+double distance_by_force(double of_others, double third, double h, double length) {
+  constexpr int kRounds = 8;
+  constexpr double kMost = 0.9;
+  double d = 1.5 * (of_others / third + 0.5 * h);
+  for (int k = 0; k < kRounds; ++k) {
+    const double u = std::min(d / length, kMost), root = std::sqrt(u * (1 - u)),
+                 mean = ((2 * u - 1) * root / 4 + std::asin(2 * u - 1) / 8 + std::numbers::pi / 16) / root,
+                 slope = (1 - 2 * u) / (2 * u * (1 - u) * length);
+    d *= (of_others / third + 0.5 * h - square(h) * slope / 6) / (mean * length);
+  }
+  return d;
+}
+
 template <class T, class P>
-Chord chord(int n, double noise, T&& t, P&& p) {
+Chord chord(int n, double noise, bool at_points, T&& t, P&& p) {
   int first = -1, last = -1;
   for (int i = 0; i < n; ++i)
     if (p(i) > noise) {
@@ -21,13 +41,25 @@ Chord chord(int n, double noise, T&& t, P&& p) {
   if (first > 0)
     c.begin = last > first ? vanishing_place(t(first + 1), p(first + 1), t(first), p(first), t(first - 1))
                            : 0.5 * (t(first) + t(first - 1));
-  return c;
+  constexpr int kThird = 2;
+  if (!at_points || last - first < 2 * kThird || first == 0 || last + 1 == n) return c;
+  if (!(p(first + kThird) > noise && p(last - kThird) > noise)) return c;
+  const auto distance = [&](int outermost, int inward) {
+    const int third = outermost + kThird * inward;
+    double force = 0;
+    for (int i = third - inward; i > 0 && i + 1 < n && p(i) > 0; i -= inward)
+      force += 0.5 * p(i) * (t(i + 1) - t(i - 1));
+    const double h = std::abs(t(third) - t(third - inward));
+    return distance_by_force(force, p(third), h, c.length());
+  };
+  const double begin = t(first + kThird) - distance(first, 1), end = t(last - kThird) + distance(last, -1);
+  return {std::clamp(begin, t(first - 1), t(first + 1)), std::clamp(end, t(last - 1), t(last + 1)), true};
 }
 
 Chord chord_across(const ContactField& f, int station) {
   const auto at = [&](int c) { return station * f.columns + c; };
   return chord(
-      f.columns, f.p_noise, [&](int c) { return f.y[at(c)]; }, [&](int c) { return f.p[at(c)]; });
+      f.columns, f.p_noise, f.at_points, [&](int c) { return f.y[at(c)]; }, [&](int c) { return f.p[at(c)]; });
 }
 
 }  // namespace
@@ -41,7 +73,7 @@ double vanishing_place(double t_in, double p_in, double t_last, double p_last, d
 Chord chord_along(const ContactField& f, int column) {
   const auto at = [&](int s) { return s * f.columns + column; };
   return chord(
-      f.stations, f.p_noise, [&](int s) { return f.x[at(s)]; }, [&](int s) { return f.p[at(s)]; });
+      f.stations, f.p_noise, f.at_points, [&](int s) { return f.x[at(s)]; }, [&](int s) { return f.p[at(s)]; });
 }
 
 PatchExtent patch_extent(const ContactField& f) {

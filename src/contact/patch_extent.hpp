@@ -10,7 +10,8 @@ namespace railstrata {
 inline constexpr double kPressureNoise = 0.025;
 
 /// A row of points from the first to the last in contact, between the edges where p² extrapolates to zero, as Hertz's
-/// pressure does; gaps between them included.
+/// pressure does; gaps between them included. Of five and more values at points (ContactField::at_points) an edge is
+/// where Hertz's pressure has the force of the two outermost: they are means over elements that reach beyond the edge.
 struct Chord {
   double begin = 0, end = 0;  ///< m
   bool any = false;

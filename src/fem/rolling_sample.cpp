@@ -133,6 +133,7 @@ ContactField pressures_around(const Stepper& st) {
   };
   const int first = station(middle - half);
   ContactField out;
+  out.at_points = true;
   out.resize(surface.columns, std::min(station(middle + half), surface.stations.nodes()) - first);
   for (int k = 0; k < out.stations; ++k)
     for (int c = 0; c < out.columns; ++c) {

@@ -90,16 +90,15 @@ double number_in(const nlohmann::json& object, const char* key) {
                                                          : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The largest cell of half-spaces too misses the cusp at the front of slip, which their q_max is
-/// (docs/bem-verification.md). So points are compared with cells of the same size.
+/// Largest shears of a point are compared with those of cells of the same size: both miss the cusp at the front of
+/// slip by as much (docs/bem-verification.md).
 ReportCheck shear_check(const ReportRun& fem, const ReportRun& bem, const std::vector<int>& both) {
   const double ours = fem.result.number("/contact/q_max_Pa"), theirs = bem.result.number("/contact/q_max_Pa");
   if (!std::isfinite(fem.shear_on_elements)) return within("q_max", both, ours, theirs);
-  ReportCheck check = within("q_max", both, ours, fem.shear_on_elements);
+  ReportCheck check = within("q_max", both, fem.result.number("/contact/q_max_point_Pa"), fem.shear_on_elements);
   check.note = fmt::format(
-      "largest cell of half-spaces on cells as large as the elements ({:.3g} mm): {:.0f} MPa; at the front of slip "
-      "they "
-      "have {:.0f} MPa, from which the elements differ by {:.1f} %",
+      "largest of a point, beside cells as large as the elements ({:.3g} mm): {:.0f} MPa; at the front of slip "
+      "half-spaces have {:.0f} MPa, from which the elements differ by {:.1f} %",
       1e3 * element_size(fem), 1e-6 * fem.shear_on_elements, 1e-6 * theirs, 100 * std::abs(ours / theirs - 1));
   return check;
 }

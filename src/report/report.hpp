@@ -32,9 +32,9 @@ struct ReportRun {                                    // NOLINT(bugprone-excepti
   std::optional<CsvTable> depth_line, history, film;  ///< film: patch_film.csv of a transient
   std::optional<CsvTable> points, spectrum;           ///< points_history.csv and force_spectrum.csv, where the rail
                                                       ///< changes along the way
-  double shear_on_elements = std::numeric_limits<double>::quiet_NaN();  ///< of a finite element run: q_max [Pa] of the
-                                                                        ///< half-space solution on cells as large as
-                                                                        ///< its elements; NaN: not solved
+  double shear_on_elements = std::numeric_limits<double>::quiet_NaN();  ///< of a finite element run: q_max_point [Pa]
+                                                                        ///< of the half-space solution on cells as
+                                                                        ///< large as its elements; NaN: not solved
   std::vector<ResultDoubt> doubts;           ///< why its numbers may not be those of its case
   std::map<std::string, CsvTable> sections;  ///< "rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"
   std::map<std::string, CsvTable> slices;    ///< "rail", "wheel": cross sections along the patch

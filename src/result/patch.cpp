@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "contact/patch_extent.hpp"
 #include "core/parabola.hpp"
@@ -39,8 +40,38 @@ void find_peak(const ContactField& f, int top, PatchMeasures& m) {
   }
 }
 
-/// Length of a column's chord in which the slip share, linear between points and level beyond the outermost ones in
-/// contact, is one half or more.
+double shear(const ContactField& f, int i) { return std::hypot(f.q_x[i], f.q_y[i]); }
+
+/// A point that sticks next to one of its column that slips.
+struct Front {
+  int sticks, slips;
+  int on() const { return sticks - slips; }
+};
+
+double bound_beside(const ContactField& f, const Front& front, int i) {
+  return f.bound.empty() ? shear(f, front.slips) / f.p[front.slips] * f.p[i] : f.bound[i];
+}
+
+/// Distance from the sticking point to the front, of points; none where the point ahead of it does not stick. Of values
+/// at points: where stick reaches the leading edge, the square of the margin is that of Carter's stick,
+/// (x - front) (edge - x) [Johnson1985 sec. 8.3].
+std::optional<double> front_behind(const ContactField& f, const Front& front) {
+  const auto sticks = [&](int i) { return i >= 0 && i < f.size() && f.state[i] == ContactState::stick; };
+  const auto margin = [&](int i) { return bound_beside(f, front, i) - shear(f, i); };
+  const int ahead = front.sticks + front.on(), after = ahead + front.on();
+  if (!sticks(ahead) || !(f.p[front.slips] > 0)) return {};
+  StickMargins margins{margin(front.sticks), margin(ahead), {}};
+  if (f.at_points) {
+    const double edge = chord_along(f, ahead % f.columns).end, room = edge - f.x[ahead];
+    if (room > 0) margins.near *= std::sqrt(room / (edge - f.x[front.sticks]));
+    return front_behind_point(margins);
+  }
+  if (sticks(after)) margins.after = margin(after);
+  return front_behind_cell(margins);
+}
+
+/// Length of a column's chord that slips: to the front behind stick, half of the way where there is none; the outermost
+/// points in contact stand for what is beyond them.
 double slipping_length(const ContactField& f, int column, const Chord& chord) {
   const auto at = [&](int s) { return s * f.columns + column; };
   int first = f.stations, last = -1;
@@ -51,12 +82,15 @@ double slipping_length(const ContactField& f, int column, const Chord& chord) {
     }
   double length = 0;
   for (int s = std::max(first - 1, 0); s < std::min(last + 1, f.stations - 1); ++s) {
-    const auto above = [&](int k) { return f.slip_share[at(std::clamp(k, first, last))] - 0.5; };
-    const double x0 = f.x[at(s)], x1 = f.x[at(s + 1)], a0 = above(s), a1 = above(s + 1);
-    if (a0 < 0 && a1 < 0) continue;
-    const double crossing = (a0 < 0) == (a1 < 0) ? x0 : x0 + (x1 - x0) * a0 / (a0 - a1);
-    const double from = std::max(a0 < 0 ? crossing : x0, chord.begin), to = std::min(a1 < 0 ? crossing : x1, chord.end);
-    length += std::max(0.0, to - from);
+    const int i0 = at(std::clamp(s, first, last)), i1 = at(std::clamp(s + 1, first, last));
+    const bool slips0 = f.state[i0] == ContactState::slip, slips1 = f.state[i1] == ContactState::slip;
+    if (!slips0 && !slips1) continue;
+    double from = f.x[at(s)], to = f.x[at(s + 1)];
+    if (slips0 != slips1) {
+      const double back = slips0 ? front_behind(f, {i1, i0}).value_or(0.5) : 0.5;
+      (slips0 ? to : from) = slips0 ? to - back * (to - from) : 0.5 * (from + to);
+    }
+    length += std::max(0.0, std::min(to, chord.end) - std::max(from, chord.begin));
   }
   return length;
 }
@@ -93,7 +127,7 @@ double slipping_share_of_chords(const ContactField& f) {
 }
 
 double slipping_share(const ContactField& f) {
-  if (!f.slip_share.empty()) return slipping_share_of_chords(f);
+  if (f.at_points) return slipping_share_of_chords(f);
   double touching = 0, slipping = 0;
   for (int i = 0; i < f.size(); ++i) {
     if (!(f.p[i] > f.p_noise && f.p[i] > 0)) continue;
@@ -137,23 +171,14 @@ PatchMeasures measure_patch(const ContactField& f) {
 }
 
 double shear_at_front_of_slip(const ContactField& f) {
-  const auto q = [&](int i) { return std::hypot(f.q_x[i], f.q_y[i]); };
   double largest = 0;
   for (int i = 0; i < f.size(); ++i) {
-    largest = std::max(largest, q(i));
-    const int behind = i - f.columns, ahead = i + f.columns;
-    if (behind < 0 || ahead >= f.size() || !(f.p[behind] > 0) || f.state[behind] != ContactState::slip ||
-        f.state[i] != ContactState::stick || f.state[ahead] != ContactState::stick)
-      continue;
-    const double friction = q(behind) / f.p[behind];
-    const auto bound = [&](int k) { return f.bound.empty() ? friction * f.p[k] : f.bound[k]; };
-    const auto margin = [&](int k) { return bound(k) - q(k); };
-    StickMargins margins{margin(i), margin(ahead), {}};
-    if (const int after = ahead + f.columns; after < f.size() && f.state[after] == ContactState::stick)
-      margins.after = margin(after);
-    const double back = front_behind_cell(margins);
-    largest = std::max(largest, f.bound.empty() ? friction * ((1 - back) * f.p[i] + back * f.p[behind])
-                                                : (1 - back) * bound(i) + back * bound(behind));
+    largest = std::max(largest, shear(f, i));
+    const Front front{i, i - f.columns};
+    if (front.slips < 0 || f.state[front.slips] != ContactState::slip || f.state[i] != ContactState::stick) continue;
+    if (const std::optional<double> back = front_behind(f, front))
+      largest =
+          std::max(largest, (1 - *back) * bound_beside(f, front, i) + *back * bound_beside(f, front, front.slips));
   }
   return largest;
 }

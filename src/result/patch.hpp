@@ -10,14 +10,14 @@ namespace railstrata {
 struct PatchMeasures {
   double p_max = 0;  ///< Pa, top of the parabola through the largest value and its neighbours
   double p_max_x = 0, p_max_y = 0;
-  double q_max = 0;        ///< Pa, largest magnitude of the tangential traction; half-spaces: shear_at_front_of_slip
+  double q_max = 0;        ///< Pa, largest magnitude of the tangential traction; of what rolls shear_at_front_of_slip
   double q_max_point = 0;  ///< Pa, the largest of a point
   /// m, in and across the rolling direction; edges where p² extrapolates to zero, as Hertz's pressure does. A line
   /// contact has no width: NaN
   double length = 0, width = 0;
   double area = 0;  ///< m², from the chords of the columns
-  /// area of slipping points / area of points in contact (those with p above ContactField::p_noise); where
-  /// ContactField::slip_share is known, of the columns' chords, cut where it passes one half
+  /// area of slipping cells / area of cells in contact; of values at points, of the columns' chords (p above
+  /// ContactField::p_noise), cut at the front of slip
   double slip_area_fraction = 0;
   double force_x = 0, force_y = 0, force_z = 0;  ///< N on the wheel, sums of area times traction (z: normal)
 };
@@ -40,7 +40,7 @@ inline void add_point(PatchMeasures& m, const ContactField& f, int i) {
 
 PatchMeasures measure_patch(const ContactField& field);
 
-/// Largest |q| [Pa] of half-spaces that roll: the largest of a point, or of a row's front of slip where that is more.
+/// Largest |q| [Pa] of bodies that roll: the largest of a point, or of a row's front of slip where that is more.
 /// There |q| has a cusp that points miss by up to half their distance: it follows f p in slip behind the front and
 /// leaves it like the square root of the distance in stick ahead of it, so that (f p - |q|)² of the last two points
 /// that stick is linear and zero at the front; |q| there is f p between the points on either side. f is |q|/p of the

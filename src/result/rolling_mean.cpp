@@ -84,6 +84,7 @@ ContactField contact_field(const RollingSystem& sys, const RollingSample& s) {
   ContactField f;
   const ContactSurface& surface = sys.rail_surface();
   f.resize(surface.columns, s.rail.stations + 1);
+  f.at_points = true;
   auto tributary = [](auto&& width, int i, int n) {
     return 0.5 * ((i > 0 ? width(i - 1) : 0.0) + (i + 1 < n ? width(i) : 0.0));
   };
@@ -147,12 +148,12 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     add(m.wheel, s.wheel, weight);
   }
   if (Passage found = passage(group.samples, m.field.columns); !found.slip_share.empty()) {
-    m.field.slip_share = std::move(found.slip_share);
     m.field.friction_power = std::move(found.friction_power);
     m.field.pressed_slip = std::move(found.pressed_slip);
-    set_states(m.field, [&](int i) { return m.field.slip_share[i] >= 0.5; });
+    set_states(m.field, [&](int i) { return found.slip_share[i] >= 0.5; });
   }
   m.patch = measure_patch(m.field);
+  m.patch.q_max = shear_at_front_of_slip(m.field);
   const double mean = p_sum * weight;
   m.p_max_scatter = mean > 0 ? std::sqrt(std::max(0.0, p_square * weight - mean * mean)) / mean : 0;
   return m;

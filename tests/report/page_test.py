@@ -186,7 +186,8 @@ class Run(Page):
         for check, key in [("p_max", "p_max_Pa"), ("patch_length", "patch_length_m"), ("q_max", "q_max_Pa")]:
             limit = limits[check]
             theirs = equal["contact"]["q_max_point_Pa"] if check == "q_max" else bem["contact"][key]
-            value = abs(fem["contact"][key] / theirs - 1)
+            ours = fem["contact"]["q_max_point_Pa" if check == "q_max" else key]
+            value = abs(ours / theirs - 1)
             row = self.js(
                 "const r = document.querySelector(`tr[data-check='${arguments[0]}'][data-runs='0,1']`); return {ok: "
                 "r.dataset.ok === 'true', value: r.querySelector('.value').innerText, limit: "

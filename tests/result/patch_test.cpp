@@ -65,6 +65,30 @@ TEST(Patch, MeasuresConvergeWithTheSpacing) {
   EXPECT_NEAR(fine.length / (2 * kA), 1, 4e-3);
 }
 
+// What elements have: a node's pressure is its force over the length that it stands for.
+TEST(Patch, EdgesOfNodesAreThoseOfTheForceThatTheyBear) {
+  for (const double h : {1e-3, 1.5e-3, 2e-3})
+    for (const double place : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+      ContactField f = hertz_field(h, 0, 0);
+      f.at_points = true;
+      for (int i = 0; i < f.size(); ++i) {
+        f.x[i] += h * place;
+        double force = 0;
+        constexpr int kParts = 400;
+        for (int k = 0; k < kParts; ++k) {
+          const double t = 2 * (k + 0.5) / kParts - 1, x = f.x[i] + h * t,
+                       p2 = 1 - std::pow(x / kA, 2) - std::pow(f.y[i] / kB, 2);
+          force += p2 > 0 ? kPeak * std::sqrt(p2) * (1 - std::abs(t)) * 2 / kParts : 0.0;
+        }
+        f.p[i] = force;
+      }
+      const int column = f.columns / 2;
+      const Chord chord = chord_along(f, column);
+      EXPECT_NEAR(chord.begin, -kA, 0.05 * h) << h << ' ' << place;
+      EXPECT_NEAR(chord.end, kA, 0.05 * h) << h << ' ' << place;
+    }
+}
+
 // Carter's traction: f p in slip, f p less a Hertzian part over the stick in front of it. [Johnson1985 sec. 8.3]
 TEST(Patch, ShearAtTheFrontOfSlipIsFoundBetweenThePointsWhateverTheirPlace) {
   const double f = 0.4, front = -1.3e-3, middle = 0.5 * (kA + front), half = 0.5 * (kA - front);

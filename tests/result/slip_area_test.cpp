@@ -1,4 +1,4 @@
-// The slip area of a rolling contact from what the law said of the nodes that passed through it.
+// The slip area of a rolling contact from what the law said of the nodes that passed through it, and from their shear.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace railstrata {
 namespace {
 
-constexpr double kA = 6.5e-3, kB = 5.0e-3, kSpeed = 25, kPeak = 1e9;
+constexpr double kA = 6.5e-3, kB = 5.0e-3, kSpeed = 25, kPeak = 1e9, kFriction = 0.4;
 
 /// Strips of Carter's line contact over Hertz's ellipse: each slips over the same length 2 d behind its stick, or all
 /// of it where it is shorter. [Kalker1990]
@@ -19,6 +19,12 @@ struct Strips {
   double d = 0;
   static double half(double y) { return kA * std::sqrt(std::max(0.0, 1 - y * y / (kB * kB))); }
   double front(double y) const { return std::min(2 * d - half(y), half(y)); }
+  /// Carter's: f p, less in stick a Hertzian part. [Johnson1985 sec. 8.3]
+  double shear(double x, double y) const {
+    const double p2 = 1 - x * x / (kA * kA) - y * y / (kB * kB), middle = 0.5 * (half(y) + front(y)),
+                 stick = 0.5 * (half(y) - front(y)), s2 = stick * stick - (x - middle) * (x - middle);
+    return p2 > 0 ? -kFriction * kPeak * (std::sqrt(p2) - std::sqrt(std::max(0.0, s2)) / kA) : 0.0;
+  }
   double slip_share() const {
     constexpr int kSteps = 20000;
     double area = 0;
@@ -46,6 +52,7 @@ PositionSamples passing(const RollingSystem& system, const Strips& strips, doubl
         const double y = rail.node[c].y, half = Strips::half(y), front = strips.front(y),
                      p2 = 1 - x * x / (kA * kA) - y * y / (kB * kB);
         s.tractions.push_back({.p = p2 > 0 ? kPeak * std::sqrt(p2) : 0,
+                               .q1 = strips.shear(x, y),
                                .contact_time = std::clamp(half - x, 0.0, 2 * half) / kSpeed,
                                .slip_time = std::clamp(front - x, 0.0, front + half) / kSpeed});
       }
