@@ -160,6 +160,19 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   return out;
 }
 
+void require_shareable(const CaseSpec& spec) {
+  const auto refuse = [&](bool asked, const char* what, const char* key, const char* why) {
+    if (asked)
+      throw CaseError(fmt::format("{} ({}) is not shared by ranks: {}", what, key, why), "run the case in one process",
+                      key);
+  };
+  refuse(spec.geometry.rail_radius.has_value(), "a rail that is a ring", "geometry.rail_radius",
+         "they exchange what stands around a wheel that travels along a straight rail");
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    refuse(!spec.layers[i].unbonded.empty(), "an unbonded layer", fmt::format("layer.{}.unbonded", i).c_str(),
+           "its two sides meet in one process");
+}
+
 void require_half_spaces(const CaseSpec& spec) {
   if (!spec.track.held())
     throw CaseError("half-spaces have no inertia, and no track below them",

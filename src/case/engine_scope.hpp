@@ -18,6 +18,9 @@ struct BeyondEngine {
 /// The reason why the finite element engine refuses a case; empty for one that it runs.
 std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec);
 
+/// Throws CaseError for what several ranks cannot share.
+void require_shareable(const CaseSpec& spec);
+
 /// Throws CaseError for what only the finite elements know.
 void require_half_spaces(const CaseSpec& spec);
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "case/engine_scope.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "fem/static_vector.hpp"
@@ -58,14 +59,7 @@ Stepper::Stepper(const RollingSystem& system, const Ranks& ranks)
       track_(system.pads),
       interface_(system.rail()) {
   require_stable(system.pads, system.rail(), dt(), system.model.spec.run.step_safety);
-  if (!ranks.alone() && sys_.on_ring())
-    throw CaseError(
-        "a rail that is a ring (geometry.rail_radius) is not shared by ranks: they exchange what stands "
-        "around a wheel that travels along a straight rail",
-        "run the case in one process");
-  if (!ranks.alone() && !interface_.none())
-    throw CaseError("an unbonded layer (layer.unbonded) is not shared by ranks: its two sides meet in one process",
-                    "run the case in one process");
+  if (!ranks.alone()) require_shareable(system.model.spec);
   if (!ranks.alone()) exchange_.emplace(ranks, system.model, bodies_);
 }
 

@@ -1,5 +1,6 @@
 #include "runs/device_at_hand.hpp"
 
+#include "case/engine_scope.hpp"
 #include "device/device_of.hpp"
 
 namespace railstrata {
@@ -12,6 +13,7 @@ bool on_a_device(const CaseSpec& spec) { return spec.run.rolling && spec.run.dev
 }  // namespace
 
 void require_device(const CaseSpec& spec, const Ranks& ranks) {
+  if (spec.run.rolling && !ranks.alone()) require_shareable(spec);
   if (!on_a_device(spec)) return;
   if (!ranks.alone())
     throw CaseError("several ranks share a run on processors only", "start one rank, or run.device = \"cpu\"", kKey);

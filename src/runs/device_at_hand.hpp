@@ -5,8 +5,8 @@
 
 namespace railstrata {
 
-/// Checks a case that rolls on a device. Throws CaseError where several ranks are to share it, EnvironmentError where
-/// run.device = "gpu" and the program was built without CUDA or no card is found; both with a remedy.
+/// Checks a case that rolls. Throws CaseError where several ranks cannot share it, EnvironmentError where run.device =
+/// "gpu" and the program was built without CUDA or no card is found; both with a remedy.
 void require_device(const CaseSpec& spec, const Ranks& ranks = {});
 
 /// The same with the place of the key in the case's file.
