@@ -197,7 +197,7 @@ TEST(InterfaceStep, TwoBarsExchangeTheirVelocities) {
 
 // Two stations one element apart have none between them: the nodes stand twice and hold everywhere. They bear a smaller
 // step than single ones, the bonded layer is given the same.
-TEST(Unbonded, AStretchWithoutNodesIsTheBondedLayer) {
+TEST(SlowUnbonded, AStretchWithoutNodesIsTheBondedLayer) {
   const Model model = build_model(unbonded_case(0, kFrom + 4e-3), ".");
   const RollingSystem split(model);
   Model whole = model;
@@ -244,7 +244,7 @@ TEST(Unbonded, TheLayerLiftsAndSlidesWithoutPenetrationAndFrictionHoldsItBack) {
   EXPECT_LT(last.interface.slip, 0.9 * slip);
 }
 
-TEST(Unbonded, OnATrackAndWithElementsThatYieldEnergyClosesToo) {
+TEST(SlowUnbonded, OnATrackAndWithElementsThatYieldEnergyClosesToo) {
   CaseSpec yields = unbonded_case(0.3);
   yields.run.plasticity = true;
   yields.rail_material.strength.yield_strength = 500e6;
@@ -264,12 +264,12 @@ TEST(Unbonded, RanksAreRefusedWithARemedy) {
     ThreadRanks(2).run(1, [&](const Ranks& ranks) { Stepper(system, preload, ranks); });
     FAIL() << "taken";
   } catch (const CaseError& e) {
-    for (const char* word : {"layer.unbonded", "ranks", "run the case in one process"})
+    for (const char* word : {"layer.0.unbonded", "ranks", "run the case in one process"})
       EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
   }
 }
 
-TEST(Unbonded, ThreadsAndACheckpointInTheStretchKeepTheBits) {
+TEST(SlowUnbonded, ThreadsAndACheckpointInTheStretchKeepTheBits) {
   const RollingSystem system = small_system(unbonded_case(0.3));
   const PreloadResult preload = solve_preload(system, 1e-4);
   const int threads = max_threads();
