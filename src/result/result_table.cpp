@@ -73,7 +73,7 @@ std::vector<ResultNumber> traction_numbers() {
   return {row("p_max", kMPa, patch<&P::p_max>, "p_max", "Largest pressure p",
               "Top of the parabola through the largest pressure and its neighbours", kMain),
           row("q_max", kMPa, patch<&P::q_max>, "q_max", "Largest shear |q|",
-              "Largest magnitude of the tangential traction; half-spaces: at the front of slip, else at a point", kMain,
+              "Largest magnitude of the tangential traction: where the contact rolls, at the front of slip", kMain,
               kOfPressure),
           row("q_max_point", kMPa, patch<&P::q_max_point>, "q_max of a point", "Largest shear |q| of a point",
               "Misses the cusp at the front of slip: to be compared between elements and cells of one size", kColumn,
@@ -241,10 +241,10 @@ std::vector<ResultNumber> passage_numbers() {
       row("F_z_passing", kKilonewtons, on_way<&W::F_z_passing>, "F_z at it",
           "Amplitude of the wheel force at the passing frequency",
           "Of the last whole waves of one sleeper spacing, or of eight waves on a held foot", marks),
-      row("interface_opening", kMicrometres, on_way<&W::interface_opening>, "interface opening",
+      row("interface_opening_max", kMicrometres, on_way<&W::interface_opening>, "interface opening",
           "Largest opening of an unbonded interface on the way", "Of its nodes; null where all layers are bonded",
           marks),
-      row("interface_slip", kMicrometres, on_way<&W::interface_slip>, "interface slip",
+      row("interface_slip_max", kMicrometres, on_way<&W::interface_slip>, "interface slip",
           "Largest shift along an unbonded interface on the way", "Likewise, of nodes that are apart too", marks)};
 }
 

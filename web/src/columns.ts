@@ -130,10 +130,10 @@ export const kColumns: Column[] = [
       "passage/F_z_passing_N", "Amplitude of the wheel force at the passing frequency", "F_z at it",
       ["N", "kN", 0.001], 4),
   column(
-      "passage/interface_opening_m", "Largest opening of an unbonded interface on the way", "interface opening",
+      "passage/interface_opening_max_m", "Largest opening of an unbonded interface on the way", "interface opening",
       ["m", "µm", 1000000.0], 4),
   column(
-      "passage/interface_slip_m", "Largest shift along an unbonded interface on the way", "interface slip",
+      "passage/interface_slip_max_m", "Largest shift along an unbonded interface on the way", "interface slip",
       ["m", "µm", 1000000.0], 4),
   column("plastic/strain", "Plastic strain", "plastic strain", ["", "%", 100.0], 4),
   column("plastic/accumulated", "Accumulated plastic strain", "accumulated plastic strain", ["", "%", 100.0], 4),

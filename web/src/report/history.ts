@@ -106,6 +106,19 @@ const kHistory: HistoryChart[] = [
     words: "At the centres of the elements around the wheel; history.csv has its place.",
     lines: [{column: "von_mises_MPa", name: "von Mises", hover: "%{y:.0f} MPa"}],
   },
+  {
+    id: "history-interface",
+    title: "A layer that has come off",
+    label: "opening, slip [µm]",
+    column: "interface_um",
+    words:
+        "The largest of the pairs of nodes on the unbonded interface: how far the layer has lifted, and how far it " +
+        "has slid on its base.",
+    lines: [
+      {column: "interface_opening_um", name: "opening", hover: "opening %{y:.3f} µm"},
+      {column: "interface_slip_um", name: "slip", hover: "slip %{y:.2f} µm"},
+    ],
+  },
 ];
 
 /// What the charts of a history have along x, with its words for axis and table.
