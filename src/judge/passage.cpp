@@ -18,22 +18,6 @@ namespace {
 using Rows = std::vector<HistoryRow>;
 constexpr double kP1Within = 2e-3, kP2After = 2.2e-3, kP2Over = 2e-3;  // s
 
-/// The largest mean of the force over kP2Over that begins at a time or later; NaN where the history ends before.
-double largest_mean(const Rows& rows, double begin) {
-  double most = kNotApplicable;
-  for (auto first = rows.begin(); first != rows.end(); ++first) {
-    if (first->time < begin) continue;
-    if (rows.back().time < first->time + kP2Over) break;
-    double sum = 0, count = 0;
-    for (auto row = first; row != rows.end() && row->time <= first->time + kP2Over; ++row) {
-      sum += wheel_force(*row);
-      ++count;
-    }
-    if (!(sum / count < most)) most = sum / count;
-  }
-  return most;
-}
-
 void add_dip(const RollingSystem& system, const Rows& rows, PassageSummary& out) {
   const CaseSpec& spec = system.model.spec;
   const auto dip = std::find_if(spec.irregularities.begin(), spec.irregularities.end(),
@@ -44,7 +28,7 @@ void add_dip(const RollingSystem& system, const Rows& rows, PassageSummary& out)
   if (after == rows.end()) return;
   for (auto row = after; row != rows.end() && row->time <= after->time + kP1Within; ++row)
     if (!(wheel_force(*row) < out.P1)) out.P1 = wheel_force(*row);
-  out.P2 = largest_mean(rows, after->time + kP2After);
+  out.P2 = second_peak(rows, after->time + kP2After);
   const double load = system.model.load;
   const JointForces jenkins = joint_forces(
       {load, *dip->angle, spec.drive.speed, spec.vehicle.wheel_mass, 1.5 * load / system.model.hertz.approach},
@@ -76,6 +60,21 @@ void take_larger(std::optional<FatigueValue>& most, std::optional<FatigueValue> 
 }
 
 }  // namespace
+
+double second_peak(const Rows& rows, double begin) {
+  std::vector<double> means;
+  for (auto first = rows.begin(); first != rows.end() && first->time + kP2Over <= rows.back().time; ++first) {
+    if (first->time < begin) continue;
+    double sum = 0, count = 0;
+    for (auto row = first; row != rows.end() && row->time <= first->time + kP2Over; ++row) {
+      sum += wheel_force(*row);
+      ++count;
+    }
+    means.push_back(sum / count);
+  }
+  const auto most = std::max_element(means.begin(), means.end());
+  return means.empty() || most == means.begin() || most + 1 == means.end() ? kNotApplicable : *most;
+}
 
 std::vector<BodyFatigue> passage_fatigue(const RollingSystem& system, const RunResult& run) {
   const CaseSpec& spec = system.model.spec;

@@ -10,6 +10,10 @@ namespace railstrata {
 /// that are the same all along and held.
 PassageSummary passage_summary(const RollingSystem& system, const RunResult& run);
 
+/// P2 [N]: the largest mean of the wheel force over 2 ms that begins at a time [s] or later. NaN where it is the first
+/// or the last of them: the history ends before the force has passed its peak.
+double second_peak(const std::vector<HistoryRow>& rows, double begin);
+
 /// Fatigue of the rail at the points whose stress is followed, by their own cycle of this passage. Empty without such
 /// points, without a limit or a constant in the case, and of bodies that yield: their cycle is not closed. Limits are
 /// those of the materials without the factors of stretches.
