@@ -4,8 +4,8 @@
 usage: fresh_tree_test.py SOURCE FOLDER [--test-first] [--keep]
 
 Clones the commit of SOURCE into a new system and runs `./railstrata demo` there to its exit code; then
-`./railstrata test` with the tests that need each optional part (MPI, Python, a browser, Fortran), none of
-which may be skipped. What this machine's ccache has compiled of the same sources with the same options
+`./railstrata test` with the tests that need each optional part (MPI, Python, a browser, Fortran), none of which may be
+skipped. What this machine's ccache has compiled of the same sources with the same options
 (RAILSTRATA_CMAKE) is not compiled again. --test-first: in the other order. --keep: the tree stays. Needs root,
 mmdebstrap and an archive of Debian; skipped (77) without.
 """
@@ -28,6 +28,7 @@ PARTS = {"MPI": "mpi:ranks", "Python": "python", "browser": "report:page", "Fort
 
 def share_cache(tree):
     where = subprocess.run(["ccache", "--get-config", "cache_dir"], capture_output=True, text=True, check=True).stdout
+    pathlib.Path(where.strip()).mkdir(parents=True, exist_ok=True)  # of who has ccache and has not used it
     tree.shared[where.strip()] = CACHE
     tree.environment["RAILSTRATA_CMAKE"] = os.environ.get("RAILSTRATA_CMAKE", "")
 
