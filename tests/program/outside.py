@@ -46,9 +46,16 @@ def wait_for(condition, process):
         time.sleep(0.002)
 
 
+def text_of(file):
+    """Empty where there is no such file, or not at this moment: a run that is resumed writes its history anew."""
+    try:
+        return file.read_text()
+    except FileNotFoundError:
+        return ""
+
+
 def rows(folder):
-    file = folder / "history.csv"
-    return file.read_bytes().count(b"\n") if file.exists() else 0
+    return text_of(folder / "history.csv").count("\n")
 
 
 def results(folder):

@@ -74,8 +74,10 @@ class Run:
 
     def rows(self):
         """Of the history, as (position / mm)."""
-        file = self.out / "history.csv"
-        lines = file.read_text().splitlines() if file.exists() else []
+        try:
+            lines = (self.out / "history.csv").read_text().splitlines()
+        except FileNotFoundError:
+            return []  # none yet, or a run that goes on is just writing it anew
         return [float(line.split(",")[1]) for line in lines if line[:1].isdigit()
                 and line.count(",") == lines[-1].count(",") > 3]
 

@@ -10,7 +10,7 @@ import unittest
 
 import one_machine_slurm
 sys.path.insert(0, str(pathlib.Path(__file__).parents[3] / "tests" / "program"))
-from outside import railstrata
+from outside import railstrata, text_of
 from shared_study import ONE, SharedStudy, wheel
 
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
@@ -53,12 +53,11 @@ class SlurmTest(SharedStudy):
         self.wait_until(lambda: self.slurm.state(array, task) == state, another, PATIENCE)
 
     def said(self, array, task):
-        file = self.slurm.folder / f"slurm-{array}_{task}.out"
-        return file.read_text() if file.exists() else ""
+        return text_of(self.slurm.folder / f"slurm-{array}_{task}.out")
 
     def claims(self, job):
         return [(file, claim) for file in self.out.rglob("*.claim")
-                for claim in [json.loads(file.read_text() or "{}")] if claim.get("job") == job]
+                for claim in [json.loads(text_of(file) or "{}")] if claim.get("job") == job]
 
     def hold_at_a_checkpoint(self, array, task):
         """The processes of the study and of its run, which is held."""
