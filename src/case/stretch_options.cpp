@@ -22,8 +22,9 @@ OptionTable stretch_table() {
           {choice<&Stretch::on>("on", stretch<&Stretch::on>, "Of the wheel x is the arc from the first contact",
                                 {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
            option("along", stretch<&Stretch::along>,
-                  "Places along the rail, factors of Young's modulus and factors of strength (the yield stress and all "
-                  "that hardening adds); linear between them, 1 beyond the first and the last. Elements have the "
+                  "Places along the rail, factors of Young's modulus and factors of strength (the yield stress, all "
+                  "that hardening adds, and the fatigue limit); linear between them, 1 beyond the first and the last. "
+                  "Elements have the "
                   "factors of their middle; two places close together are a jump, with node planes between them")
                .with_rows(RowForm::by_value,
                           {column("place", "", kLength, {-100, 100}),

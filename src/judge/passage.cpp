@@ -53,6 +53,20 @@ StressHistory cycle_of(const std::vector<WatchedPoint>& points, const std::vecto
   return out;
 }
 
+/// Of the points of `at`, with the factors of the stretches that they lie in.
+RowStrength strength_of(const RollingSystem& system, const std::vector<std::size_t>& at, const StressHistory& cycle) {
+  const SweptBody& mesh = system.rail().mesh;
+  RowStrength out = row_strength(system.model.spec, BodyId::rail, cycle);
+  for (std::size_t r = 0; r < at.size(); ++r) {
+    const WatchedPoint& point = system.watched_points[at[r]];
+    const int material = mesh.blocks[static_cast<std::size_t>(mesh.contact.block)].material(point.quad, point.element);
+    out.factor[r] = mesh.strength_of(material);
+    out.shear[r] *= out.factor[r];
+    out.young[r] = young(system.model.rail_materials[static_cast<std::size_t>(material)]);
+  }
+  return out;
+}
+
 void take_larger(std::optional<FatigueValue>& most, std::optional<FatigueValue> value, double x) {
   if (!value || (most && !(value->value > most->value))) return;
   most = std::move(value);
@@ -87,7 +101,7 @@ std::vector<BodyFatigue> passage_fatigue(const RollingSystem& system, const RunR
   for (auto& [x, at] : places) {
     std::sort(at.begin(), at.end(), [&](std::size_t a, std::size_t b) { return points[a].depth < points[b].depth; });
     const StressHistory cycle = cycle_of(points, at, run.history);
-    const BodyFatigue here = section_fatigue(spec, BodyId::rail, cycle, row_strength(spec, BodyId::rail, cycle));
+    const BodyFatigue here = section_fatigue(spec, BodyId::rail, cycle, strength_of(system, at, cycle));
     take_larger(out.dang_van, here.dang_van, x);
     take_larger(out.smith_watson_topper, here.smith_watson_topper, x);
     take_larger(out.fatemi_socie, here.fatemi_socie, x);

@@ -15,8 +15,8 @@ PassageSummary passage_summary(const RollingSystem& system, const RunResult& run
 double second_peak(const std::vector<HistoryRow>& rows, double begin);
 
 /// Fatigue of the rail at the points whose stress is followed, by their own cycle of this passage. Empty without such
-/// points, without a limit or a constant in the case, and of bodies that yield: their cycle is not closed. Limits are
-/// those of the materials without the factors of stretches.
+/// points, without a limit or a constant in the case, and of bodies that yield: their cycle is not closed. Within a
+/// stretch ([[stretch]]) yield stress and limit have its factor of strength, strains its factor of Young's modulus.
 std::vector<BodyFatigue> passage_fatigue(const RollingSystem& system, const RunResult& run);
 
 }  // namespace railstrata

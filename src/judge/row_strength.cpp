@@ -133,6 +133,8 @@ RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory&
     const ZoneStrength& zone = zones.at(rows.zone[r]);
     const StressPoint residual = zone.residual(rows.depth[r]);
     out.shear.push_back(zone.yield(rows.depth[r]) / std::numbers::sqrt3);
+    out.young.push_back(zone_material(spec, body, rows.zone[r]).young);
+    out.factor.push_back(1);
     out.residual_x.push_back(residual.longitudinal);
     out.residual_y.push_back(residual.lateral);
   }

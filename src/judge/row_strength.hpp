@@ -1,5 +1,5 @@
 #pragma once
-// Strength of the rows of a section, from the case.
+// Strength and stiffness of the rows of a section, from the case.
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,7 +12,9 @@ namespace railstrata {
 
 /// Per row of a stress history. A zone without a strength has NaN: it is taken to stay elastic.
 struct RowStrength {
-  std::vector<double> shear;                   ///< Pa, k = yield strength / sqrt(3)
+  std::vector<double> shear;   ///< Pa, k = yield strength / sqrt(3)
+  std::vector<double> young;   ///< Pa
+  std::vector<double> factor;  ///< of a stretch ([[stretch]]): k has it, limits of fatigue are to take it
   std::vector<double> residual_x, residual_y;  ///< Pa, of the process
   std::vector<std::string> notes;              ///< which strengths are estimates, and how, or not known
   bool any() const;                            ///< of a strength

@@ -29,12 +29,14 @@ bool any_zone(const CaseSpec& spec, BodyId body, const std::function<bool(const 
 bool says_dang_van(const StrengthSpec& s) { return s.fatigue.limit && s.fatigue.dang_van; }
 
 /// Rows without a limit do not count.
-std::vector<DangVanLimit> dang_van_limits(const CaseSpec& spec, BodyId body, const StressHistory& history) {
+std::vector<DangVanLimit> dang_van_limits(const CaseSpec& spec, BodyId body, const StressHistory& history,
+                                          const RowStrength& strength) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   std::vector<DangVanLimit> out;
   for (int r = 0; r < history.rows(); ++r) {
     const StrengthSpec& s = strength_of_row(spec, body, history, r);
-    out.push_back(says_dang_van(s) ? DangVanLimit{*s.fatigue.dang_van, *s.fatigue.limit} : DangVanLimit{0, kNever});
+    out.push_back(says_dang_van(s) ? DangVanLimit{*s.fatigue.dang_van, strength.factor[r] * *s.fatigue.limit}
+                                   : DangVanLimit{0, kNever});
   }
   return out;
 }
@@ -43,10 +45,10 @@ FatigueValue place(const CaseSpec& spec, BodyId body, const StressHistory& histo
   return {value, history.depth[row], history.y[column], zone_name(spec, body, history.zone[row])};
 }
 
-void add_dang_van(const CaseSpec& spec, BodyId body, const StressHistory& history, ResidualRows residual,
-                  BodyFatigue& out) {
+void add_dang_van(const CaseSpec& spec, BodyId body, const StressHistory& history, const RowStrength& strength,
+                  ResidualRows residual, BodyFatigue& out) {
   if (!any_zone(spec, body, says_dang_van)) return;
-  const std::vector<DangVanLimit> limits = dang_van_limits(spec, body, history);
+  const std::vector<DangVanLimit> limits = dang_van_limits(spec, body, history, strength);
   const DangVanSection found = dang_van(history, residual, limits);
   if (!found.row) return;
   for (std::size_t p = 0; p < found.point.size(); ++p)
@@ -62,7 +64,7 @@ std::vector<CriticalPlaneMaterial> plane_materials(const CaseSpec& spec, BodyId 
     const MaterialSpec& m = zone_material(spec, body, history.zone[r]);
     const StrengthSpec& s = m.strength;
     CriticalPlaneMaterial row;
-    row.young = m.young;
+    row.young = strength.young[r];
     row.poisson = m.poisson;
     if (s.fatigue.fatemi_socie && std::isfinite(strength.shear[r]))
       row.fatemi_socie = FatemiSocieConstants{*s.fatigue.fatemi_socie, std::numbers::sqrt3 * strength.shear[r]};
@@ -158,7 +160,7 @@ BodyFatigue section_fatigue(const CaseSpec& spec, BodyId body, const StressHisto
   const std::vector<Sym3> residual = residual_rows(strength.residual_x, strength.residual_y);
   BodyFatigue out;
   out.body = std::string(body_word(body));
-  add_dang_van(spec, body, history, residual, out);
+  add_dang_van(spec, body, history, strength, residual, out);
   add_critical_planes(spec, body, history, strength, residual, out);
   add_zones(spec, body, history, residual, out);
   add_interfaces(spec, body, history, residual, out);
