@@ -39,8 +39,8 @@ void refuse_on_ring(const CaseSpec& spec, std::vector<BeyondEngine>& out) {
 void refuse_irregularities(const CaseSpec& spec, std::vector<BeyondEngine>& out) {
   if (spec.irregularities.empty()) return;
   const auto refuse = [&](bool asked, const std::string& key, const std::string& why, const char* remedy) {
-    if (asked)
-      out.push_back({key, fmt::format("{} with [[irregularity]] is not in this engine: {}", key, why), remedy});
+    const char* with = key.starts_with("irregularity") ? "" : " with [[irregularity]]";
+    if (asked) out.push_back({key, fmt::format("{}{} is not in this engine: {}", key, with, why), remedy});
   };
   refuse(spec.geometry.rail_radius.has_value(), "geometry.rail_radius", "the heights are those of a straight rail",
          kWithHalfSpaces);
@@ -51,8 +51,10 @@ void refuse_irregularities(const CaseSpec& spec, std::vector<BeyondEngine>& out)
   for (std::size_t i = 0; i < spec.irregularities.size(); ++i) {
     const Irregularity& is = spec.irregularities[i];
     const std::string key = fmt::format("irregularity.{}", i);
-    refuse(is.kind == IrregularityKind::dip && spec.track.held(), key,
-           "the forces of a dip are made by the track's springs and masses, and the foot of this rail is held",
+    const bool of_joint = is.kind == IrregularityKind::dip || is.kind == IrregularityKind::step;
+    refuse(of_joint && spec.track.held(), key,
+           "the forces of a dip and of a step are made by the track's springs and masses, and the foot of this rail is "
+           "held",
            "give [track] preset = \"delft\", or kind = \"indentation\" for a short one, or solve the case with "
            "`railstrata bem`, under a given load");
     if (const auto fault = too_coarse(spec, i, spec.mesh.element_size, "elements", "mesh.element_size"))

@@ -21,23 +21,26 @@ bool is(const CaseSpec& spec, std::size_t index) {
 const Range kHeightWay{-100, 100};  // m
 
 std::vector<Option> height_shape_options() {
-  return {option("length", irregularity<&I::length>, "indentation, flat: from end to end", kLength, above(0, 20)),
-          option("wavelength", irregularity<&I::wavelength>, "corrugation", kLength, above(0, 20)),
-          option("order", irregularity<&I::order>, "out_of_round: waves round the wheel", kNumber, {1, 1000})
-              .where(is<Kind::out_of_round>),
-          option("depth", irregularity<&I::depth>,
-                 "Peak to valley, of an indentation and of a flat that is worn round; a fresh flat is a chord of its "
-                 "length",
-                 kLength, {0, 0.02}),
-          option("width", irregularity<&I::width>, "Across, falling off as a cosine; not given: the same all across",
-                 kLength, above(0, 0.2)),
-          option("offset", irregularity<&I::offset>, "Of the middle across, from the first contact to the field side",
-                 kLength, {-0.1, 0.1}),
-          option("angle", irregularity<&I::angle>, "dip: between its two ramps", kSlope, {0, 0.2}),
-          option("ramp", irregularity<&I::ramp>, "dip: length of each", kLength, above(0, 20)).where(is<Kind::dip>),
-          choice<&I::shape>("shape", irregularity<&I::shape>, "dip: how the ramps run to their ends",
-                            {{"parabola", RampShape::parabola}, {"line", RampShape::line}})
-              .where(is<Kind::dip>)};
+  return {
+      option("length", irregularity<&I::length>, "indentation, step, flat: from end to end", kLength, above(0, 20)),
+      option("wavelength", irregularity<&I::wavelength>, "corrugation", kLength, above(0, 20)),
+      option("order", irregularity<&I::order>, "out_of_round: waves round the wheel", kNumber, {1, 1000})
+          .where(is<Kind::out_of_round>),
+      option("depth", irregularity<&I::depth>,
+             "Peak to valley, of an indentation and of a flat that is worn round; a fresh flat is a chord of its "
+             "length",
+             kLength, {0, 0.02}),
+      option("height", irregularity<&I::height>,
+             "step: of the rail behind it over the rail before it; negative: it lies lower", kLength, {-0.02, 0.02}),
+      option("width", irregularity<&I::width>, "Across, falling off as a cosine; not given: the same all across",
+             kLength, above(0, 0.2)),
+      option("offset", irregularity<&I::offset>, "Of the middle across, from the first contact to the field side",
+             kLength, {-0.1, 0.1}),
+      option("angle", irregularity<&I::angle>, "dip: between its two ramps", kSlope, {0, 0.2}),
+      option("ramp", irregularity<&I::ramp>, "dip: length of each", kLength, above(0, 20)).where(is<Kind::dip>),
+      choice<&I::shape>("shape", irregularity<&I::shape>, "dip: how the ramps run to their ends",
+                        {{"parabola", RampShape::parabola}, {"line", RampShape::line}})
+          .where(is<Kind::dip>)};
 }
 
 std::vector<Option> height_spectrum_options() {
@@ -80,6 +83,7 @@ OptionTable irregularity_table() {
                         {{"indentation", Kind::indentation},
                          {"corrugation", Kind::corrugation},
                          {"dip", Kind::dip},
+                         {"step", Kind::step},
                          {"flat", Kind::flat},
                          {"out_of_round", Kind::out_of_round},
                          {"roughness", Kind::roughness},

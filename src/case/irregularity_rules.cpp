@@ -31,6 +31,7 @@ const KindKeys& keys_of_kind(Kind kind) {
       {Kind::indentation, {{"at", "length", "depth"}, {}}},
       {Kind::corrugation, {{"wavelength", "depth"}, {"at", "from", "to"}}},
       {Kind::dip, {{"at", "angle"}, {"ramp", "shape"}, true, false}},
+      {Kind::step, {{"at", "length", "height"}, {}, true, false}},
       {Kind::flat, {{"at", "length"}, {"depth"}, false, true}},
       {Kind::out_of_round, {{"depth"}, {"at", "order"}, false, true}},
       {Kind::roughness, {{"rms", "shortest", "longest"}, {"exponent", "seed", "from", "to"}}},
@@ -48,6 +49,7 @@ class IrregularityRules {
       : spec_(spec), is_(spec.irregularities[index]), index_(index), source_(source) {}
 
   void check() {
+    if (!source_.sound({name_ + ".kind"})) return;
     check_keys();
     if (!source_.sound({name_, "geometry.wheel_radius"})) return;
     check_numbers();
@@ -57,7 +59,7 @@ class IrregularityRules {
       refuse(is_.kind == Kind::file ? "file" : "kind",
              fmt::format("its steepest slope is {:.2g}, contact takes up to {:g}", slope, kSteepestHeight),
              is_.kind == Kind::file ? "give more smoothing, or check the units of x and z"
-                                    : "make it longer or less deep");
+                                    : "make it longer, less deep or less high");
   }
 
  private:

@@ -126,6 +126,8 @@ SurfaceHeight HeightField::Part::along(double x, double y) const {
       return eased(is, x, *is.wavelength, wave(0.5 * *is.depth, 2 * kPi / *is.wavelength, from_middle));
     case Kind::dip:
       return dip(is, from_middle);
+    case Kind::step:
+      return *is.height * rise(from_middle + 0.5 * *is.length, *is.length);
     case Kind::flat:
       return flat(is, wheel_radius, from_middle);
     case Kind::out_of_round:
@@ -213,6 +215,8 @@ double shortest_wave(const Irregularity& is, double wheel_radius) {
       return *is.wavelength;
     case Kind::dip:
       return is.ramp;
+    case Kind::step:
+      return 2 * *is.length;
     case Kind::out_of_round:
       return 2 * kPi * wheel_radius / is.order;
     case Kind::roughness:
@@ -234,6 +238,8 @@ double steepest_slope(const Irregularity& is, double wheel_radius) {
       return kPi * *is.depth / *is.wavelength;
     case Kind::dip:
       return 0.5 * *is.angle;
+    case Kind::step:
+      return 0.5 * kPi * std::abs(*is.height) / *is.length;
     case Kind::flat:
       return is.depth ? kPi * *is.depth / *is.length : 0.5 * *is.length / wheel_radius;
     case Kind::out_of_round:
@@ -266,7 +272,9 @@ double contact_reach(const std::vector<Irregularity>& irregularities, double whe
   double out = 0;
   for (const Irregularity& is : irregularities) {
     const Extent extent = extent_of(is);
-    out += std::min(wheel_radius * steepest_slope(is, wheel_radius), 0.5 * (extent.to - extent.from));
+    const double most =
+        is.kind == Kind::step ? std::sqrt(2 * wheel_radius * std::abs(*is.height)) : 0.5 * (extent.to - extent.from);
+    out += std::min(wheel_radius * steepest_slope(is, wheel_radius), most);
   }
   return out;
 }

@@ -8,6 +8,7 @@
 //   indentation   h = -d/2 (1 + cos(2 pi x/L)) within L/2
 //   corrugation   h = d/2 cos(2 pi x/l), eased in and out over one wave within from and to
 //   dip           h = -(a r/4) (1 - |x|/r)^2, parabola, or -(a r/2) (1 - |x|/r), line: ramps r that meet at the angle a
+//   step          h = s/2 (1 + sin(pi x/L)) within L/2, 0 before and s behind: the next rail lies higher or lower
 //   flat          the chord h = -((L/2)^2 - x^2)/(2 R) within L/2; with a depth the indentation's shape, worn round
 //   out_of_round  h = d/2 cos(n x/R)
 //   roughness     a sum of cosines of the density S(k) ~ k^-e between the wave numbers 1/longest and 1/shortest, whose
@@ -60,12 +61,12 @@ struct Extent {
   double from, to;
 };
 Extent extent_of(const Irregularity& is);
-/// m: of the shortest wave or the whole of a single shape; infinite for a file.
+/// m: of the shortest wave or the whole of a single shape (a step is half a wave); infinite for a file.
 double shortest_wave(const Irregularity& is, double wheel_radius);
 /// The largest |dz/dx|.
 double steepest_slope(const Irregularity& is, double wheel_radius);
 /// m, how much farther from the axle a wheel may touch because of heights: where their slopes are its own, at most half
-/// the length of each.
+/// the length of each, of a step where it would touch a sharp one.
 double contact_reach(const std::vector<Irregularity>& irregularities, double wheel_radius);
 
 }  // namespace railstrata

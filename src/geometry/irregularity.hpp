@@ -9,7 +9,7 @@
 
 namespace railstrata {
 
-enum class IrregularityKind { indentation, corrugation, dip, flat, out_of_round, roughness, file };
+enum class IrregularityKind { indentation, corrugation, dip, step, flat, out_of_round, roughness, file };
 enum class RampShape { parabola, line };
 
 /// One of them, as a case has it; lengths in metres.
@@ -19,9 +19,10 @@ struct Irregularity {
   std::optional<double> at, from, to;
   std::optional<double> length, wavelength, depth, width;
   double offset = 0;
-  int order = 1;                ///< n
-  std::optional<double> angle;  ///< a, rad: of both ramps together
-  double ramp = 1;              ///< r
+  std::optional<double> height;  ///< of a step
+  int order = 1;                 ///< n
+  std::optional<double> angle;   ///< a, rad: of both ramps together
+  double ramp = 1;               ///< r
   RampShape shape = RampShape::parabola;
   std::optional<double> rms, shortest, longest;
   double exponent = 2;  ///< e

@@ -28,10 +28,11 @@ TEST(IrregularityCaseFile, EntriesAreReadInSiUnitsAndWrittenOutAgain) {
       "[[irregularity]]\nat = \"200 mm\"\nlength = \"20 mm\"\ndepth = \"0.2 mm\"\nwidth = \"30 mm\"\n"
       "[[irregularity]]\non = \"wheel\"\nkind = \"out_of_round\"\norder = 6\ndepth = \"100 um\"\n"
       "[[irregularity]]\nkind = \"dip\"\nat = \"1 m\"\nangle = \"10 mrad\"\nshape = \"line\"\n"
-      "[[irregularity]]\nkind = \"file\"\nx = [\"0 mm\", \"10 mm\", \"20 mm\"]\nz = [\"0 um\", \"-10 um\", \"0 um\"]\n",
+      "[[irregularity]]\nkind = \"file\"\nx = [\"0 mm\", \"10 mm\", \"20 mm\"]\nz = [\"0 um\", \"-10 um\", \"0 um\"]\n"
+      "[[irregularity]]\nkind = \"step\"\nat = \"1 m\"\nlength = \"12 mm\"\nheight = \"-0.5 mm\"\n",
       "a.toml");
   const std::vector<Irregularity>& all = loaded.spec.irregularities;
-  ASSERT_EQ(all.size(), 4u);
+  ASSERT_EQ(all.size(), 5u);
   EXPECT_EQ(all[0].kind, IrregularityKind::indentation);
   EXPECT_EQ(all[0].at, 0.2);
   EXPECT_EQ(all[0].width, 30e-3);
@@ -40,6 +41,7 @@ TEST(IrregularityCaseFile, EntriesAreReadInSiUnitsAndWrittenOutAgain) {
   EXPECT_NEAR(all[2].angle.value(), 10e-3, 1e-6) << "its tangent";
   EXPECT_EQ(all[2].shape, RampShape::line);
   EXPECT_EQ(all[3].z, (std::vector<double>{0, -10e-6, 0}));
+  EXPECT_EQ(all[4].height, -0.5e-3);
   EXPECT_EQ(parse_case(loaded.resolved_toml, "b.toml").resolved_toml, loaded.resolved_toml);
   EXPECT_EQ(parse_case("", "a.toml").resolved_toml.find("irregularity"), std::string::npos);
 }
@@ -66,6 +68,9 @@ TEST(IrregularityCaseFile, FaultsNameTheKeyAndTheRemedy) {
       {"at = \"0 mm\"\nlength = \"2 mm\"\ndepth = \"0.2 mm\"\n", {"steepest slope is 0.31", "up to 0.2", "less deep"}},
       {"kind = \"flat\"\nat = \"0 mm\"\nlength = \"40 mm\"\n", {"irregularity.0.on", "is of the wheel"}},
       {"kind = \"dip\"\non = \"wheel\"\nat = \"0 mm\"\nangle = \"1 mrad\"\n", {"irregularity.0.on", "is of the rail"}},
+      {"kind = \"step\"\nat = \"0 mm\"\nlength = \"2 mm\"\nheight = \"1 mm\"\n",
+       {"steepest slope is 0.79", "less high"}},
+      {"kind = \"step\"\nat = \"0 mm\"\nlength = \"20 mm\"\ndepth = \"1 mm\"\n", {"needs height", "has no depth"}},
       {"kind = \"corrugation\"\nwavelength = \"40 mm\"\ndepth = \"20 um\"\nfrom = \"2 m\"\nto = \"1 m\"\n",
        {"irregularity.0.to", "beyond from"}},
       {"kind = \"file\"\n", {"needs x", "file = \"heights.csv\""}},
@@ -80,6 +85,8 @@ TEST(IrregularityCaseFile, FaultsNameTheKeyAndTheRemedy) {
     const std::string said = refusal_of_entry(keys);
     for (const char* word : words) EXPECT_NE(said.find(word), std::string::npos) << said << "\n  lacks: " << word;
   }
+  EXPECT_EQ(refusal_of_entry("kind = \"stepp\"\nat = \"0 mm\"\n").find("needs"), std::string::npos)
+      << "what kind it is to be is not known";
   EXPECT_NE(
       refusal("[transient]\nkind = \"shift\"\ndisplacement = [\"1 um\"]\n[[irregularity]]\nat = \"0 mm\"\nlength = "
               "\"20 mm\"\ndepth = \"0.1 mm\"\n")

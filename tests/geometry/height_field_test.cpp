@@ -42,6 +42,12 @@ Irregularity dip(RampShape form) {
   is.shape = form;
   return is;
 }
+Irregularity step(double height) {
+  Irregularity is = shape(Kind::step);
+  is.length = 12e-3;
+  is.height = height;
+  return is;
+}
 Irregularity chord() {
   Irregularity is = shape(Kind::flat, BodyId::wheel);
   is.length = 60e-3;
@@ -81,6 +87,10 @@ TEST(HeightField, ShapesHaveTheirClosedForms) {
   EXPECT_NEAR(field_of(dip(RampShape::parabola)).at(0.1, 0).z, -2.5e-3, 1e-12);
   EXPECT_NEAR(field_of(dip(RampShape::parabola)).at(0.6, 0).z, -0.625e-3, 1e-12);
   EXPECT_NEAR(field_of(dip(RampShape::line)).at(0.6, 0).z, -2.5e-3, 1e-12);
+  EXPECT_EQ(field_of(step(0.5e-3)).at(0.094, 0).z, 0);
+  EXPECT_NEAR(field_of(step(0.5e-3)).at(0.1, 0).z, 0.25e-3, 1e-12);
+  EXPECT_NEAR(field_of(step(0.5e-3)).at(0.103, 0).z, 0.25e-3 * (1 + std::sqrt(0.5)), 1e-12);
+  EXPECT_EQ(field_of(step(-0.5e-3)).at(0.5, 0).z, -0.5e-3) << "the next rail";
   EXPECT_NEAR(field_of(chord()).at(0.1, 0).z, -60e-3 * 60e-3 / (8 * kRadius), 1e-12);
   EXPECT_NEAR(field_of(oval()).at(0.1 + std::numbers::pi * kRadius / 6, 0).z, -0.15e-3, 1e-12);
 }
@@ -88,8 +98,8 @@ TEST(HeightField, ShapesHaveTheirClosedForms) {
 // A difference over 2e-7 m errs by its square over 6 times the third derivative: below 1e-9 of the steepest here.
 TEST(HeightField, SlopesAreTheDerivativesOfTheHeights) {
   constexpr double kStep = 1e-7;
-  for (const Irregularity& is :
-       {hollow(), waves(), dip(RampShape::parabola), dip(RampShape::line), chord(), oval(), rough(1), points()}) {
+  for (const Irregularity& is : {hollow(), waves(), dip(RampShape::parabola), dip(RampShape::line), step(-0.3e-3),
+                                 chord(), oval(), rough(1), points()}) {
     const HeightField field = field_of(is);
     double most = 0;
     for (int i = 0; i < 400; ++i) {
@@ -147,6 +157,15 @@ TEST(HeightField, AFileIsInterpolatedAndItsEndsGoOn) {
   // the mean of cos(k x) with weights 1 + cos(2 pi x/L): sin(u)/u / (1 - (u/pi)^2), u = k L/2
   const double u = 0.5, factor = std::sin(u) / u / (1 - u * u / (std::numbers::pi * std::numbers::pi));
   EXPECT_NEAR(field_of(smooth).at(0.1 + 15e-3, 5e-3).z, factor * 2e-5 * std::sin(2.5), 1e-3 * 2e-5);
+}
+
+// A rigid wheel touches a sharp step of 0.5 mm from sqrt(2 R h) before it on; one of a long ramp where its slope is.
+TEST(HeightField, AWheelReachesForAStep) {
+  EXPECT_NEAR(contact_reach({step(0.5e-3)}, kRadius), std::sqrt(2 * kRadius * 0.5e-3), 1e-12);
+  EXPECT_NEAR(contact_reach({step(-0.5e-3)}, kRadius), std::sqrt(2 * kRadius * 0.5e-3), 1e-12);
+  Irregularity ramp = step(0.5e-3);
+  ramp.length = 0.1;
+  EXPECT_NEAR(contact_reach({ramp}, kRadius), kRadius * steepest_slope(ramp, kRadius), 1e-12);
 }
 
 }  // namespace

@@ -81,6 +81,21 @@ TEST(IrregularWay, OverItsMiddleThePatchIsTwo) {
 }
 
 // The wheel's arc meets the rail's way.
+// A wheel that rolls onto a rail that lies higher meets, backwards, what one meets that rolls off it.
+TEST(IrregularWay, AStepUpIsAStepDownBackwards) {
+  const auto over = [](const char* height) {
+    return roll(
+        std::string("[[irregularity]]\nkind = \"step\"\nat = \"20 mm\"\nlength = \"10 mm\"\nheight = ") + height, 1e-3);
+  };
+  const std::vector<TransientRow> up = over("\"0.1 mm\"\n"), down = over("\"-0.1 mm\"\n");
+  ASSERT_EQ(up.size(), 41u);
+  for (std::size_t k = 0; k < up.size(); ++k) {
+    EXPECT_NEAR(up[k].p_max, down[40 - k].p_max, 1e-6 * up[k].p_max) << k;
+    EXPECT_NEAR(up[k].approach, down[40 - k].approach - 0.1e-3, 1e-9) << k << ": what goes up comes down";
+  }
+  EXPECT_GT(up[20].p_max, 1.3 * up.front().p_max);
+}
+
 TEST(IrregularWay, OnTheWheelItIsTheSameAsOnTheRail) {
   const std::vector<TransientRow> rail = roll(kHollow, 1e-3), wheel = roll(kHollow + "on = \"wheel\"\n", 1e-3);
   ASSERT_EQ(rail.size(), wheel.size());
