@@ -5,9 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "result/result_table.hpp"
+#include "many/result_columns.hpp"
 
 namespace railstrata {
+namespace {
+
+/// Forces, pressure and stress, not their places.
+std::vector<ListedNumber> numbers_of_way() {
+  constexpr std::size_t kMost = 4;  // then those of a dip
+  std::vector<ListedNumber> out;
+  for (const ResultColumn& c : passage_columns())
+    if (out.size() < kMost && (c.unit == "kN" || c.unit == "MPa"))
+      out.push_back({fmt::format("{} {}", c.symbol(), c.unit), c.name});
+  return out;
+}
+
+}  // namespace
+
 const std::vector<ListedNumber>& listed_numbers() {
   static const std::vector<ListedNumber> numbers{{"p_max MPa", "p_max_MPa"},
                                                  {"q_max MPa", "q_max_MPa"},
@@ -18,8 +32,12 @@ const std::vector<ListedNumber>& listed_numbers() {
 }
 
 std::vector<ListedNumber> telling_numbers(const std::vector<CaseRow>& rows) {
+  const std::vector<ListedNumber> of_way = numbers_of_way();
+  const bool on_way = std::any_of(rows.begin(), rows.end(),
+                                  [&](const CaseRow& row) { return std::isfinite(row.number(of_way.front().column)); });
+  const std::vector<ListedNumber>& of_contact = on_way ? of_way : listed_numbers();
   std::vector<ListedNumber> out{{"shakedown", "shakedown_wandering", 1, 3}};
-  out.insert(out.end(), listed_numbers().begin(), listed_numbers().end());
+  out.insert(out.end(), of_contact.begin(), of_contact.end());
   std::erase_if(out, [&](const ListedNumber& n) {
     const auto shown = [&](const CaseRow& row) {
       const double v = n.factor * row.number(n.column);
@@ -37,6 +55,7 @@ std::vector<ListedNumber> telling_numbers(const std::vector<CaseRow>& rows) {
 
 void print_rows(const std::vector<CaseColumn>& head, const std::vector<ListedNumber>& numbers,
                 const std::vector<CaseRow>& rows) {
+  constexpr std::size_t kLeastWidth = 10;
   const auto text = [](const CaseColumn& c, const CaseRow& row) { return c.cell(row).get<std::string>(); };
   std::vector<std::size_t> width;
   for (const CaseColumn& c : head) {
@@ -50,7 +69,7 @@ void print_rows(const std::vector<CaseColumn>& head, const std::vector<ListedNum
     for (std::size_t k = 0; k < head.size(); ++k) fmt::print("{:<{}}  ", text(head[k], row), width[k]);
     for (const ListedNumber& n : numbers) {
       const double v = n.factor * row.number(n.column);
-      fmt::print("  {:>10}", std::isfinite(v) ? fixed(v, n.digits) : "-");
+      fmt::print("  {:>{}}", std::isfinite(v) ? fixed(v, n.digits) : "-", std::max(kLeastWidth, n.heading.size()));
     }
     fmt::print("{}\n", row.fault.empty() ? "" : "  " + row.fault);
   }

@@ -18,7 +18,8 @@ struct ListedNumber {
 /// Largest pressure and traction, area, slip, longitudinal creepage.
 const std::vector<ListedNumber>& listed_numbers();
 
-/// Those of listed_numbers() and the load factor to shakedown that differ between the cases; of one case all.
+/// Those of listed_numbers() and the load factor to shakedown that differ between the cases; of one case all. Where the
+/// rail varies along the way, the extremes of the way instead of the contact at its end.
 std::vector<ListedNumber> telling_numbers(const std::vector<CaseRow>& rows);
 
 /// A line a row: the cells of `head`, the numbers, the fault; "-" where there is none.

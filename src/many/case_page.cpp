@@ -65,14 +65,17 @@ std::string axis_title(const std::string& name, const std::vector<std::string>& 
   return titled(name, std::isfinite(first.first) ? first.second : "");  // "R260" is no unit
 }
 
+CaseColumn number_column(const ResultColumn& column) {
+  const ResultColumn* c = &column;
+  return {titled(c->title, c->shown_unit.shown),
+          [c](const CaseRow& row) { return json_number(row.number(c->name) * (c->shown_unit.factor / c->factor)); }};
+}
+
 ReportTable cases_table(const std::string& note, const std::vector<CaseColumn>& head,
                         const std::vector<CaseRow>& rows) {
   ReportTable t{.id = "cases", .title = "All cases", .note = note, .columns = {}, .rows = {}};
   std::vector<CaseColumn> columns = head;
-  for (const ResultColumn* c : shown_columns(rows))
-    columns.push_back({titled(c->title, c->shown_unit.shown), [c](const CaseRow& row) {
-                         return json_number(row.number(c->name) * (c->shown_unit.factor / c->factor));
-                       }});
+  for (const ResultColumn* c : shown_columns(rows)) columns.push_back(number_column(*c));
   columns.push_back({"state", [](const CaseRow& row) {
                        return row.fault.empty() ? row.state : fmt::format("{}: {}", row.state, row.fault);
                      }});

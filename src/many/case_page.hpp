@@ -27,6 +27,9 @@ void add_trend(ReportChart& chart, const std::string& key, const std::string& co
 /// "name [unit]", the unit that the values have.
 std::string axis_title(const std::string& name, const std::vector<std::string>& values);
 
+/// A number of a result as a column of a page's table, in the unit that pages show.
+CaseColumn number_column(const ResultColumn& column);
+
 /// The shown columns of all cases between those of `head` and their state.
 ReportTable cases_table(const std::string& note, const std::vector<CaseColumn>& head, const std::vector<CaseRow>& rows);
 

@@ -351,6 +351,19 @@ ReportTable engines_table() {
   return t;
 }
 
+/// Case and engine, then what the figures show and other tables do not.
+std::vector<CaseColumn> head_columns(const StudySpec& study, const std::vector<CaseRow>& entries) {
+  std::vector<CaseColumn> out{{"case", [](const CaseRow& row) { return row.group + "/" + row.name; }},
+                              {"engine", [](const CaseRow& row) { return std::string(engine_title(row.engine)); }}};
+  std::vector<const ResultColumn*> there = shown_columns(entries);
+  for (const StudyFigure& f : study.figures)
+    if (const ResultColumn* c = find_column(f.value); c && std::find(there.begin(), there.end(), c) == there.end()) {
+      there.push_back(c);
+      out.push_back(number_column(*c));
+    }
+  return out;
+}
+
 }  // namespace
 
 Report study_report(const StudySpec& study, const Published& published, const std::vector<CaseRow>& entries) {
@@ -374,11 +387,7 @@ Report study_report(const StudySpec& study, const Published& published, const st
   if (!published.claims.empty()) report.tables.push_back(claims_table(published, entries));
   if (!published.numbers.empty()) report.tables.push_back(published_table(published, entries));
   if (!pairs.rows.empty()) report.tables.push_back(std::move(pairs));
-  report.tables.push_back(
-      cases_table("study.csv has every column.",
-                  {{"case", [](const CaseRow& row) { return row.group + "/" + row.name; }},
-                   {"engine", [](const CaseRow& row) { return std::string(engine_title(row.engine)); }}},
-                  entries));
+  report.tables.push_back(cases_table("study.csv has every column.", head_columns(study, entries), entries));
   return report;
 }
 
