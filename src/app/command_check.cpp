@@ -12,6 +12,7 @@
 #include "app/common_options.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
+#include "case/engine_scope.hpp"
 #include "case/track_facts.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
@@ -236,6 +237,15 @@ ExitCode check_without_mesh(const LoadedCase& loaded, bool json) {
   return ExitCode::ok;
 }
 
+bool in_half_spaces(const CaseSpec& spec) {
+  try {
+    require_half_spaces(spec);
+  } catch (const CaseError&) {
+    return false;
+  }
+  return true;
+}
+
 /// Where the bodies touch but cannot be meshed there (a contact on the flange), `run` alone refuses the case.
 Model model_for_run(const LoadedCase& loaded) {
   try {
@@ -243,10 +253,10 @@ Model model_for_run(const LoadedCase& loaded) {
   } catch (const CaseError& e) {
     const RigidContact c = place(loaded.spec, loaded.folder()).contact;
     spdlog::info(
-        "the bodies touch at y = {:.3f} mm, z = {:.3f} mm, at an angle of {:.1f} degrees; `railstrata bem` makes no "
-        "mesh "
-        "and takes the case, `railstrata run` refuses it:",
-        1e3 * c.point.y, 1e3 * c.point.z, c.angle * 180 / std::numbers::pi);
+        "the bodies touch at y = {:.3f} mm, z = {:.3f} mm, at an angle of {:.1f} degrees; {}`railstrata run` "
+        "refuses the case:",
+        1e3 * c.point.y, 1e3 * c.point.z, c.angle * 180 / std::numbers::pi,
+        in_half_spaces(loaded.spec) ? "`railstrata bem` makes no mesh and takes it, " : "");
     if (e.diagnostics.front().where.empty()) throw;
     throw in_case_file(loaded, e);
   }

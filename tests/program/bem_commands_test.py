@@ -184,7 +184,7 @@ class HalfSpaceCommands(FromOutside):
     def test_check_of_a_contact_that_cannot_be_meshed_names_the_engine_that_takes_it(self):
         flange = ["--set", "geometry.wheel_profile=S1002", "--set", "geometry.rail_profile=UIC60", "--set",
                   "geometry.track=CN", "--set", "geometry.lateral_shift=11 mm"]
-        self.refused(2, ["check", BASE, *flange], "`railstrata bem` makes no mesh and takes the case",
+        self.refused(2, ["check", BASE, *flange], "`railstrata bem` makes no mesh and takes it",
                      "too close to the end of the rail's running surface")
         self.done("bem", BASE, "--threads", "1", "--cell", "0.1 mm", *flange, "--out", self.folder / "flange")
 
