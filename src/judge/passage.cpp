@@ -60,8 +60,8 @@ RowStrength strength_of(const RollingSystem& system, const std::vector<std::size
   for (std::size_t r = 0; r < at.size(); ++r) {
     const WatchedPoint& point = system.watched_points[at[r]];
     const int material = mesh.blocks[static_cast<std::size_t>(mesh.contact.block)].material(point.quad, point.element);
-    out.factor[r] = mesh.strength_of(material);
-    out.shear[r] *= out.factor[r];
+    out.shear[r] *= mesh.strength_of(material);
+    out.fatigue_limit[r] *= mesh.strength_of(material);
     out.young[r] = young(system.model.rail_materials[static_cast<std::size_t>(material)]);
   }
   return out;

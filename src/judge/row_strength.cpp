@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "case/case_spec.hpp"
@@ -133,8 +134,9 @@ RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory&
     const ZoneStrength& zone = zones.at(rows.zone[r]);
     const StressPoint residual = zone.residual(rows.depth[r]);
     out.shear.push_back(zone.yield(rows.depth[r]) / std::numbers::sqrt3);
-    out.young.push_back(zone_material(spec, body, rows.zone[r]).young);
-    out.factor.push_back(1);
+    const MaterialSpec& material = zone_material(spec, body, rows.zone[r]);
+    out.young.push_back(material.young);
+    out.fatigue_limit.push_back(material.strength.fatigue.limit.value_or(std::numeric_limits<double>::quiet_NaN()));
     out.residual_x.push_back(residual.longitudinal);
     out.residual_y.push_back(residual.lateral);
   }

@@ -12,9 +12,9 @@ namespace railstrata {
 
 /// Per row of a stress history. A zone without a strength has NaN: it is taken to stay elastic.
 struct RowStrength {
-  std::vector<double> shear;   ///< Pa, k = yield strength / sqrt(3)
-  std::vector<double> young;   ///< Pa
-  std::vector<double> factor;  ///< of a stretch ([[stretch]]): k has it, limits of fatigue are to take it
+  std::vector<double> shear;                   ///< Pa, k = yield strength / sqrt(3)
+  std::vector<double> young;                   ///< Pa
+  std::vector<double> fatigue_limit;           ///< Pa, of Dang Van; NaN where the case gives none
   std::vector<double> residual_x, residual_y;  ///< Pa, of the process
   std::vector<std::string> notes;              ///< which strengths are estimates, and how, or not known
   bool any() const;                            ///< of a strength

@@ -35,7 +35,7 @@ std::vector<DangVanLimit> dang_van_limits(const CaseSpec& spec, BodyId body, con
   std::vector<DangVanLimit> out;
   for (int r = 0; r < history.rows(); ++r) {
     const StrengthSpec& s = strength_of_row(spec, body, history, r);
-    out.push_back(says_dang_van(s) ? DangVanLimit{*s.fatigue.dang_van, strength.factor[r] * *s.fatigue.limit}
+    out.push_back(says_dang_van(s) ? DangVanLimit{*s.fatigue.dang_van, strength.fatigue_limit[r]}
                                    : DangVanLimit{0, kNever});
   }
   return out;

@@ -80,7 +80,6 @@ TEST(IrregularWay, OverItsMiddleThePatchIsTwo) {
   EXPECT_NEAR(s.result.approach, 175.5e-6, 0.3e-6) << "at rest as on the way";
 }
 
-// The wheel's arc meets the rail's way.
 // A wheel that rolls onto a rail that lies higher meets, backwards, what one meets that rolls off it.
 TEST(IrregularWay, AStepUpIsAStepDownBackwards) {
   const auto over = [](const char* height) {
@@ -96,6 +95,7 @@ TEST(IrregularWay, AStepUpIsAStepDownBackwards) {
   EXPECT_GT(up[20].p_max, 1.3 * up.front().p_max);
 }
 
+// The wheel's arc meets the rail's way.
 TEST(IrregularWay, OnTheWheelItIsTheSameAsOnTheRail) {
   const std::vector<TransientRow> rail = roll(kHollow, 1e-3), wheel = roll(kHollow + "on = \"wheel\"\n", 1e-3);
   ASSERT_EQ(rail.size(), wheel.size());
