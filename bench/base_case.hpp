@@ -1,6 +1,6 @@
 #pragma once
 // The case of the paper that whole steps are measured on.
-#include "case/case_spec.hpp"
+#include "spec/case_spec.hpp"
 
 namespace railstrata {
 

@@ -1,9 +1,9 @@
 // Explicit steps against what the machine can do: fused multiply-adds and memory traffic are measured in the same run,
 // and every rate is given with its share of both.
 //
-// Arithmetic and traffic of one element-step, counted from the law (src/element/swept_hex.hpp) and the update: see
-// kFlops and kBytes. The traffic is the least possible, with every nodal value moved once; what a run really moves is
-// more where tiles do not stay in cache.
+// Arithmetic and traffic of one element-step, counted from the law (src/engines/element/swept_hex.hpp) and the update:
+// see kFlops and kBytes. The traffic is the least possible, with every nodal value moved once; what a run really moves
+// is more where tiles do not stay in cache.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-// The ranks that mpirun has started, joined as the program joins them (src/app/mpi_ranks.cpp).
+// The ranks that mpirun has started, joined as the program joins them (src/doors/app/mpi_ranks.cpp).
 #include <dlfcn.h>
 
 #include "core/rank_plug_in.hpp"

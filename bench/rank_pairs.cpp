@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "case/case_file.hpp"
 #include "fem/stepper.hpp"
+#include "reader/case_file.hpp"
 #include "tests/fem/thread_ranks.hpp"
 
 using namespace railstrata;

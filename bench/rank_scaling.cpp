@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "case/case_file.hpp"
 #include "core/faults.hpp"
 #include "fem/rank_need.hpp"
+#include "reader/case_file.hpp"
 
 using namespace railstrata;
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "bench/plug_in_ranks.hpp"
-#include "case/case_file.hpp"
 #include "fem/step_laps.hpp"
 #include "fem/stepper.hpp"
+#include "reader/case_file.hpp"
 
 using namespace railstrata;
 

@@ -8,12 +8,12 @@
 
 #include <algorithm>
 
+#include "ask/solve_half_space.hpp"
 #include "core/parallel.hpp"
-#include "judge/half_space_track.hpp"
-#include "judge/shakedown_summary.hpp"
+#include "fatigue/half_space_track.hpp"
+#include "fatigue/shakedown_summary.hpp"
 #include "passes/rail_passes.hpp"
 #include "result/stress_cycles.hpp"
-#include "runs/solve_half_space.hpp"
 
 namespace railstrata {
 namespace {

@@ -24,8 +24,11 @@ foreach(architecture IN LISTS RAILSTRATA_CUDA_ARCHITECTURES)
 endforeach()
 list(GET RAILSTRATA_CUDA_ARCHITECTURES -1 architecture)
 list(APPEND cuda_architectures -gencode arch=compute_${architecture},code=compute_${architecture})
-set(cuda_flags -std=c++20 --expt-relaxed-constexpr -O3 -ccbin ${CMAKE_CXX_COMPILER} -I ${CMAKE_SOURCE_DIR}/src
-  -I ${CMAKE_SOURCE_DIR}/extras -Xcompiler -fPIC -DNDEBUG)
+set(cuda_flags -std=c++20 --expt-relaxed-constexpr -O3 -ccbin ${CMAKE_CXX_COMPILER} -I ${CMAKE_SOURCE_DIR}/extras -Xcompiler -fPIC -DNDEBUG)
+
+foreach(wing IN LISTS WING_FOLDERS)
+  list(APPEND cuda_flags -I ${wing})
+endforeach()
 
 if(NOT cuda_missing)
   get_filename_component(nvcc_file ${RAILSTRATA_NVCC} REALPATH)

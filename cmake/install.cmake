@@ -45,7 +45,7 @@ endfunction()
 function(railstrata_install_headers layout libdir)
   railstrata_part(dev)
   install(FILES ${CMAKE_SOURCE_DIR}/extras/${ROOM_OF_CONTACT}/railstrata_cntc.h
-    ${CMAKE_SOURCE_DIR}/src/capi/railstrata.f90
+    ${CMAKE_SOURCE_DIR}/src/doors/capi/railstrata.f90
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/railstrata ${part})
   install(DIRECTORY ${public_include}/railstrata DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${part}
     FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
@@ -73,7 +73,7 @@ function(railstrata_install_data layout)
     DESTINATION ${data_folder}/examples ${part})
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/vehicle DESTINATION ${data_folder}/examples ${part})
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/matlab DESTINATION ${data_folder} ${part})
-  install(FILES ${CMAKE_SOURCE_DIR}/src/report/view.py ${CMAKE_SOURCE_DIR}/web/dist/report.js
+  install(FILES ${CMAKE_SOURCE_DIR}/src/results/report/view.py ${CMAKE_SOURCE_DIR}/web/dist/report.js
     ${CMAKE_SOURCE_DIR}/web/dist/report.css DESTINATION ${data_folder}/report ${part})
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/railstrata)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/ DESTINATION ${doc} ${part} FILES_MATCHING PATTERN "*.md"
@@ -101,7 +101,7 @@ function(railstrata_install layout libdir python_folder)
   railstrata_install_headers("${layout}" ${libdir})
   railstrata_install_data("${layout}")
   railstrata_install_python("${layout}" ${libdir} ${python_folder})
-  if(TARGET railstrata_mpi)  # where the program looks for it: src/app/mpi_ranks.cpp
+  if(TARGET railstrata_mpi)  # where the program looks for it: src/doors/app/mpi_ranks.cpp
     railstrata_part(mpi)
     install(TARGETS railstrata_mpi LIBRARY DESTINATION lib/railstrata ${part})
   endif()

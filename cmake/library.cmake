@@ -23,7 +23,7 @@ set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python that runs the too
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 # The headers that a user of the library includes; those that they include are public too. C++ API, unstable until 1.0.
-set(PUBLIC_HEADERS core/faults.hpp case/case_file.hpp io/provenance.hpp runs/library.hpp)
+set(PUBLIC_HEADERS core/faults.hpp reader/case_file.hpp io/provenance.hpp ask/library.hpp)
 set(C_HEADER capi/railstrata.h)
 set(ROOMS_OF_THE_PROGRAM many study validate explore app batch usetab export)
 set(ROOMS_OF_PYTHON many bridge)
@@ -43,7 +43,7 @@ set(public_include ${CMAKE_BINARY_DIR}/public/include)
 # The public headers as they are installed: include/railstrata/<room>/<name>.hpp, and railstrata.hpp with all of them.
 set(headers_stamp ${CMAKE_BINARY_DIR}/public/headers.stamp)
 add_custom_command(OUTPUT ${headers_stamp} DEPFILE ${headers_stamp}.d DEPENDS ${interface_tool} VERBATIM
-  COMMAND Python3::Interpreter ${interface_tool} headers --src ${CMAKE_SOURCE_DIR}/src
+  COMMAND Python3::Interpreter ${interface_tool} headers --src ${WING_FOLDERS}
     --out ${public_include}/railstrata --version ${PROJECT_VERSION} --stamp ${headers_stamp} --c ${C_HEADER}
     ${PUBLIC_HEADERS}
   COMMENT "Collecting the library's public headers")
@@ -95,7 +95,7 @@ function(railstrata_parts_of_libraries)
   target_link_libraries(inside PRIVATE railstrata_flags${installed_suffix} fmt::fmt tomlplusplus::tomlplusplus)
   target_compile_options(inside PRIVATE -w)
   foreach(end plug_in load_plug_in)
-    add_library(hdf5_${end} OBJECT ${CMAKE_SOURCE_DIR}/src/hdf5/in_library/${end}.cpp)
+    add_library(hdf5_${end} OBJECT ${CMAKE_SOURCE_DIR}/src/results/hdf5/in_library/${end}.cpp)
     target_link_libraries(hdf5_${end} PRIVATE room_table${installed_suffix} room_fem${installed_suffix})
   endforeach()
   target_compile_definitions(hdf5_load_plug_in PRIVATE RAILSTRATA_HDF5_PLUG_IN="librailstrata-hdf5.so.${so_version}")
@@ -210,11 +210,11 @@ endif()
 
 # The program that is installed; railstrata-bin, which the tests look at, has its rooms inside.
 file(RELATIVE_PATH data_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/railstrata)
-set_source_files_properties(${CMAKE_SOURCE_DIR}/src/app/shipped_files.cpp PROPERTIES
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/doors/app/shipped_files.cpp PROPERTIES
   COMPILE_DEFINITIONS RAILSTRATA_DATA_FROM_PROGRAM="${data_from_bin}")
 file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-add_executable(railstrata_program src/app/main.cpp)
-target_include_directories(railstrata_program PRIVATE ${CMAKE_SOURCE_DIR}/src)
+add_executable(railstrata_program src/doors/app/main.cpp)
+target_include_directories(railstrata_program PRIVATE ${WING_FOLDERS})
 target_link_libraries(railstrata_program PRIVATE railstrata_commands)
 set_target_properties(railstrata_program PROPERTIES OUTPUT_NAME railstrata
   RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin INSTALL_RPATH "$ORIGIN/${lib_from_bin}")

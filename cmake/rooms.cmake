@@ -1,5 +1,5 @@
-# Rooms: every folder of src/ named in src/LAYERS becomes a library room_<name> that sees the rooms on lower lines and
-# nothing else. So does every folder of extras/ named in extras/LAYERS, but for one with a CMakeLists.txt of its own; the
+# Rooms: every folder src/<wing>/<name> named in src/LAYERS becomes a library room_<name> that sees the rooms on lower
+# floors and nothing else. So does every folder of extras/ named in extras/LAYERS, but for one with a CMakeLists.txt of its own; the
 # target `extras` builds them all. A variant is a second build of some of them for another instruction set: its targets end in _<variant>
 # (room_fem_v3). The width of a SIMD pack follows from the instruction set: whatever has a pack in it, or is laid out by
 # packs, belongs to these rooms, and its names say the width (core/simd.hpp).
@@ -15,7 +15,7 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ${RAILSTRATA_LIBRARY})
 # arguments are the options of its instruction set.
 function(railstrata_flags target)
   add_library(${target} INTERFACE)
-  target_include_directories(${target} INTERFACE ${CMAKE_SOURCE_DIR}/src)
+  target_include_directories(${target} INTERFACE ${WING_FOLDERS})
   # -Wsign-conversion, which -Wconversion brings with clang++, stays off: positions are int and ptrdiff_t, containers
   # ask for size_t, and what must not be negative is tested where it is read.
   target_compile_options(${target} INTERFACE
@@ -51,7 +51,8 @@ endfunction()
 # templates, again in every file: the sources of a room are compiled together (RAILSTRATA_UNITY), so many at a time; a
 # source with compile options of its own stays alone. Rooms that compute nothing are compiled with -O1.
 set(SOURCES_AT_ONCE 24)
-set(ROOMS_THAT_COMPUTE_NOTHING record case hdf5 io passes report jobs runs many study validate explore app bridge batch usetab export)
+set(ROOMS_THAT_COMPUTE_NOTHING record text spec options tables rules reader hdf5 io passes report jobs ask runs many
+  laboratory collective creep study validate wear explore app bridge batch usetab export)
 
 # railstrata_light(TARGET NAME): these rules for the sources of a room or of its tests.
 function(railstrata_light target name)
@@ -97,7 +98,8 @@ if(RAILSTRATA_FFT STREQUAL "fftw")
 else()
   set(ROOM_LIBS_fft Eigen3::Eigen)
 endif()
-set(ROOM_LIBS_case nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus)
+set(ROOM_LIBS_text tomlplusplus::tomlplusplus)
+set(ROOM_LIBS_options nlohmann_json::nlohmann_json)
 set(ROOM_LIBS_body Eigen3::Eigen)
 set(ROOM_LIBS_fem Eigen3::Eigen)
 if(NOT WIN32)
@@ -108,15 +110,15 @@ set(ROOM_LIBS_app spdlog::spdlog CLI11::CLI11)
 
 # Products of complex numbers in kiss FFT without a look at every one for NaN: else it is three times slower.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/fft/fft_kiss.cpp PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/laws/fft/fft_kiss.cpp PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
 else()
-  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/fft/fft_kiss.cpp PROPERTIES COMPILE_OPTIONS -ffast-math)
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/laws/fft/fft_kiss.cpp PROPERTIES COMPILE_OPTIONS -ffast-math)
 endif()
 
 # Sources with the kernels of the explicit step. g++ before 13 takes a Zen 4 for a Zen 3 and schedules for vectors of
 # half the width: the kernel loses up to 15 %. The option stays on these files alone, because it also decides where
 # products and sums are fused, which shows in the last bits of a result.
-set(ROOM_WIDE_VECTOR_SOURCES src/body/traversal.cpp)
+set(ROOM_WIDE_VECTOR_SOURCES src/engines/body/traversal.cpp)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
     AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   foreach(source IN LISTS ROOM_WIDE_VECTOR_SOURCES)
@@ -142,10 +144,10 @@ macro(railstrata_room name folder compiled)
     set_source_files_properties(${twins} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # windows.h has macros
     list(APPEND sources ${twins})
   endif()
-  list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/app/main.cpp)
+  list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/doors/app/main.cpp)
   foreach(fft fftw kiss)
     if(NOT fft STREQUAL RAILSTRATA_FFT)
-      list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/fft/fft_${fft}.cpp)
+      list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/laws/fft/fft_${fft}.cpp)
     endif()
   endforeach()
   if("${name}" STREQUAL "device" AND RAILSTRATA_WITH_CUDA)  # one object for all variants: nothing in it knows a pack
@@ -182,21 +184,20 @@ function(railstrata_rooms variant wide_vectors)
   if(variant)
     set(suffix "_${variant}")
   endif()
-  file(STRINGS ${CMAKE_SOURCE_DIR}/src/LAYERS lines REGEX "^[a-z]")
   set(below "")
   set(with_sources "")
-  foreach(line IN LISTS lines)
-    string(REPLACE " " ";" names "${line}")
-    set(this_line "")
+  foreach(floor IN LISTS FLOORS)
+    string(REPLACE " " ";" names "${floor}")
+    set(this_floor "")
     foreach(name IN LISTS names)
       set(compiled YES)
       if(ARGN AND NOT name IN_LIST ARGN)
         set(compiled NO)
       endif()
-      railstrata_room(${name} ${CMAKE_SOURCE_DIR}/src/${name} ${compiled})
-      list(APPEND this_line room_${name}${suffix})
+      railstrata_room(${name} ${CMAKE_SOURCE_DIR}/src/${WING_OF_${name}}/${name} ${compiled})
+      list(APPEND this_floor room_${name}${suffix})
     endforeach()
-    list(PREPEND below ${this_line})
+    list(PREPEND below ${this_floor})
     foreach(name IN LISTS names)
       set(below_and_${name} ${below})
     endforeach()

@@ -1,10 +1,10 @@
 # The pages' scripts, styles and engine, built by hand with `npm ci && npm run build` in web/ (the engine with
 # `./railstrata wasm`) and committed in web/dist, and the script for ParaView stand inside the program.
 set(web ${CMAKE_SOURCE_DIR}/web/dist)
-set(view ${CMAKE_SOURCE_DIR}/src/report/view.py)
-set_source_files_properties(${CMAKE_SOURCE_DIR}/src/report/assets.cpp PROPERTIES
+set(view ${CMAKE_SOURCE_DIR}/src/results/report/view.py)
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/results/report/assets.cpp PROPERTIES
   COMPILE_DEFINITIONS "RAILSTRATA_WEB_FOLDER=\"${web}\";RAILSTRATA_VIEW_FILE=\"${view}\""
   OBJECT_DEPENDS "${web}/report.js;${web}/report.css;${view}")
-set_source_files_properties(${CMAKE_SOURCE_DIR}/src/explore/assets.cpp PROPERTIES
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/doors/explore/assets.cpp PROPERTIES
   COMPILE_DEFINITIONS RAILSTRATA_WEB_FOLDER="${web}"
   OBJECT_DEPENDS "${web}/explore.js;${web}/explore.css;${web}/worker.js;${web}/engine.wasm.gz;${web}/explore_licences.txt")

@@ -1,12 +1,12 @@
 # What is passed on for Windows: the program, the C library and CONTACT's interface, each with all it needs inside but
 # for what every Windows has, and `cpack -G ZIP`, which puts them into one folder.
-set(utf8_letters ${CMAKE_SOURCE_DIR}/src/core/windows/utf8_letters.cpp)
+set(utf8_letters ${CMAKE_SOURCE_DIR}/src/base/core/windows/utf8_letters.cpp)
 set(utf8_wraps -Wl,--wrap=mbrtowc -Wl,--wrap=wcrtomb)
-add_executable(railstrata src/app/windows/main.cpp ${utf8_letters})
+add_executable(railstrata src/doors/app/windows/main.cpp ${utf8_letters})
 target_link_libraries(railstrata PRIVATE room_app)
 target_link_options(railstrata PRIVATE -Wl,--stack,8388608 ${utf8_wraps})  # bytes of the stack, as on Linux
 # The programs of a folder and their data lie side by side.
-set_source_files_properties(${CMAKE_SOURCE_DIR}/src/app/shipped_files.cpp PROPERTIES
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/doors/app/shipped_files.cpp PROPERTIES
   COMPILE_DEFINITIONS RAILSTRATA_DATA_FROM_PROGRAM=".")
 
 # railstrata_dll(TARGET ROOM HEADER): a DLL of a room and what it needs. It exports the functions of the header.
@@ -17,13 +17,13 @@ function(railstrata_dll target room header)
   list(JOIN names "\n" names)
   set(exports ${CMAKE_BINARY_DIR}/generated/${target}.def)
   file(CONFIGURE OUTPUT ${exports} CONTENT "EXPORTS\n${names}\n" @ONLY)
-  add_library(${target} SHARED $<TARGET_OBJECTS:room_${room}> ${CMAKE_SOURCE_DIR}/src/core/windows/stay_loaded.cpp
+  add_library(${target} SHARED $<TARGET_OBJECTS:room_${room}> ${CMAKE_SOURCE_DIR}/src/base/core/windows/stay_loaded.cpp
     ${utf8_letters} ${exports})
   target_link_libraries(${target} PRIVATE room_${room})
   target_link_options(${target} PRIVATE ${utf8_wraps})
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX PREFIX "" IMPORT_PREFIX "" IMPORT_SUFFIX ".lib")
 endfunction()
-set(c_header ${CMAKE_SOURCE_DIR}/src/capi/railstrata.h)
+set(c_header ${CMAKE_SOURCE_DIR}/src/doors/capi/railstrata.h)
 set(contact_header ${CMAKE_SOURCE_DIR}/extras/cntc/railstrata_cntc.h)
 railstrata_dll(railstrata_library capi ${c_header})
 set_target_properties(railstrata_library PROPERTIES OUTPUT_NAME railstrata)

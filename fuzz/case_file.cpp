@@ -1,11 +1,11 @@
 // Case files, and the overrides of the command line: the file, then after a byte 1 an override a line.
-#include "case/case_file.hpp"
+#include "reader/case_file.hpp"
 
 #include <algorithm>
 #include <sstream>
 
-#include "case/option_table.hpp"
 #include "many/axis.hpp"
+#include "options/option_table.hpp"
 #include "reader.hpp"
 
 using namespace railstrata;

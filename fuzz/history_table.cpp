@@ -1,10 +1,10 @@
 // Tables of a transient's history.
-#include "case/history_table.hpp"
+#include "tables/history_table.hpp"
 
 #include <cmath>
 
-#include "case/transient_rules.hpp"
 #include "reader.hpp"
+#include "rules/transient_rules.hpp"
 
 using namespace railstrata;
 using fuzz::promise;

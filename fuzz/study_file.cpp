@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "case/case_file.hpp"
-#include "case/units.hpp"
 #include "reader.hpp"
+#include "reader/case_file.hpp"
+#include "text/units.hpp"
 
 using namespace railstrata;
 using fuzz::promise;

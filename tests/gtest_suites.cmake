@@ -20,7 +20,7 @@ foreach(suite IN LISTS suites)
     string(TOLOWER "${CMAKE_MATCH_2}" size)
     list(APPEND kind ${size})
   endif()
-  # threads that wait sleep (the program's do nearly so, src/app/main.cpp): spinning, a test of a few seconds takes a
+  # threads that wait sleep (the program's do nearly so, src/doors/app/main.cpp): spinning, a test of a few seconds takes a
   # minute on shared cores
   set_tests_properties("${test}" PROPERTIES LABELS "${kind}" ENVIRONMENT OMP_WAIT_POLICY=passive
     SKIP_REGULAR_EXPRESSION "\\[  PASSED  \\] 0 tests\\.\n\\[  SKIPPED \\][^\n]*\n(\\[  SKIPPED \\][^\n]*\n)*$")

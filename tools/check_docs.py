@@ -184,7 +184,7 @@ def check(root):
     out = []
     for page in pages(root):
         text = page.read_text()
-        out += check_layers.missing_files(page, [page.parent, root, root / "src", root / "extras"])
+        out += check_layers.missing_files(page, [page.parent, root, *check_layers.wings_of([root]), root / "extras"])
         out += missing_headings(page, text) + long_lines(page, text)
         out += too_long(page.relative_to(root).as_posix(), text)
     if (root / "docs/images/rooms.svg").read_text() != draw_rooms.draw(root / "src"):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks every #include of src/ against src/LAYERS: a room sees itself and the rooms on lines above its own, nothing
-else. Beside src/, extras/LAYERS has for each extra the floors of src/ it sees and the rooms that see it. Every room has
+"""Checks every #include of src/ against src/LAYERS: a room sees itself and the rooms on lower floors, nothing else. A
+room is a folder of its wing, src/<wing>/<room>. Beside src/, extras/LAYERS has for each extra the floors of src/ it sees and the rooms that see it. Every room has
 a card, README.md, whose first heading is the room's name; the files that a card names exist. Below the highest room
 nothing prints, logs, ends the program or touches signals: others can call it.
 
@@ -30,10 +30,22 @@ LOUD_FILES = {"mpi/plug_in.cpp",  # the end of all ranks, where one has died
 
 
 
+def read_wings(text):
+    """Wing -> its floors, lowest first, each a list of rooms."""
+    lines = [line.split(":") for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    return {wing: [floor.split() for floor in floors.split("<")] for wing, floors in lines}
+
+
 def read_layers(text):
-    """Room name -> level, lowest first; rooms on one line share a level."""
-    lines = [line.split() for line in text.splitlines() if line.strip() and not line.startswith("#")]
-    return {room: level for level, rooms in enumerate(lines) for room in rooms}
+    """Room name -> level, lowest first; rooms on one floor share a level."""
+    floors = [floor for wing in read_wings(text).values() for floor in wing]
+    return {room: level for level, rooms in enumerate(floors) for room in rooms}
+
+
+def room_folders(src):
+    """Room name -> its folder below src/."""
+    wings = read_wings((src / "LAYERS").read_text())
+    return {room: src / wing / room for wing, floors in wings.items() for floor in floors for room in floor}
 
 
 def read_extras(text):
@@ -55,7 +67,7 @@ def complaint(room, target, levels, extras):
         return None if levels[other] <= levels[floor] else f"{other} is higher than {floor}"
     if other == room or levels[other] < levels[room]:
         return None
-    side = "is on the same line of LAYERS" if levels[other] == levels[room] else "is a higher room"
+    side = "is on the same floor of LAYERS" if levels[other] == levels[room] else "is a higher room"
     return f"{other} {side}"
 
 
@@ -102,7 +114,14 @@ def card_complaints(room):
     wrong = []
     if headings[:1] != [f"# {room.name}"]:
         wrong.append(f'{card}: the first heading is not "# {room.name}"')
-    return wrong + missing_files(card, [room, room.parent, room.parent.parent, room.parent.parent / "src"])
+    above = [room.parent, room.parent.parent, room.parent.parent.parent]
+    return wrong + missing_files(card, [room, *above, *wings_of(above)])
+
+
+def wings_of(places):
+    """The wings of src/, from which #includes start, where one of the places holds src/ or is it."""
+    folders = [p for place in places for p in (place, place / "src") if (p / "LAYERS").exists()]
+    return [wing for p in folders for wing in p.iterdir() if wing.is_dir()]
 
 
 def loud_word(room, file, line, level, highest):
@@ -117,13 +136,12 @@ def check(src):
     levels = read_layers((src / "LAYERS").read_text())
     apart = src.parent / "extras"
     extras = read_extras((apart / "LAYERS").read_text()) if apart.exists() else {}
-    found = []
-    for names, place in ((levels, src), (extras, apart)) if extras else ((levels, src),):
-        for folder in sorted(p for p in place.iterdir() if p.is_dir()):
-            if folder.name not in names:
-                found.append(f"{folder}: not a room of LAYERS")
-            else:
-                found += card_complaints(folder) + room_complaints(folder, levels, extras)
+    rooms = {*room_folders(src).values(), *(apart / extra for extra in extras)}
+    there = {p for place in [*(w for w in src.iterdir() if w.is_dir()), *([apart] if extras else [])]
+             for p in place.iterdir() if p.is_dir()}
+    found = [f"{folder}: not a room of LAYERS" for folder in sorted(there - rooms)]
+    for folder in sorted(there & rooms):
+        found += card_complaints(folder) + room_complaints(folder, levels, extras)
     return found
 
 
@@ -156,21 +174,23 @@ def self_test():
 def test_includes():
     with tempfile.TemporaryDirectory() as name:
         src = pathlib.Path(name)
-        (src / "LAYERS").write_text("# comment\nlow\nleft right\ntop\n")
+        (src / "LAYERS").write_text("# comment\nground: low < left right\nroof: top\n")
+        wing = {"top": "roof"}
         included = {"low": "top/a.hpp", "left": "right/a.hpp", "top": "a.hpp", "right": "low/a.hpp",
                     "stray": "low/a.hpp"}
         for room, include in included.items():
-            (src / room).mkdir()
-            (src / room / "README.md").write_text(f"# {room}\n")
-            (src / room / "a.hpp").write_text(f'#include <vector>\n#include "{room}/b.hpp"\n#include "{include}"\n')
-        (src / "left" / "b.cpp").write_text('// puts("here")\nvoid f() { std::puts("there"); }\n')
-        (src / "top" / "b.cpp").write_text('void f() { std::puts("here"); }\nconstexpr double kToMilli = 1e3;\n')
+            folder = src / wing.get(room, "ground") / room
+            folder.mkdir(parents=True)
+            (folder / "README.md").write_text(f"# {room}\n")
+            (folder / "a.hpp").write_text(f'#include <vector>\n#include "{room}/b.hpp"\n#include "{include}"\n')
+        (src / "ground/left/b.cpp").write_text('// puts("here")\nvoid f() { std::puts("there"); }\n')
+        (src / "roof/top/b.cpp").write_text('void f() { std::puts("here"); }\nconstexpr double kToMilli = 1e3;\n')
         found = check(src)
         expected = [
+            "stray: not a room",
             'left must not include "right/a.hpp"',
             "b.cpp:2: left must not print",
             'low must not include "top/a.hpp"',
-            "stray: not a room",
             'top must not include "a.hpp"',
             "b.cpp:2: factors of units",
         ]
@@ -181,18 +201,18 @@ def test_extras():
     """An extra sees its floor and those below, no other extra; the rooms that see it are named."""
     with tempfile.TemporaryDirectory() as name:
         root = pathlib.Path(name)
-        included = {"src/low": "one/a.hpp", "src/middle": "one/a.hpp", "src/top": "low/a.hpp",
+        included = {"src/house/low": "one/a.hpp", "src/house/middle": "one/a.hpp", "src/house/top": "low/a.hpp",
                     "extras/one": "middle/a.hpp", "extras/two": "top/a.hpp", "extras/three": "one/a.hpp",
                     "extras/stray": "low/a.hpp"}
         for room, include in included.items():
             (root / room).mkdir(parents=True)
             (root / room / "README.md").write_text(f"# {pathlib.Path(room).name}\n")
             (root / room / "a.hpp").write_text(f'#include "{include}"\n')
-        (root / "src/LAYERS").write_text("low\nmiddle\ntop\n")
+        (root / "src/LAYERS").write_text("house: low < middle < top\n")
         (root / "extras/LAYERS").write_text("one above middle seen by middle top\ntwo above middle\nthree above top\n")
         found = check(root / "src")
-        expected = ["one is an extra that low does not see", "stray: not a room", "one is an extra that three does not",
-                    "top is higher than middle"]
+        expected = ["stray: not a room", "one is an extra that three does not", "top is higher than middle",
+                    "one is an extra that low does not see"]
         assert len(found) == len(expected) and all(e in f for e, f in zip(expected, found)), found
 
 
@@ -201,17 +221,17 @@ def test_cards():
     with tempfile.TemporaryDirectory() as name:
         src = pathlib.Path(name) / "src"
         cards = {
-            "good": "# good\n`a.hpp`, `bad/a.hpp`, `src/good/a.hpp`, `<name>.cpp`, [rooms](../LAYERS), `patch.csv`\n",
+            "good": "# good\n`a.hpp`, `bad/a.hpp`, `src/house/good/a.hpp`, `<name>.cpp`, [rooms](../../LAYERS), `patch.csv`\n",
             "bad": "# good\n`a.hpp`\n`gone.hpp`, `tests/gone`, [page](gone.md#part), `Body`\n",
             "none": None,
         }
         src.mkdir()
-        (src / "LAYERS").write_text("good bad none\n")
+        (src / "LAYERS").write_text("house: good bad none\n")
         for room, card in cards.items():
-            (src / room).mkdir()
-            (src / room / "a.hpp").write_text("")
+            (src / "house" / room).mkdir(parents=True)
+            (src / "house" / room / "a.hpp").write_text("")
             if card:
-                (src / room / "README.md").write_text(card)
+                (src / "house" / room / "README.md").write_text(card)
         found = check(src)
         expected = ['is not "# bad"', ":3: gone.hpp", ":3: tests/gone", ":3: gone.md", "none: no card"]
         assert len(found) == len(expected) and all(e in f for e, f in zip(expected, found)), found

@@ -39,7 +39,7 @@ def arguments():
 
 
 def environment(mask):
-    # with these set the program does not start itself once more (src/app/main.cpp)
+    # with these set the program does not start itself once more (src/doors/app/main.cpp)
     out = {**os.environ, "OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "3000"}
     if mask:
         out["GLIBC_TUNABLES"] = f"glibc.cpu.hwcaps={mask}"

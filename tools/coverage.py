@@ -67,7 +67,7 @@ def main():
         numbers = [len(lines), sum(line["count"] > 0 for line in lines), len(branches),
                    sum(b["count"] > 0 for b in branches)]
         name = pathlib.Path(file["file"])
-        for room in (name.parts[1], "all"):
+        for room in (name.parts[-2], "all"):  # src/<wing>/<room>/…, extras/<extra>/…
             rooms[room] = [a + b for a, b in zip(rooms[room], numbers)]
         missed.append((name, [line["line_number"] for line in lines if line["count"] == 0]))
     order = [*check_layers.read_layers((records.ROOT / "src/LAYERS").read_text()),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What librailstrata.so shows of itself: the public headers and the symbols.
 
-usage: library_interface.py headers --src SRC --out FOLDER --version V --stamp FILE [--c HEADER.h] HEADER.hpp...
+usage: library_interface.py headers --src FOLDER... --out FOLDER --version V --stamp FILE [--c HEADER.h] HEADER.hpp...
        library_interface.py exports --headers FOLDER --nm NM --version V --public-version V --out MAP
                                      --library A.a ... --users B.a ...
 
@@ -23,6 +23,11 @@ ANGLED = re.compile(r"^\s*#\s*include\s*<([^>]+)>", re.M)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 
 
+def placed(src, header):
+    """"room/x.hpp" in one of the folders."""
+    return next(folder / header for folder in src if (folder / header).exists())
+
+
 def closure(src, headers):
     """The headers and all they include, sorted."""
     found, todo = set(), list(headers)
@@ -31,7 +36,7 @@ def closure(src, headers):
         if header in found:
             continue
         found.add(header)
-        todo += QUOTED.findall((src / header).read_text())
+        todo += QUOTED.findall(placed(src, header).read_text())
     return sorted(found)
 
 
@@ -39,7 +44,7 @@ def complaints(src, headers):
     """Headers that a user's compiler may not find: of third parties, and what the compiler only has with OpenMP."""
     out = []
     for header in headers:
-        for name in ANGLED.findall((src / header).read_text()):
+        for name in ANGLED.findall(placed(src, header).read_text()):
             if "/" in name or "." in name:
                 out.append(f"{header} includes <{name}>: public headers use the C++ standard library alone")
     return out
@@ -54,7 +59,7 @@ def write_if_new(file, text):
 def headers(args):
     names = closure(args.src, args.headers)
     for header in args.c:
-        write_if_new(args.out / pathlib.Path(header).name, (args.src / header).read_text())
+        write_if_new(args.out / pathlib.Path(header).name, placed(args.src, header).read_text())
     wrong = complaints(args.src, names)
     if wrong:
         sys.exit("\n".join(wrong))
@@ -62,7 +67,7 @@ def headers(args):
         if str(old.relative_to(args.out)) not in [*names, "railstrata.hpp"]:
             old.unlink()
     for name in names:
-        text = (args.src / name).read_text()
+        text = placed(args.src, name).read_text()
         write_if_new(args.out / name, QUOTED.sub(lambda m: f'#include "railstrata/{m[1]}"', text))
     lines = ["#pragma once",
              f"// RailStrata {args.version}: all that the library offers. The C++ interface is unstable until 1.0.",
@@ -71,7 +76,7 @@ def headers(args):
              *(f'#include "railstrata/{header}"' for header in sorted(args.headers)),
              ""]
     write_if_new(args.out / "railstrata.hpp", "\n".join(lines))
-    inputs = " ".join(str(args.src / name) for name in [*names, *args.c])
+    inputs = " ".join(str(placed(args.src, name)) for name in [*names, *args.c])
     args.stamp.with_name(args.stamp.name + ".d").write_text(f"{args.stamp}: {inputs}\n")
     args.stamp.touch()
 
@@ -140,7 +145,7 @@ def main():
     commands = parser.add_subparsers(required=True)
     make = commands.add_parser("headers")
     make.set_defaults(run=headers)
-    make.add_argument("--src", type=pathlib.Path, required=True)
+    make.add_argument("--src", type=pathlib.Path, nargs="+", required=True)
     make.add_argument("--stamp", type=pathlib.Path, required=True)
     make.add_argument("--c", action="append", default=[])
     make.add_argument("headers", nargs="+")

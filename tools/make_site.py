@@ -143,7 +143,7 @@ def python_interface(root):
 
 def c_interface(root):
     """The C header: comments that stand alone as text, declarations with their own comments as code."""
-    text = (root / "src/capi/railstrata.h").read_text()
+    text = (root / "src/doors/capi/railstrata.h").read_text()
     out = ["# C interface\n", "`railstrata.h`, for C, Fortran and C++: [how to build with it](docs/library.md).\n"]
     for comment, code in re.findall(r"^/\*(.*?)\*/$|((?:^(?!/\*).*\n?)+)", text, re.S | re.M):
         if comment:
@@ -246,7 +246,7 @@ def navigation(sections, folder):
 def sections_of(root):
     cases = sorted(f.relative_to(root).as_posix() for f in root.glob("cases/**/README.md"))
     cards = sorted(f.relative_to(root).as_posix() for f in [
-        *root.glob("src/*/README.md"), *root.glob("extras/*/README.md"), *root.glob("*/README.md")])
+        *root.glob("src/*/*/README.md"), *root.glob("extras/*/README.md"), *root.glob("*/README.md")])
     profiles = [f.relative_to(root).as_posix() for f in root.glob("data/*/README.md")]
     out = []
     for title, names in SECTIONS:

@@ -13,15 +13,15 @@ const script = {
   legalComments: "none",
   charset: "utf8"
 };
-await build({...script, entryPoints: {report: "src/report/main.ts", explore: "src/explore/main.ts"}, outdir: "dist"});
+await build({...script, entryPoints: {report: "src/results/report/main.ts", explore: "src/doors/explore/main.ts"}, outdir: "dist"});
 await build({
-  entryPoints: {report: "src/report/page.css", explore: "src/explore/explore.css"},
+  entryPoints: {report: "src/results/report/page.css", explore: "src/doors/explore/explore.css"},
   outdir: "dist",
   bundle: true,
   minify: true,
   charset: "utf8"
 });
-const worker = await build({...script, entryPoints: ["src/explore/worker.ts"], write: false});
+const worker = await build({...script, entryPoints: ["src/doors/explore/worker.ts"], write: false});
 const glue = readFileSync("dist/engine.js", "utf8");
 writeFileSync("dist/worker.js", `${glue}\n${worker.outputFiles[0].text}`);
 

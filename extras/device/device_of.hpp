@@ -1,8 +1,8 @@
 #pragma once
 // The device that a case asks for.
-#include "case/case_fwd.hpp"
 #include "device/memory.hpp"
 #include "fem/step_engine.hpp"
+#include "spec/case_fwd.hpp"
 
 namespace railstrata::device {
 

@@ -10,6 +10,7 @@
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/option_values.hpp"
+#include "ask/solve_half_space.hpp"
 #include "export/abaqus_deck.hpp"
 #include "export/contact_files.hpp"
 #include "export/dyna_deck.hpp"
@@ -17,7 +18,6 @@
 #include "io/output_folder.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
-#include "runs/solve_half_space.hpp"
 
 namespace railstrata {
 namespace {

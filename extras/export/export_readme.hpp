@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "case/case_fwd.hpp"
 #include "export/solid_model.hpp"
+#include "spec/case_fwd.hpp"
 
 namespace railstrata {
 

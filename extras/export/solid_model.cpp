@@ -5,11 +5,11 @@
 #include <map>
 #include <utility>
 
-#include "case/engine_scope.hpp"
 #include "core/faults.hpp"
 #include "core/rotation.hpp"
 #include "mesh/station_weights.hpp"
 #include "mesh/unstructured.hpp"
+#include "rules/engine_scope.hpp"
 
 namespace railstrata {
 namespace {

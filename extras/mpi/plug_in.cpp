@@ -1,5 +1,5 @@
 // The ranks of one run by MPI. This is all of MPI that RailStrata knows; the program loads it where mpirun has started
-// it (src/app/mpi_ranks.cpp) and needs no MPI otherwise.
+// it (src/doors/app/mpi_ranks.cpp) and needs no MPI otherwise.
 //
 // Ranks on one machine exchange lists in memory that they share; long ones, and those of ranks on several machines, are
 // messages. A rank that waits looks now and then whether the processes of the others on this machine are alive, so that

@@ -1,4 +1,4 @@
-"""Calls of the library, by ctypes: names, JSON and arrays that numpy looks at without a copy (src/bridge)."""
+"""Calls of the library, by ctypes: names, JSON and arrays that numpy looks at without a copy (src/doors/bridge)."""
 from __future__ import annotations
 
 import ctypes

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "case/case_file.hpp"
+#include "reader/case_file.hpp"
 
 namespace railstrata {
 namespace {

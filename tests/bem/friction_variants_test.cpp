@@ -7,10 +7,10 @@
 
 #include "bem/solve_bem.hpp"
 #include "bem/transient.hpp"
-#include "case/case_file.hpp"
 #include "core/faults.hpp"
 #include "damage/flash_temperature.hpp"
 #include "friction/friction_conditions.hpp"
+#include "reader/case_file.hpp"
 
 namespace railstrata {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "bem/solve_bem.hpp"
-#include "case/case_file.hpp"
 #include "halfspace/line_contact.hpp"
+#include "reader/case_file.hpp"
 
 namespace railstrata {
 namespace {

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "ask/library.hpp"
 #include "capi/railstrata.h"
-#include "runs/library.hpp"
 #include "tests/capi/contact_handle.hpp"
 
 namespace railstrata {

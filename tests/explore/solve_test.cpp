@@ -9,13 +9,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "case/case_file.hpp"
+#include "ask/solve_half_space.hpp"
 #include "explore/calls.h"
 #include "explore/case_values.hpp"
 #include "explore/page.hpp"
 #include "io/summary_json.hpp"
+#include "reader/case_file.hpp"
 #include "result/stress_sections.hpp"
-#include "runs/solve_half_space.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "body/aggregates.hpp"
-#include "case/case_file.hpp"
 #include "core/parallel.hpp"
+#include "reader/case_file.hpp"
 #include "small_rolling.hpp"
 #include "tests/body/sample_bodies.hpp"
 

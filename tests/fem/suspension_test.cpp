@@ -1,5 +1,5 @@
 #include "fem/suspension.hpp"
-#include "case/case_spec.hpp"
+#include "spec/case_spec.hpp"
 
 #include <gtest/gtest.h>
 

@@ -20,12 +20,12 @@ class FrontDoor(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.folder.chmod(0o755)
         self.root, self.tools, self.work = (self.folder / name for name in ("checkout", "tools", "work"))
-        inside = [self.root / name for name in ("src/core", "extras", "cmake", "src/report", "web/dist", "build")]
+        inside = [self.root / name for name in ("src/base/core", "extras", "cmake", "src/results/report", "web/dist", "build")]
         for folder in (*inside, self.tools, self.work):
             folder.mkdir(parents=True)
         self.work.chmod(0o777)
         shutil.copy(SOURCE / "railstrata", self.root)
-        for file in ("CMakeLists.txt", "src/core/vec.hpp", "src/report/view.py", "build/build.ninja"):
+        for file in ("CMakeLists.txt", "src/base/core/vec.hpp", "src/results/report/view.py", "build/build.ninja"):
             (self.root / file).write_text("")
         self.script(self.root / "build/railstrata-bin", 'echo "program: $*"')
         for name in ("ninja", "cmake"):
@@ -61,13 +61,13 @@ class FrontDoor(unittest.TestCase):
         self.assertEqual(said[1], "")
 
     def test_a_changed_source_is_built_once(self):
-        (self.root / "src/core/vec.hpp").write_text("changed")
+        (self.root / "src/base/core/vec.hpp").write_text("changed")
         later = time.time() + 2
-        os.utime(self.root / "src/core/vec.hpp", (later, later))
+        os.utime(self.root / "src/base/core/vec.hpp", (later, later))
         self.call("info")
         self.assertIn("ninja", self.calls())
         (self.folder / "calls").unlink()
-        os.utime(self.root / "src/core/vec.hpp")
+        os.utime(self.root / "src/base/core/vec.hpp")
         time.sleep(0.01)
         (self.root / "build/up-to-date").touch()
         self.call("info")
@@ -75,7 +75,7 @@ class FrontDoor(unittest.TestCase):
 
     def test_a_new_file_is_built(self):
         later = time.time() + 2
-        os.utime(self.root / "src/core", (later, later))
+        os.utime(self.root / "src/base/core", (later, later))
         self.call("info")
         self.assertIn("ninja", self.calls())
 
@@ -89,7 +89,7 @@ class FrontDoor(unittest.TestCase):
 
     def test_without_leave_to_build_an_older_program_runs_with_a_word_of_warning(self):
         later = time.time() + 2
-        os.utime(self.root / "src/core/vec.hpp", (later, later))
+        os.utime(self.root / "src/base/core/vec.hpp", (later, later))
         (self.root / "build").chmod(0o555)
         self.addCleanup((self.root / "build").chmod, 0o755)
         out = self.call("info", nobody=True)

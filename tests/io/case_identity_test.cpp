@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "case/case_file.hpp"
 #include "io/output_folder.hpp"
+#include "reader/case_file.hpp"
 
 namespace railstrata {
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "case/case_spec.hpp"
-#include "judge/row_strength.hpp"
+#include "fatigue/row_strength.hpp"
+#include "spec/case_spec.hpp"
 
 namespace railstrata {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "case/case_file.hpp"
 #include "judge/bem_summary.hpp"
+#include "reader/case_file.hpp"
 #include "result/result_table.hpp"
 #include "tests/bem/reference_table.hpp"
 

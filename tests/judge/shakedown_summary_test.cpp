@@ -1,4 +1,4 @@
-#include "judge/shakedown_summary.hpp"
+#include "fatigue/shakedown_summary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/faults.hpp"
-#include "judge/half_space_track.hpp"
-#include "judge/sliding_map.hpp"
+#include "fatigue/half_space_track.hpp"
+#include "fatigue/sliding_map.hpp"
 #include "judge/verdict.hpp"
 #include "tests/result/crossed_cylinders.hpp"
 

@@ -1,4 +1,4 @@
-#include "judge/streamlines.hpp"
+#include "fatigue/streamlines.hpp"
 
 #include <gtest/gtest.h>
 

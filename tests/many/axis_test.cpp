@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "case/option_table.hpp"
 #include "core/faults.hpp"
+#include "options/option_table.hpp"
 
 namespace railstrata {
 

@@ -1,5 +1,5 @@
 #include "passes/pass_plan.hpp"
-#include "case/case_spec.hpp"
+#include "spec/case_spec.hpp"
 
 #include <gtest/gtest.h>
 

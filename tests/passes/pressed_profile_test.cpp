@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "case/case_file.hpp"
 #include "model/model.hpp"
+#include "reader/case_file.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,4 +1,4 @@
-"""A number of the summary is said once: its symbol stands in src/result/result_table.cpp and in what is generated."""
+"""A number of the summary is said once: its symbol stands in src/results/result/result_table.cpp and in what is generated."""
 import json
 import pathlib
 import re
@@ -7,7 +7,7 @@ import sys
 import unittest
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
-ROW = "src/result/result_table.cpp"
+ROW = "src/results/result/result_table.cpp"
 GENERATED = {"web/src/columns.ts"}
 # columns of every table, lines of screen and page, axes of a study's trends, rows of `compare`
 ALONE = {"layers/critical_flaw_m", "layers/interface_tension_Pa", "layers/interface_shear_Pa",

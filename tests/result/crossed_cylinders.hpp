@@ -1,5 +1,5 @@
 #pragma once
-#include "case/case_spec.hpp"
+#include "spec/case_spec.hpp"
 
 namespace railstrata::post_checks {
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "ask/solve_half_space.hpp"
 #include "runs/solve_fem.hpp"
-#include "runs/solve_half_space.hpp"
 #include "tests/places.hpp"
 #include "tests/runs/small_run.hpp"
 

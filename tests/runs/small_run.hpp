@@ -1,6 +1,6 @@
 #pragma once
 // A case as text, small enough for a test: a disc with a crowned tread rolls 12 mm over a flat block, 4 mm elements.
-#include "case/case_file.hpp"
+#include "reader/case_file.hpp"
 
 namespace railstrata::run_checks {
 

@@ -76,7 +76,7 @@ class Site(unittest.TestCase):
         for name in re.findall(r'"(\w+)"', names):
             self.assertIn(f'id="{name.lower()}"', text, name)
         text = re.sub(r"<[^>]+>", "", (SITE / "c-interface.html").read_text())
-        for name in re.findall(r"RS_API [^;]*?(rs_\w+)\(", (SOURCE / "src/capi/railstrata.h").read_text()):
+        for name in re.findall(r"RS_API [^;]*?(rs_\w+)\(", (SOURCE / "src/doors/capi/railstrata.h").read_text()):
             self.assertIn(name, text)
 
     def test_the_search_knows_the_pages(self):
@@ -89,10 +89,10 @@ class Site(unittest.TestCase):
 class Parts(unittest.TestCase):
     def test_links_within_the_site_stay_and_others_become_names(self):
         pages = {"README.md", "docs/bem.md"}
-        text = "[a](docs/bem.md#layers) [b](src/core/vec.hpp) `[c](d)` [e](https://x.y/z)\n```\n[f](g)\n```\n"
+        text = "[a](docs/bem.md#layers) [b](src/base/core/vec.hpp) `[c](d)` [e](https://x.y/z)\n```\n[f](g)\n```\n"
         self.assertEqual(
             make_site.with_site_links("README.md", text, SOURCE, pages),
-            "[a](docs/bem.md#layers) b (`src/core/vec.hpp`) `[c](d)` [e](https://x.y/z)\n```\n[f](g)\n```\n")
+            "[a](docs/bem.md#layers) b (`src/base/core/vec.hpp`) `[c](d)` [e](https://x.y/z)\n```\n[f](g)\n```\n")
 
     def test_lists_get_a_blank_line_before_them(self):
         self.assertEqual(make_site.with_list_breaks("words:\n- a\n- b\n```\nx\n- c\n```"),

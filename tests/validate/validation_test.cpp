@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "case/text_file.hpp"
 #include "tests/places.hpp"
+#include "text/text_file.hpp"
 #include "validate/validation_page.hpp"
 
 namespace railstrata {

@@ -5,7 +5,7 @@ stand, with the licences of what is inside and the hashes of the sources, which 
 usage: web/engine/build_engine.py [--list] [FOLDER FOR OBJECTS]      --list: names sources and hashes, builds nothing
 
 It needs Debian's packages emscripten, ninja-build, libfmt-dev, libeigen3-dev, libtomlplusplus-dev and
-nlohmann-json3-dev. The sources are those that src/explore/calls.cpp reaches by its #includes.
+nlohmann-json3-dev. The sources are those that src/doors/explore/calls.cpp reaches by its #includes.
 """
 import gzip
 import hashlib
@@ -26,7 +26,7 @@ TYPES_ALONE = ("body/", "element/", "fem/", "mesh/", "contact/", "io/provenance.
 CALLED_HERE = ("contact/patch_extent.cpp",)  # of these, what is called here
 # Headers whose functions are in several sources.
 DEFINED_IN = {"fft/fft.hpp": ("fft/fft_lengths.cpp", "fft/fft_kiss.cpp"),
-              "case/case_tables.hpp": ("case/*_options.cpp",), "bem/subsurface.hpp": ("bem/subsurface_*.cpp",)}
+              "options/case_tables.hpp": ("options/*_options.cpp",), "bem/subsurface.hpp": ("bem/subsurface_*.cpp",)}
 # Whole libraries of headers beside the system's own, which are not for this compiler.
 HEADERS = {"fmt": "/usr/include/fmt", "eigen3": "/usr/include/eigen3", "nlohmann": "/usr/include/nlohmann",
            "toml++": "/usr/include/toml++"}
@@ -46,8 +46,13 @@ LICENCES = {"{fmt}": f"{DOC}/libfmt-dev/copyright", "Eigen and kiss FFT": f"{DOC
 FAST_MATH = {"fft_kiss.cpp"}
 
 
+def placed(file):
+    """A file named by its room ("bem/solve_bem.hpp") below its wing, or None."""
+    return next(SRC.glob(f"*/{file}"), None)
+
+
 def includes(file):
-    return re.findall(r'^#include "([^"]+)"', (SRC / file).read_text(), re.M)
+    return re.findall(r'^#include "([^"]+)"', placed(file).read_text(), re.M)
 
 
 def sources():
@@ -61,21 +66,22 @@ def sources():
         for header in includes(file):
             todo.append(header)
             own = header.removesuffix(".hpp") + ".cpp"
-            if (SRC / own).exists() and (own in CALLED_HERE or not own.startswith(TYPES_ALONE)):
+            if placed(own) and (own in CALLED_HERE or not own.startswith(TYPES_ALONE)):
                 todo.append(own)
-        todo += (str(f.relative_to(SRC)) for pattern in DEFINED_IN.get(file, ()) for f in SRC.glob(pattern))
+        todo += ("/".join(f.parts[-2:]) for pattern in DEFINED_IN.get(file, ()) for f in SRC.glob(f"*/{pattern}"))
     return sorted(f for f in seen if f.endswith(".cpp")), sorted(seen)
 
 
 def ninja_file(objects, compiled):
-    lines = ["rule cc", f"  command = em++ {FLAGS} $more -I{SRC} -I{HERE}/stand_in -I{objects}/headers "
+    wings = " ".join(f"-I{wing}" for wing in sorted(SRC.iterdir()) if wing.is_dir())
+    lines = ["rule cc", f"  command = em++ {FLAGS} $more {wings} -I{HERE}/stand_in -I{objects}/headers "
              f"-I{objects}/headers/eigen3 -MMD -MF $out.d -c $in -o $out", "  depfile = $out.d", "  deps = gcc",
              "rule link", f"  command = em++ {LINK} $in -o $out", ""]
     names = []
     for file in compiled:
         name = file.replace("/", "_") + ".o"
         names.append(name)
-        lines.append(f"build {name}: cc {SRC}/{file}")
+        lines.append(f"build {name}: cc {placed(file)}")
         if pathlib.Path(file).name in FAST_MATH:
             lines.append("  more = -ffast-math")
     lines += [f"build engine.js | engine.wasm: link {' '.join(names)}", ""]
@@ -85,7 +91,7 @@ def ninja_file(objects, compiled):
 def hashes():
     """SHA-256 of every file that goes into the engine."""
     _, read = sources()
-    files = [SRC / f for f in read] + sorted((HERE / "stand_in").iterdir()) + [HERE / "build_engine.py"]
+    files = [placed(f) for f in read] + sorted((HERE / "stand_in").iterdir()) + [HERE / "build_engine.py"]
     return {str(f.relative_to(ROOT)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
 
 

@@ -5,10 +5,10 @@
 #include <map>
 #include <set>
 
-#include "case/case_file.hpp"
-#include "case/option_table.hpp"
 #include "device/emulated_device.hpp"
 #include "extras/device/tests/engine_checks.hpp"
+#include "options/option_table.hpp"
+#include "reader/case_file.hpp"
 
 namespace railstrata::device {
 namespace {

@@ -1,7 +1,7 @@
-// What the program puts into the page (src/explore/page.cpp), and what the engine answers (src/explore/solve.hpp).
+// What the program puts into the page (src/doors/explore/page.cpp), and what the engine answers (src/doors/explore/solve.hpp).
 import type {Summary} from "../types";
 
-/// Numbers, centre line, border of the patch and largest stresses over depth of a result, SI (src/explore/page.cpp).
+/// Numbers, centre line, border of the patch and largest stresses over depth of a result, SI (src/doors/explore/page.cpp).
 export interface Reported {
   summary: Summary;
   x: number[];

@@ -1,4 +1,4 @@
-// What the program puts into the page: src/report/payload.cpp writes it, this file reads it. Millimetres, MPa,
+// What the program puts into the page: src/results/report/payload.cpp writes it, this file reads it. Millimetres, MPa,
 // milliseconds and newtons, except in `summary`, which is summary.json as it stands (SI).
 import type {Dash} from "../chart";
 import type {BodyName, Measure, Summary, Values} from "../types";
@@ -267,7 +267,7 @@ export interface VerdictWords {
   lasts: boolean;
 }
 
-/// The words for results, from the program's tables (src/result/result_table.cpp, src/judge/check_limits.hpp).
+/// The words for results, from the program's tables (src/results/result/result_table.cpp, src/results/judge/check_limits.hpp).
 export interface Words {
   numbers: Quantity[];
   zones: {key: string; name: string}[];

@@ -10,11 +10,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "case/case_file.hpp"
 #include "core/faults.hpp"
 #include "device/card.hpp"
 #include "device/engine.hpp"
 #include "fem/stepper.hpp"
+#include "reader/case_file.hpp"
 
 using namespace railstrata;
 

@@ -1,0 +1,65 @@
+#pragma once
+// The model before anything moves: profiles, placement, meshes and loads built from a case.
+#include <filesystem>
+#include <optional>
+
+#include "friction/third_body.hpp"
+#include "geometry/placement.hpp"
+#include "geometry/profile.hpp"
+#include "halfspace/hertz.hpp"
+#include "material/elastic.hpp"
+#include "mesh/bodies.hpp"
+#include "spec/case_spec.hpp"
+
+namespace railstrata {
+
+/// The geometry of a case: cheap, and all that the half-space engine needs.
+struct Placement {
+  Profile wheel, rail;
+  TrackGeometry track;
+  RigidContact contact;
+  std::vector<std::string> notes;  ///< what the profile readers detected and flipped
+};
+
+/// Built-in names are tried first, then files relative to `folder`. Throws CaseError.
+Placement place(const CaseSpec& spec, const std::filesystem::path& folder);
+
+/// Static weight on the rail, G = (wheel + sprung mass) g, N.
+double static_load(const CaseSpec& spec);
+
+/// The laws of friction that a case asks for.
+FallingFriction falling_friction(const CaseSpec& spec);
+ThirdBody third_body(const CaseSpec& spec);
+/// Friction across rolling over friction along it; 1 without friction.
+double lateral_friction_share(const CaseSpec& spec);
+
+/// Hertz with the curvatures at the rigid contact point: an estimate for search distances and checks, not a result. A
+/// line contact's b is half the line, its approach NaN.
+HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& contact);
+
+struct Model {
+  CaseSpec spec;
+  Placement placement;
+  SweptBody rail, wheel;
+  std::vector<Elastic> rail_materials,
+      wheel_materials;  ///< matrix, then layers from the surface down; a graded layer as its rows of elements
+  std::vector<Elastic> rail_at_surface, wheel_at_surface;  ///< the same as they are at the running surface: the top row
+                                                           ///< of a graded layer has the table's first modulus
+  double load = 0;                                         ///< G, N
+  HertzContact hertz;
+  double x_end = 0;  ///< wheel position at which the run ends, m
+  double reach = 0;  ///< m, how much farther from the axle heights make the wheel touch
+  /// Section curves of the running surfaces in section coordinates of the bodies.
+  Vec2 rail_section_point(double s) const { return rail_to_model(placement.track, placement.rail.at(s).position); }
+  Vec2 rail_section_normal(double s) const { return rail_to_model(placement.track, placement.rail.at(s).outward); }
+  Vec2 wheel_section_point(double s) const {
+    const Vec2 p = placement.wheel.at(s).position;
+    return {p.y, p.z - spec.geometry.wheel_radius};
+  }
+  Vec2 wheel_section_normal(double s) const { return placement.wheel.at(s).outward; }
+};
+
+/// Meshes both bodies. Throws CaseError where the mesh cannot be made (layer thicker than the head, …).
+Model build_model(const CaseSpec& spec, const std::filesystem::path& folder);
+
+}  // namespace railstrata

@@ -1,0 +1,58 @@
+#include "options/absent_options.hpp"
+
+#include <array>
+
+namespace railstrata {
+namespace {
+
+struct Absent {
+  std::string_view name, answer;
+};
+
+constexpr std::string_view
+    kLoad = "vehicle.wheel_load and vehicle.axle_load give the load, or the masses do; `railstrata check` shows it",
+    kCreepage =
+        "drive.creepage, lateral_creepage and spin give creepages, and `railstrata creep-curve` traction against them",
+    kYaw = "geometry.yaw is the angle of attack", kCurve = "geometry.curve_radius is the radius of the track's curve",
+    kRoll = "geometry.roll is the roll of the wheelset";
+
+constexpr std::string_view kElastic =
+                               "contact is computed with linear elastic materials; yield_strength, hardening, "
+                               "initial_stress and the like are keys of [material.rail], [material.wheel] and "
+                               "[[layer]]",
+                           kTrack = "gauge, cant and lateral_shift are keys of [geometry]";
+
+constexpr std::array kAbsent{
+    Absent{"load", kLoad},
+    Absent{"axle_load", kLoad},
+    Absent{"wheel_load", kLoad},
+    Absent{"normal_force", kLoad},
+    Absent{"creepage", kCreepage},
+    Absent{"longitudinal_creepage", kCreepage},
+    Absent{"lateral_creepage", kCreepage},
+    Absent{"spin", kCreepage},
+    Absent{"slip", kCreepage},
+    Absent{"curve_radius", kCurve},
+    Absent{"curvature", kCurve},
+    Absent{"yaw", kYaw},
+    Absent{"yaw_angle", kYaw},
+    Absent{"angle_of_attack", kYaw},
+    Absent{"roll", kRoll},
+    Absent{"roll_angle", kRoll},
+    Absent{"yield_stress", kElastic},
+    Absent{"yield_strength", kElastic},
+    Absent{"hardening", kElastic},
+    Absent{"residual_stress", kElastic},
+    Absent{"gauge", kTrack},
+    Absent{"cant", kTrack},
+};
+
+}  // namespace
+
+std::string_view answer_for_absent(std::string_view name) {
+  for (const Absent& a : kAbsent)
+    if (a.name == name) return a.answer;
+  return {};
+}
+
+}  // namespace railstrata

@@ -1,0 +1,166 @@
+#include "options/case_tables.hpp"
+
+#include "options/option_slots.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace dimension;
+using namespace option_slot;
+
+template <auto Member>
+Slot load(CaseSpec& spec, std::size_t index) {
+  return entry<&CaseSpec::loads, Member>(spec, index);
+}
+
+bool has_loads(const CaseSpec& spec, std::size_t) { return !spec.loads.empty(); }
+bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(index).name.empty(); }
+
+/// Each axle has this wheel and another like it: N = MGT / (2 wheel loads).
+double passages_of(const CaseSpec& spec, std::size_t index, double million_tonnes) {
+  const VehicleSpec& v = spec.vehicle;
+  const double wheel = spec.loads.at(index).wheel_load.value_or((v.wheel_mass + v.sprung_mass) * v.gravity);
+  return 1e6 * million_tonnes / gross_tonnes(wheel, v.gravity);
+}
+
+bool follows_passes(const CaseSpec& spec, std::size_t) { return spec.life.passes > 0; }
+bool has_life(const CaseSpec& spec, std::size_t i) { return has_loads(spec, i) || follows_passes(spec, i); }
+bool grinds(const CaseSpec& spec, std::size_t) { return spec.grinding.every.has_value(); }
+
+double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
+
+std::vector<Option> force_options() {
+  return {
+      option("traction_coefficient", load<&LoadSpec::traction_coefficient>, "Wanted F_T / G; positive drives", kNumber,
+             {-1, 1}),
+      option(
+          "creepage", load<&LoadSpec::creepage>,
+          "Longitudinal, instead of the traction; negative drives. Of the contact or of the wheel: drive.creepage_of",
+          kNumber, {-10, 1}),
+      option("lateral_traction_coefficient", load<&LoadSpec::lateral_traction_coefficient>,
+             "Friction force F_y on the wheel along the contact plane, over G", kNumber, {-1, 1}),
+      option("lateral_creepage", load<&LoadSpec::lateral_creepage>,
+             "Instead of the lateral force; else that of the yaw", kNumber, {-10, 10}),
+      option("friction_coefficient", load<&LoadSpec::friction_coefficient>, "Of friction at rest", kNumber, {0, 2})};
+}
+
+}  // namespace
+
+OptionTable load_table() {
+  OptionTable out{
+      "load",
+      "A row of a load collective, for `railstrata collective`: a wheel and how often it passes. What a row does not "
+      "give is the case's; signs and meanings are those of the keys of the same names",
+      {option("name", load<&LoadSpec::name>, "What results call the row; \"load 1\", \"load 2\", … by its place")
+           .where(has_name),
+       option("passages", load<&LoadSpec::passages>, "How often such a wheel passes", kNumber, above(0, 1e12)),
+       option("wheel_load", load<&LoadSpec::wheel_load>, "Load of the wheel on the rail, a force or a mass", kForce,
+              above(0, 1e7))
+           .or_mass(),
+       option("axle_load", load<&LoadSpec::wheel_load>,
+              "Load of both wheels on the track, a force or a mass; this wheel carries half", kForce, above(0, 2e7))
+           .derived({half, "choose a load in this range"})
+           .or_mass(),
+       option(
+           "mgt", load<&LoadSpec::passages>,
+           "Million gross tonnes of such axles, instead of passages: each brings two wheels of the row's load, one of "
+           "them over this rail, so passages = mgt / (2 wheel_load)",
+           kNumber, above(0, 1e6))
+           .derived({passages_of, "choose less, or give passages"}),
+       option("lateral_shift", load<&LoadSpec::lateral_shift>, "Of the wheel, positive to the field side", kLength,
+              {-0.05, 0.05}),
+       option("yaw", load<&LoadSpec::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}),
+       option("roll", load<&LoadSpec::roll>,
+              "Of the wheelset, as geometry.roll: some tenths of a mrad move the load between tread and flange", kSlope,
+              {-0.05, 0.05}),
+       option("curve_radius", load<&LoadSpec::curve_radius>, "Positive with the centre on the field side", kLength,
+              {-1e6, 1e6}),
+       option("speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200)),
+       option("guiding_force", load<&LoadSpec::guiding_force>,
+              "Y of the vehicle code, of the wheel on the rail, positive to the field side: compared with what comes "
+              "out, not "
+              "used",
+              kForce, {-1e6, 1e6}),
+       option("t_gamma", load<&LoadSpec::t_gamma>,
+              "T-gamma of the vehicle code, without spin: compared with what comes out, not used", kForce, {0, 1e6}),
+       option("friction_energy", load<&LoadSpec::friction_energy>,
+              "Friction power of the vehicle code over the speed, with spin: compared with what comes out, not used",
+              kForce, {0, 1e6})},
+      list_of<&CaseSpec::loads>(),
+      {{"wheel_load", "axle_load"},
+       {"passages", "mgt"},
+       {"traction_coefficient", "creepage"},
+       {"lateral_traction_coefficient", "lateral_creepage"}}};
+  append(out.options, force_options());
+  return out;
+}
+
+OptionTable collective_table() {
+  using C = CollectiveSpec;
+  const Option file =
+      option("file", at<&CaseSpec::collective, &C::file>,
+             "A CSV file with the rows, instead of [[load]]: keys of [[load]] with their units as names of columns")
+          .where(never);
+  const Option law =
+      choice_at<&CaseSpec::collective, &C::wear_law>(
+          "wear_law",
+          "Which wear `railstrata wear-loop` takes off the profile: University of Sheffield's of T-gamma, Archard with "
+          "Jendel's map, Archard with the rail's wear_coefficient",
+          {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}})
+          .where(has_loads);
+  const Option deviation =
+      option(
+          "lateral_deviation", at<&CaseSpec::collective, &C::lateral_deviation>,
+          "Standard deviation of the places across where the wheels of a row run, about its own: wear, rolling contact "
+          "fatigue and damage are spread by a normal distribution, cut at three of it; some 2 to 6 mm on straight "
+          "track",
+          kLength, {0, 0.03})
+          .where(has_life);
+  const Option factor =
+      option("wear_factor", at<&CaseSpec::collective, &C::wear_factor>,
+             "Wear of rail and wheel over that of the laws, which are of dry laboratory surfaces: from a measured "
+             "depth; a lubricated or wet rail has 0.2 and less",
+             kNumber, above(0, 1000))
+          .where(has_life);
+  const Option bins =
+      option("bin_scale", at<&CaseSpec::collective, &C::bin_scale>,
+             "Scale of the widths of the bins of a series of samples: 0.5 halves them", kNumber, {0.02, 50})
+          .where(never);
+  const Option match =
+      option(
+          "match_guiding_force", at<&CaseSpec::collective, &C::match_guiding_force>,
+          "Move the shift of each row with a guiding_force, by at most 0.2 mm, until its wheel has that force: where "
+          "tread and flange touch, some µm of the shift move the load from one to the other")
+          .where(has_loads);
+  return {"collective", "All rows of [[load]] together", {file, law, factor, deviation, bins, match}};
+}
+
+OptionTable life_table() {
+  return {
+      "life",
+      "What the lives of `railstrata collective` rest on, beside the strengths",
+      {option("passes", at<&CaseSpec::life, &LifeSpec::passes>,
+              "Passes of every load over a new rail by the stationary method (`railstrata passes`): the strain that "
+              "they leave gives the life of what yields; 0: none, else some 40, at least 8",
+              kNumber, {0, 10000})
+           .where(follows_passes),
+       option("strength_scatter", at<&CaseSpec::life, &LifeSpec::strength_scatter>,
+              "Coefficient of variation of the strengths of rail, wheel and layers: the range of a life has those of "
+              "strengths two deviations lower and higher; three times the passes are followed",
+              kNumber, {0, 0.2})
+           .where(has_life)}};
+}
+
+OptionTable grinding_table() {
+  using G = GrindingSpec;
+  return {"grinding",
+          "Grinding of the rail, for the lives of `railstrata collective`",
+          {option("every", at<&CaseSpec::grinding, &G::every>,
+                  "Gross traffic from one grinding to the next, a mass: \"15 Mt\" are 15 million tonnes", kMass,
+                  {1e6, 1e13}),
+           option("depth", at<&CaseSpec::grinding, &G::depth>, "What is ground off each time, everywhere", kLength,
+                  {0, 0.01})
+               .where(grinds)}};
+}
+
+}  // namespace railstrata

@@ -1,0 +1,39 @@
+#include "options/case_tables.hpp"
+#include "options/option_slots.hpp"
+
+namespace railstrata {
+namespace {
+
+using Stretch = StretchSpec;
+
+template <auto Member>
+Slot stretch(CaseSpec& spec, std::size_t index) {
+  return option_slot::entry<&CaseSpec::stretches, Member>(spec, index);
+}
+
+}  // namespace
+
+OptionTable stretch_table() {
+  using namespace option_slot;
+  using namespace dimension;
+  return {"stretch",
+          "A stretch of rail or wheel in which all its materials, those of its layers too, are stiffer or stronger, as "
+          "a weld and its heat-affected zone; several are multiplied",
+          {choice<&Stretch::on>("on", stretch<&Stretch::on>, "Of the wheel x is the arc from the first contact",
+                                {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
+           option("along", stretch<&Stretch::along>,
+                  "Places along the rail, factors of Young's modulus and factors of strength (the yield stress, all "
+                  "that hardening adds, and the fatigue limit); linear between them, 1 beyond the first and the last. "
+                  "Elements have the "
+                  "factors of their middle; two places close together are a jump, with node planes between them")
+               .with_rows(RowForm::by_value,
+                          {column("place", "", kLength, {-100, 100}),
+                           column("young", "Factor of Young's modulus", kNumber, {1e-4, 20}),
+                           column("strength", "Factor of strength", kNumber, {0.05, 20})},
+                          R"([["190 mm", 1.0, 1.0], ["195 mm", 1.0, 0.75], ["200 mm", 1.0, 1.0]])"),
+           option("depth", stretch<&Stretch::depth>, "Below the running surface; not given: through the body", kLength,
+                  above(0, 1))},
+          list_of<&CaseSpec::stretches>()};
+}
+
+}  // namespace railstrata

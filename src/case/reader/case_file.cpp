@@ -1,0 +1,217 @@
+#include "reader/case_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sstream>
+#include <utility>
+
+#include "core/nearest_word.hpp"
+#include "geometry/profile_names.hpp"
+#include "options/option_table.hpp"
+#include "reader/case_tree.hpp"
+#include "rules/case_rules.hpp"
+#include "rules/engine_scope.hpp"
+#include "rules/irregularity_rules.hpp"
+#include "rules/track_facts.hpp"
+#include "rules/transient_rules.hpp"
+#include "tables/history_table.hpp"
+#include "tables/load_rows.hpp"
+#include "text/case_source.hpp"
+#include "text/text_file.hpp"
+
+namespace railstrata {
+namespace {
+
+bool is_builtin(ProfileKind kind, const std::string& name) {
+  if (names_primitive(name)) return true;
+  for (const std::string& known : builtin_profile_names(kind))
+    if (edit_distance(known, name) == 0) return true;
+  return false;
+}
+
+/// A built-in name stays; a file becomes an absolute path, so that the resolved case means the same from any folder.
+void resolve_profile(ProfileKind kind, const char* key, std::string& name, LoadedCase& loaded, CaseSource& source) {
+  if (is_builtin(kind, name)) return;
+  std::error_code error;  // a name too long, a folder that may not be read: no file to us
+  const std::filesystem::path file =
+      name.empty() ? loaded.folder() : std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
+  const bool nameable = !name.empty() && name.find('\0') == std::string::npos;
+  if (nameable && std::filesystem::is_regular_file(file, error)) {
+    name = file.string();
+    loaded.inputs.push_back(file);
+    return;
+  }
+  const std::vector<std::string> names = builtin_profile_names(kind);
+  const std::string near = likely_profile(kind, name);
+  source.complain(fmt::format("geometry.{}", key),
+                  fmt::format("geometry.{} = {}: neither a built-in profile nor a file{}", key, toml_quoted(name),
+                              nameable ? fmt::format(" (looked for {})", file.string()) : ""),
+                  fmt::format("{}built in: {}, arc:R=300 mm",
+                              near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near), fmt::join(names, ", ")));
+}
+
+/// The columns of transient.history_file take the place of its name.
+void read_history(LoadedCase& loaded, CaseSource& source) {
+  std::string& name = loaded.spec.transient.history_file;
+  if (name.empty() && !source.has(kHistoryFile)) return;
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    source.complain(kHistoryFile, fmt::format("transient.history_file = {}: {}", toml_quoted(name), what), remedy);
+  };
+  if (name.empty() || name.find('\0') != std::string::npos)
+    return refuse("not a file's name", "name a CSV file, relative to the case file");
+  std::error_code error;
+  const std::filesystem::path said = loaded.folder() / name,
+                              file = std::filesystem::absolute(said, error).lexically_normal();
+  const std::string text = [&] {
+    try {
+      return read_text_file(file, "name a CSV file, relative to the case file", &loaded.notes);
+    } catch (const CaseError& e) {
+      for (const Diagnostic& d : e.diagnostics)
+        refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
+      return std::string();
+    }
+  }();
+  name.clear();
+  if (!source.sound({kHistoryFile})) return;
+  loaded.inputs.push_back(file);
+  try {
+    const std::vector<int> lines = read_history_table(text, said, loaded.spec);
+    for (const GivenColumn& column : given_columns(loaded.spec))
+      for (std::size_t row = 0; row < lines.size(); ++row)
+        source.remember_origin(fmt::format("transient.{}{}", column.key, row == 0 ? "" : fmt::format(".{}", row)),
+                               fmt::format("{}:{}", said.string(), lines[row]));
+  } catch (const CaseError& e) {
+    for (const Diagnostic& d : e.diagnostics) source.complain_elsewhere(kHistoryFile, d);
+  }
+}
+
+constexpr const char* kLoadFile = "collective.file";
+
+/// The rows of the table that `name` names take its place: read(text, file) gives a note or an empty text.
+template <class Read>
+void read_table_file(const std::string& key, std::string& name, LoadedCase& loaded, CaseSource& source, Read&& read) {
+  if (name.empty() && !source.has(key)) return;
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    source.complain(key, fmt::format("{} = {}: {}", key, toml_quoted(name), what), remedy);
+  };
+  if (name.empty() || name.find('\0') != std::string::npos)
+    return refuse("not a file's name", "name a CSV file, relative to the case file");
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
+  try {
+    const std::string note =
+        read(read_text_file(file, "name a CSV file, relative to the case file", &loaded.notes), file);
+    if (!note.empty()) loaded.notes.push_back(note);
+    loaded.inputs.push_back(file);
+  } catch (const CaseError& e) {
+    for (const Diagnostic& d : e.diagnostics)
+      refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
+  }
+  name.clear();
+}
+
+void read_height_files(LoadedCase& loaded, CaseSource& source) {
+  CaseSpec& spec = loaded.spec;
+  for (std::size_t i = 0; i < spec.irregularities.size(); ++i)
+    read_table_file(fmt::format("irregularity.{}.file", i), spec.irregularities[i].file, loaded, source,
+                    [&](const std::string& text, const std::filesystem::path& file) {
+                      read_heights(text, file, spec, i);
+                      return std::string();
+                    });
+}
+
+/// The rows of a collective stand in the case or in a file.
+void read_loads(LoadedCase& loaded, CaseSource& source) {
+  CaseSpec& spec = loaded.spec;
+  if (!spec.loads.empty() && source.has(kLoadFile)) {
+    source.complain(kLoadFile, "the case has rows of [[load]] and collective.file",
+                    "keep one of them: the file's rows may be written as [[load]]");
+    spec.collective.file.clear();
+    return;
+  }
+  read_table_file(
+      kLoadFile, spec.collective.file, loaded, source,
+      [&](const std::string& text, const std::filesystem::path& file) { return read_load_table(text, file, spec); });
+}
+
+/// Only blanks and comments.
+bool says_nothing(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (const std::size_t at = line.find_first_not_of(" \t\r"); at != std::string::npos && line[at] != '#')
+      return false;
+  return true;
+}
+
+}  // namespace
+
+LoadedCase parse_case(const std::string& text, const std::filesystem::path& file,
+                      const std::vector<std::string>& overrides) {
+  LoadedCase loaded;
+  loaded.file = file;
+  loaded.source_text = text;
+  loaded.overrides = overrides;
+  CaseSource source(file, text);
+  loaded.spec = read_case_tree(source, overrides);
+  resolve_profile(ProfileKind::rail, "rail_profile", loaded.spec.geometry.rail_profile, loaded, source);
+  resolve_profile(ProfileKind::wheel, "wheel_profile", loaded.spec.geometry.wheel_profile, loaded, source);
+  read_history(loaded, source);
+  read_loads(loaded, source);
+  read_height_files(loaded, source);
+  check_case_rules(loaded.spec, source);
+  source.finish();
+  for (const BeyondEngine& b : beyond_finite_elements(loaded.spec))
+    loaded.not_in_fem.push_back(source.diagnosis(b.key, b.message, b.remedy));
+  loaded.resolved_toml = resolved_case(loaded.spec);
+  if (says_nothing(text))
+    loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),
+                                       overrides.empty() ? "" : ", but for what --set gives"));
+  for (std::string& note : idle_settings(loaded.spec)) loaded.notes.push_back(std::move(note));
+  for (std::string& note : track_notes(loaded.spec, source)) loaded.notes.push_back(std::move(note));
+  loaded.elastic_notes = unread_hardening(loaded.spec);
+  loaded.static_notes = void_drive(loaded.spec, source);
+  return loaded;
+}
+
+LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::vector<std::string> notes;
+  const std::string text = read_text_file(file, "shipped cases stand in cases/, e.g. cases/quick/case.toml", &notes);
+  LoadedCase loaded = parse_case(text, file, overrides);
+  loaded.inputs.insert(loaded.inputs.begin(), file);
+  loaded.notes.insert(loaded.notes.begin(), notes.begin(), notes.end());
+  return loaded;
+}
+
+CaseError in_case_file(const LoadedCase& loaded, const CaseError& error) {
+  CaseSource source(loaded.file, loaded.source_text);
+  static_cast<void>(read_case_tree(source, loaded.overrides));
+  std::vector<Diagnostic> all;
+  for (const Diagnostic& d : error.diagnostics)
+    if (d.where.empty())
+      all.push_back({loaded.file.string(), d.message, d.remedy});
+    else
+      all.push_back(d.where.find(':') == std::string::npos
+                        ? source.diagnosis(d.where, fmt::format("{}: {}", d.where, d.message), d.remedy)
+                        : d);
+  return CaseError(std::move(all));
+}
+
+std::string resolved_case(const CaseSpec& given) {
+  CaseSpec spec = given;
+  std::string out;
+  for (const OptionTable& table : case_tables())
+    for (std::size_t i = 0; i < (table.repeated ? table.repeated.count(spec) : 1); ++i) {
+      std::string lines;
+      for (const Option& option : table.options)
+        if (!option.derivation && (!option.applies || option.applies(spec, i)))
+          if (const std::string value = toml_value(option, spec, i); !value.empty())
+            lines += fmt::format("{} = {}\n", option.key, value);
+      if (lines.empty()) continue;
+      out += fmt::format(fmt::runtime(table.repeated ? "{}[[{}]]\n" : "{}[{}]\n"), out.empty() ? "" : "\n", table.name);
+      out += lines;
+    }
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,41 @@
+#pragma once
+// A case file (TOML) becomes a CaseSpec, or a CaseError that holds every error of the file at once.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/faults.hpp"
+#include "spec/case_spec.hpp"
+
+namespace railstrata {
+
+struct LoadedCase {
+  CaseSpec spec;
+  std::filesystem::path file;                 ///< as given
+  std::string source_text;                    ///< the file as it was read
+  std::vector<std::string> overrides;         ///< "key=value", as given
+  std::string resolved_toml;                  ///< every option with its value: reads back to the same spec, bit for bit
+  std::vector<std::string> notes;             ///< what is allowed but reported
+  std::vector<std::string> elastic_notes;     ///< the same where nothing yields: laws that are not read
+  std::vector<std::string> static_notes;      ///< the same where run.rolling counts: what its false makes void
+  std::vector<std::filesystem::path> inputs;  ///< every file that went in: the case and the profile files
+  std::vector<Diagnostic> not_in_fem;         ///< what the finite element engine refuses (rules/engine_scope.hpp)
+  /// Folder against which relative profile names are understood.
+  std::filesystem::path folder() const { return file.parent_path(); }
+};
+
+/// Reads, applies the overrides ("mesh.element_size=2 mm", "layer.0.thickness=0.5 mm"; quotes may be left out), checks
+/// units, ranges and what options ask of each other. Profile files are looked for, not read. Throws CaseError.
+LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The same from a text; `file` names it in messages and gives the folder of relative profile names.
+LoadedCase parse_case(const std::string& text, const std::filesystem::path& file,
+                      const std::vector<std::string>& overrides = {});
+
+/// The same faults, those that name a key of the case alone (in `where`) at its place in the file, others at the file.
+CaseError in_case_file(const LoadedCase& loaded, const CaseError& error);
+
+/// The spec as a case file with every option written out.
+std::string resolved_case(const CaseSpec& spec);
+
+}  // namespace railstrata

@@ -1,0 +1,209 @@
+#include "rules/irregularity_rules.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/faults.hpp"
+#include "geometry/height_field.hpp"
+#include "options/option_table.hpp"
+#include "tables/unit_table.hpp"
+
+namespace railstrata {
+namespace {
+
+using Kind = IrregularityKind;
+using Words = std::vector<std::string_view>;
+
+struct KindKeys {
+  Words needed, further;
+  bool rail = true, wheel = true;  ///< on which body
+};
+
+const KindKeys& keys_of_kind(Kind kind) {
+  static const std::map<Kind, KindKeys> all{
+      {Kind::indentation, {{"at", "length", "depth"}, {}}},
+      {Kind::corrugation, {{"wavelength", "depth"}, {"at", "from", "to"}}},
+      {Kind::dip, {{"at", "angle"}, {"ramp", "shape"}, true, false}},
+      {Kind::step, {{"at", "length", "height"}, {}, true, false}},
+      {Kind::flat, {{"at", "length"}, {"depth"}, false, true}},
+      {Kind::out_of_round, {{"depth"}, {"at", "order"}, false, true}},
+      {Kind::roughness, {{"rms", "shortest", "longest"}, {"exponent", "seed", "from", "to"}}},
+      {Kind::file, {{"x", "z"}, {"at", "file", "smoothing", "y"}}}};
+  return all.at(kind);
+}
+
+bool holds(const Words& words, std::string_view key) {
+  return std::find(words.begin(), words.end(), key) != words.end();
+}
+
+class IrregularityRules {
+ public:
+  IrregularityRules(const CaseSpec& spec, std::size_t index, CaseSource& source)
+      : spec_(spec), is_(spec.irregularities[index]), index_(index), source_(source) {}
+
+  void check() {
+    if (!source_.sound({name_ + ".kind"})) return;
+    check_keys();
+    if (!source_.sound({name_, "geometry.wheel_radius"})) return;
+    check_numbers();
+    if (is_.kind == Kind::file) check_points();
+    if (!source_.sound({name_})) return;
+    if (const double slope = steepest_slope(is_, spec_.geometry.wheel_radius); slope > kSteepestHeight)
+      refuse(is_.kind == Kind::file ? "file" : "kind",
+             fmt::format("its steepest slope is {:.2g}, contact takes up to {:g}", slope, kSteepestHeight),
+             is_.kind == Kind::file ? "give more smoothing, or check the units of x and z"
+                                    : "make it longer, less deep or less high");
+  }
+
+ private:
+  void refuse(std::string_view key, const std::string& what, const std::string& remedy) {
+    const std::string full = fmt::format("{}.{}", name_, key);
+    source_.complain(full, fmt::format("{}: {}", full, what), remedy);
+  }
+
+  std::string word() const {
+    for (const Option& o : find_table("irregularity")->options)
+      if (o.key == "kind")
+        for (const Choice& c : o.choices)
+          if (c.value == static_cast<int>(is_.kind)) return fmt::format("kind = \"{}\"", c.word);
+    return {};
+  }
+
+  bool given(const Option& option) const {
+    CaseSpec copy = spec_;
+    const Slot slot = option.slot(copy, index_);
+    if (const auto* maybe = std::get_if<std::optional<double>*>(&slot)) return (*maybe)->has_value();
+    if (const auto* list = std::get_if<std::vector<double>*>(&slot)) return !(*list)->empty();
+    return source_.has(fmt::format("{}.{}", name_, option.key));
+  }
+
+  void check_keys() {
+    const KindKeys& keys = keys_of_kind(is_.kind);
+    if (!(is_.on == BodyId::rail ? keys.rail : keys.wheel))
+      refuse("on", fmt::format("{} is of the {}", word(), keys.rail ? "rail" : "wheel"),
+             fmt::format("give on = \"{}\"", keys.rail ? "rail" : "wheel"));
+    constexpr std::array<std::string_view, 4> kAll{"on", "kind", "width", "offset"};
+    for (const Option& option : find_table("irregularity")->options) {
+      const bool needed = holds(keys.needed, option.key), have = given(option);
+      if (needed && !have && source_.sound({fmt::format("{}.{}", name_, option.key), name_ + ".file"}))
+        source_.complain(name_, fmt::format("{}: {} needs {}", name_, word(), option.key),
+                         is_.kind == Kind::file ? "give file = \"heights.csv\" with the columns x and z"
+                                                : fmt::format("add {} = …", option.key));
+      if (have && !needed && !holds(keys.further, option.key) &&
+          std::find(kAll.begin(), kAll.end(), option.key) == kAll.end())
+        refuse(option.key, fmt::format("{} has no {}", word(), option.key),
+               fmt::format("its keys: {}{}{}", fmt::join(keys.needed, ", "), keys.further.empty() ? "" : ", ",
+                           fmt::join(keys.further, ", ")));
+    }
+  }
+
+  void check_numbers() {
+    if (is_.from && is_.to && !(*is_.from < *is_.to)) refuse("to", "must lie beyond from", "exchange them");
+    if (is_.kind == Kind::roughness && !(*is_.shortest < *is_.longest))
+      refuse("longest", "must be longer than shortest", "exchange them");
+  }
+
+  void check_points() {
+    if (is_.x.size() != is_.z.size() || (!is_.y.empty() && is_.y.size() != is_.z.size()))
+      return refuse("z", fmt::format("{} heights at {} places", is_.z.size(), is_.x.size()),
+                    "give every point one x and one z, on a grid one y too");
+    std::set<std::pair<double, double>> places;
+    std::map<double, int> lines;
+    for (std::size_t i = 0; i < is_.x.size(); ++i) {
+      const double y = is_.y.empty() ? 0 : is_.y[i];
+      if (!places.insert({y, is_.x[i]}).second)
+        return refuse(source_.has(name_ + ".file") ? "file" : "x",
+                      fmt::format("two heights at x = {}", format_quantity(is_.x[i], dimension::kLength)),
+                      is_.y.empty() ? "keep one of them; a grid has a column y" : "keep one of them");
+      ++lines[y];
+    }
+    for (const auto& [y, points] : lines)
+      if (points < 3)
+        return refuse(source_.has(name_ + ".file") ? "file" : "x",
+                      fmt::format("{} points along x are no surface", points), "give at least three for each y");
+  }
+
+  const CaseSpec& spec_;
+  const Irregularity& is_;
+  std::size_t index_;
+  CaseSource& source_;
+  std::string name_ = fmt::format("irregularity.{}", index_);
+};
+
+}  // namespace
+
+void check_irregularities(const CaseSpec& spec, CaseSource& source) {
+  if (spec.irregularities.empty()) return;
+  for (std::size_t i = 0; i < spec.irregularities.size(); ++i) IrregularityRules(spec, i, source).check();
+  if (spec.transient.kind == TransientKind::shift)
+    source.complain("transient.kind", "transient.kind: a shift does not roll over an [[irregularity]]",
+                    "take the irregularities out, or give transient.kind = \"rolling\"");
+}
+
+std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, double size, const char* what,
+                                     const char* key) {
+  constexpr double kLeastOfWave = 6;
+  const double wave = shortest_wave(spec.irregularities.at(index), spec.geometry.wheel_radius);
+  if (!(wave < kLeastOfWave * size)) return std::nullopt;
+  const std::string name = fmt::format("irregularity.{}", index);
+  return Diagnostic{"",
+                    fmt::format("{}: a wave of {} on {} of {} has fewer than {:g} of them", name,
+                                format_quantity(wave, dimension::kLength), what,
+                                format_quantity(size, dimension::kLength), kLeastOfWave),
+                    fmt::format("give a smaller {}, or a longer wave", key)};
+}
+
+void require_fine_enough(const CaseSpec& spec, double size, const char* what, const char* key) {
+  for (std::size_t i = 0; i < spec.irregularities.size(); ++i)
+    if (const auto fault = too_coarse(spec, i, size, what, key))
+      throw CaseError(fault->message, fault->remedy, fmt::format("irregularity.{}", i));
+}
+
+std::string varying_key(const CaseSpec& spec) {
+  if (!spec.irregularities.empty()) return "irregularity";
+  const auto changes =
+      std::find_if(spec.layers.begin(), spec.layers.end(), [](const LayerSpec& l) { return l.changes_along(); });
+  if (changes != spec.layers.end()) return fmt::format("layer.{}", changes - spec.layers.begin());
+  return spec.stretches.empty() ? "" : "stretch";
+}
+
+bool changes_on_way(const CaseSpec& spec) {
+  return spec.run.rolling && !(varying_key(spec).empty() && spec.track.held());
+}
+
+void require_same_along(const CaseSpec& spec, const char* what) {
+  if (!spec.track.held())
+    throw CaseError(fmt::format("{} is of a rail that is the same all along: on sleepers it is not", what),
+                    "take [track] out; `railstrata run` rolls over it", "track.preset");
+  const std::string key = varying_key(spec);
+  if (key.empty()) return;
+  const bool heights = !spec.irregularities.empty();
+  throw CaseError(fmt::format("{} is of a rail and a wheel that are the same all along: the case has {}", what,
+                              heights ? "an [[irregularity]]" : "a layer that ends or is unbonded, or a [[stretch]]"),
+                  heights ? "take it out; half-spaces roll over it with transient.kind = \"rolling\", the finite "
+                            "elements with `railstrata run`"
+                          : "take from, to and unbonded of layers and [[stretch]] out; the finite elements roll over "
+                            "them with `railstrata run`",
+                  key);
+}
+
+void read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec, std::size_t index) {
+  const OptionTable& options = *find_table("irregularity");
+  UnitTableForm form{{}, {}, "heights", "x [mm], z [um]"};
+  for (const Option& option : options.options)
+    if (std::holds_alternative<std::vector<double>*>(option.slot(spec, index)))
+      form.columns.push_back({&option, option.key});
+  const UnitTable table = read_unit_table(text, file, form);
+  for (const UnitTable::Row& row : table.rows)
+    for (std::size_t k = 0; k < row.cells.size(); ++k)
+      std::get<std::vector<double>*>(table.columns[k]->slot(spec, index))->push_back(row.cells[k].number.value());
+}
+
+}  // namespace railstrata

@@ -1,0 +1,34 @@
+#pragma once
+// Rules of [[irregularity]], and the file that one of them names.
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/faults.hpp"
+#include "spec/case_fwd.hpp"
+#include "text/case_source.hpp"
+
+namespace railstrata {
+
+/// The largest slope of a height against the way: contact is computed as that of surfaces without slope.
+inline constexpr double kSteepestHeight = 0.2;
+
+/// Records every broken rule in `source`.
+void check_irregularities(const CaseSpec& spec, CaseSource& source);
+
+/// The fault of an entry with waves shorter than six cells or elements (`what`) of a size [m], which `key` gives.
+std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, double size, const char* what,
+                                     const char* key);
+/// Throws CaseError for the first of them.
+void require_fine_enough(const CaseSpec& spec, double size, const char* what, const char* key);
+/// The key that makes rail or wheel vary along the way, apart from sleepers; empty: nothing does.
+std::string varying_key(const CaseSpec& spec);
+/// Whether a wheel rolls over what is not the same everywhere, sleepers too.
+bool changes_on_way(const CaseSpec& spec);
+/// Throws CaseError for a case whose rail or wheel varies along the way: `what` needs steady rolling.
+void require_same_along(const CaseSpec& spec, const char* what);
+
+/// Reads columns x, z or x, y, z into an entry. Throws CaseError with file, line and remedy.
+void read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec, std::size_t index);
+
+}  // namespace railstrata

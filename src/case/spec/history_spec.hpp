@@ -1,0 +1,103 @@
+#pragma once
+// Loads that change: transients, load collectives, passes; in SI units.
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace railstrata {
+
+/// A history that the half-space engine follows in time (bem/transient.hpp).
+enum class TransientKind {
+  none,     ///< steady rolling
+  rolling,  ///< rolling from a beginning, step by step
+  shift     ///< loads and displacements sideways without rolling: presliding, fretting
+};
+
+enum class TransientStart {
+  rest,   ///< pressed together, then shifted by the first forces
+  steady  ///< as if it had rolled so for ever
+};
+
+/// A history of loads and motions, linear between its rows: columns of one length, an empty one is not given. What
+/// rolls takes from the drive what has no column; a shift stays where nothing is given.
+struct TransientSpec {
+  TransientKind kind = TransientKind::none;
+  TransientStart start = TransientStart::rest;
+  std::optional<double> distance;               ///< m, rolled altogether; not given: to the last row
+  int increments = 10;                          ///< shift: from row to row
+  std::string history_file;                     ///< empty once it is read into the columns
+  std::vector<double> at_distance, at_time;     ///< m, s: where the rows are
+  std::vector<double> wheel_load, load_factor;  ///< N; over the static load
+  std::vector<double> traction_coefficient, tractive_force, creepage, displacement;
+  std::vector<double> lateral_traction_coefficient, lateral_force, lateral_creepage, lateral_displacement;
+  std::vector<double> spin;  ///< 1/m
+};
+
+/// The law of wear depth (damage/wear.hpp).
+enum class WearLaw {
+  usfd,    ///< University of Sheffield, from T-gamma over the area
+  kth,     ///< Archard with Jendel's map of coefficients
+  archard  ///< Archard with the rail's wear_coefficient
+};
+
+/// Tonnes over the track by an axle of two such wheels; N, gravity m/s².
+inline double gross_tonnes(double wheel_force, double gravity) { return 2e-3 * wheel_force / gravity; }
+
+/// A row of a load collective: what it does not give is the case's (tables/load_rows.hpp).
+struct LoadSpec {
+  std::string name;     ///< empty: "load 1", "load 2", … by its place
+  double passages = 1;  ///< of such a wheel
+  std::optional<double> wheel_load, lateral_shift, yaw, roll, curve_radius, speed;
+  std::optional<double> traction_coefficient, creepage;                  ///< at most one
+  std::optional<double> lateral_traction_coefficient, lateral_creepage;  ///< at most one
+  std::optional<double> friction_coefficient;
+  std::optional<double> guiding_force, t_gamma,
+      friction_energy;  ///< N, of the vehicle code, to compare with what comes out
+};
+
+struct CollectiveSpec {
+  std::string file;  ///< empty once it is read into the rows
+  WearLaw wear_law = WearLaw::usfd;
+  double lateral_deviation = 0;      ///< m across, of the wheels of each row about their place
+  double wear_factor = 1;            ///< of wear over that of the laws
+  double bin_scale = 1;              ///< of the widths of a series' bins (tables/load_series.hpp)
+  bool match_guiding_force = false;  ///< a row's shift is moved until its wheel has the row's guiding force
+};
+
+/// What lives are computed from beside the strengths (lives/zone_life.hpp).
+struct LifeSpec {
+  int passes = 0;               ///< of every load, by the stationary method; 0: none
+  double strength_scatter = 0;  ///< coefficient of variation of the strengths
+};
+/// Grinding of the rail.
+struct GrindingSpec {
+  std::optional<double> every;  ///< kg of gross traffic
+  double depth = 0;             ///< m, each time
+};
+
+/// Whether passes are jumped over (steady/pass_jump.hpp).
+enum class PassJump { off, automatic };
+
+/// What bears a pass of the stationary method (passes/following_contact.hpp).
+enum class PassPressure { elastic, following };
+
+/// Passes over a rail that yields (`railstrata passes`); lists begin again after their last value.
+struct PassesSpec {
+  std::vector<double> lateral_positions;      ///< m, of pass 1, 2, …, positive to the field side; empty: 0
+  std::optional<double> lateral_deviation;    ///< m, of a normal distribution about them, cut at three of it
+  int lateral_seed = 1;                       ///< of its random numbers
+  std::vector<double> traction_coefficients;  ///< of pass 1, 2, …; empty: that of the drive
+  PassPressure pressure = PassPressure::elastic;
+  std::optional<double> ductility;  ///< net plastic strain that the material bears
+  PassJump jump = PassJump::off;
+  double jump_tolerance = 0.02;  ///< of the rates after a jump
+  // Grid of plastic strain (steady/steady_grid.hpp): errors of residual stress are some percent at 6 cells, and fall
+  // with their square.
+  int patch_cells = 6;              ///< over each half-axis of the patch
+  double patch_rows = 8;            ///< over its shorter half-axis
+  std::optional<double> first_row;  ///< m, at the surface; below it rows grow by a quarter each; not given: as those
+  std::optional<double> window;     ///< half-lengths behind the load where flow is followed; not given: by the contact
+  double window_tolerance = 1e-3;   ///< of the largest flow: what may come in the last quarter of the window
+};
+
+}  // namespace railstrata

@@ -1,0 +1,65 @@
+#pragma once
+// Materials and layers of a case, in SI units.
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/body_id.hpp"
+#include "spec/strength_spec.hpp"
+
+namespace railstrata {
+
+struct MaterialSpec {
+  double young = 210e9, poisson = 0.3, density = 7800.0;
+  StrengthSpec strength = {};
+};
+
+/// Young's modulus at a depth below a layer's top; linear between two of them.
+struct ModulusPoint {
+  double depth = 0, young = 0;
+  friend bool operator==(const ModulusPoint&, const ModulusPoint&) = default;
+};
+
+inline std::array<double*, 2> columns(ModulusPoint& p) { return {&p.depth, &p.young}; }
+
+/// A stretch along the rail where a layer has come off its base, m.
+struct UnbondedStretch {
+  double from = 0, to = 0;
+};
+
+inline std::array<double*, 2> columns(UnbondedStretch& s) { return {&s.from, &s.to}; }
+
+/// m, of a layer's thickness: the range of a case, and from where on finite elements take it.
+inline constexpr double kThinnestLayer = 0.01e-3, kThickestLayer = 50e-3, kThinnestMeshedLayer = 0.05e-3;
+
+struct LayerSpec {
+  std::string name = "layer";  ///< of several of a body that have none in the file: "layer 1", "layer 2", …
+  BodyId on = BodyId::rail;
+  double thickness = 1e-3;  ///< of a graded layer: its table's last depth
+  double width = 0.060;
+  MaterialSpec material;                  ///< young of a graded layer: the mean over its depth
+  std::vector<ModulusPoint> young_table;  ///< a modulus that varies with depth, from 0 down; empty: uniform
+  double grading_tolerance = 0.05;  ///< half-space engine: largest relative change of the modulus within one of the
+                                    ///< layers that a graded one is cut into
+  int elements = 0;                 ///< through the thickness; 0 = chosen
+  /// m, along the rail, of the wheel along its arc from the first contact; not given: endless to that side.
+  std::optional<double> from, to;
+  double taper_length = 0;  ///< m, over which the thickness runs out at these ends, within them; 0: a step
+  std::vector<UnbondedStretch> unbonded;  ///< in order, apart from each other; empty: bonded all along
+  double unbonded_friction = 0.3;         ///< Coulomb's coefficient on the interface there
+  bool graded() const { return !young_table.empty(); }
+  bool ends() const { return from || to; }
+  bool changes_along() const { return ends() || !unbonded.empty(); }
+  double begin() const { return from.value_or(-std::numeric_limits<double>::infinity()); }
+  double end() const { return to.value_or(std::numeric_limits<double>::infinity()); }
+};
+
+/// Depth of each layer's top [m]: it lies below those of its body before it that it meets along the rail. Where they
+/// have ended, it reaches up into their place.
+std::vector<double> layer_tops(const std::vector<LayerSpec>& layers);
+/// The layers there are at a place along the rail, endless and as thick as they are there, without their tapers.
+std::vector<LayerSpec> layers_at(const std::vector<LayerSpec>& layers, double x);
+
+}  // namespace railstrata

@@ -1,0 +1,86 @@
+#include "app/case_of.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include "app/shipped_files.hpp"
+#include "rules/engine_scope.hpp"
+
+namespace railstrata {
+namespace {
+
+void warn_of(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) spdlog::warn("{}", note);
+}
+
+/// Under its own title a changed case would be taken for the case as it stands in its file. What is written of a result
+/// changes none.
+std::string title_of(const std::string& title, const std::vector<std::string>& overrides) {
+  std::vector<std::string> changes;
+  for (const std::string& given : overrides) {
+    if (given.starts_with("case.title")) return title;
+    if (!given.starts_with("output.")) changes.push_back(given);
+  }
+  return changes.empty() ? title : fmt::format("{} [{}]", title, fmt::join(changes, ", "));
+}
+
+}  // namespace
+
+LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
+  std::filesystem::path file = shipped_unless_there(options.case_file);
+  std::error_code error;  // a name that is too long: load_case reports it
+  if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error))
+    file /= "case.toml";
+  LoadedCase loaded = load_case(file, options.overrides);
+  loaded.spec.title = title_of(loaded.spec.title, options.overrides);
+  warn_of(loaded.notes);
+  if (use != CaseUse::yielding) warn_of(loaded.elastic_notes);
+  if (use == CaseUse::contact) warn_of(loaded.static_notes);
+  return loaded;
+}
+
+LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use) {
+  LoadedCase loaded = load_case_of(options, use);
+  with_places(loaded, [&] { require_half_spaces(loaded.spec); });
+  const RunSpec& run = loaded.spec.run;
+  if (run.rolling && run.device != ComputeDevice::cpu)  // else a note of the case reports it
+    spdlog::warn("run.device has no effect: half-spaces are computed on processors");
+  return loaded;
+}
+
+void require_finite_elements(const LoadedCase& loaded) {
+  if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
+}
+
+std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,
+                                       const std::string& suffix) {
+  if (!options.out.empty()) return options.out;
+  const std::filesystem::path file = std::filesystem::absolute(loaded.file).lexically_normal();
+  const std::filesystem::path name = file.stem() == "case" ? file.parent_path().filename() : file.stem();
+  return std::filesystem::path("results") / (name.string() + suffix);
+}
+
+JobOrder job_order_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix, bool resume) {
+  return {output_folder_of(options, loaded, suffix),
+          resume,
+          options.force,
+          options.page,
+          {options.command_line, options.threads}};
+}
+
+ExitCode code_of(JobEnd end) {
+  switch (end) {
+    case JobEnd::finished:
+      return ExitCode::ok;
+    case JobEnd::failed_checks:
+      return ExitCode::failed_checks;
+    case JobEnd::out_of_time:
+      return ExitCode::unfinished;
+    case JobEnd::stopped:
+      break;
+  }
+  return ExitCode::interrupted;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+
+#include "app/case_of.hpp"
+#include "app/commands.hpp"
+#include "app/common_options.hpp"
+#include "app/control.hpp"
+#include "app/option_values.hpp"
+#include "app/summary_text.hpp"
+#include "app/waiting.hpp"
+#include "ask/half_space_need.hpp"
+#include "bem/film_capacity.hpp"
+#include "core/faults.hpp"
+#include "io/folder_kind.hpp"
+#include "io/output_folder.hpp"
+#include "rules/track_facts.hpp"
+#include "runs/write_half_space_result.hpp"
+#include "runs/write_report.hpp"
+#include "runs/write_transient.hpp"
+
+namespace railstrata {
+namespace {
+
+bool shown() { return spdlog::should_log(spdlog::level::info); }
+
+/// Input of `bem` and the folder of its results.
+struct HalfSpaceJob {
+  LoadedCase loaded;
+  Placement placement;
+  std::filesystem::path out;
+  BemOptions bem;
+  HalfSpaceNeed need;
+};
+
+HalfSpaceJob job_of(const CommandOptions& options) {
+  LoadedCase loaded = load_half_space_case_of(options);
+  Placement placement = place(loaded.spec, loaded.folder());
+  HalfSpaceJob job{std::move(loaded), std::move(placement), {}, {}, {}};
+  job.out = output_folder_of(options, job.loaded, "-bem");
+  job.bem.cell = cell_size(options.cell);
+  job.need = half_space_need(job.loaded.spec, job.placement, job.bem.cell);
+  require_memory(job.need, job.bem.cell);
+  return job;
+}
+
+/// Wheelset and track that the case stands on, with where they come from.
+std::string track_text(const CaseSpec& spec) {
+  std::vector<std::string> facts;
+  for (const TrackFact& f : track_facts(spec.geometry))
+    facts.push_back(fmt::format("{}: {} ({})", f.label, f.value, f.from));
+  return fmt::format("{}", fmt::join(facts, "; "));
+}
+
+HalfSpaceSolution solve_steady(const HalfSpaceJob& job, const ShakedownOptions& wanted) {
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)), shown());
+  HalfSpaceSolution solution = solve_half_space(job.loaded.spec, job.placement, job.bem);
+  if (wanted.single_track) complete_shakedown(job.loaded.spec, solution, wanted.maps);
+  return solution;
+}
+
+/// Its history and pictures are there while it is followed, and after Ctrl-C up to there.
+HalfSpaceSolution solve_and_show(const HalfSpaceJob& job) {
+  const Control& control = control_by_signals();
+  TransientWriter writer(job.loaded.spec, job.out, table_origin(job.loaded));
+  spdlog::info("{}: {} steps, {}; results go to {}", job.loaded.spec.title,
+               transient_steps(job.loaded.spec, job.placement, job.bem.cell), need_text(job.need), job.out.string());
+  HalfSpaceSolution solution =
+      solve_half_space(job.loaded.spec, job.placement, job.bem, [&](const TransientState& state) {
+        writer.add(state);
+        control.progress("steps", static_cast<double>(state.step) / state.steps);
+        return !control.stop;
+      });
+  control.progress("");
+  if (solution.stopped)
+    throw Interrupted(
+        fmt::format("stopped {}: history.csv and the patch on its way are in {} up to there\n    remedy: "
+                    "start it again: {}",
+                    solution.summary.state, job.out.string(), command_again(job.out)));
+  return solution;
+}
+
+constexpr const char* kHalfWritten =
+    "\nstopped while the results were written: they are not complete; start again with --force\n";
+
+}  // namespace
+
+ExitCode command_bem(const CommandOptions& options) {
+  const HalfSpaceJob job = job_of(options);
+  const bool steady = job.loaded.spec.transient.kind == TransientKind::none;
+  HalfSpaceSolution solution;
+  with_places(job.loaded, [&] {
+    if (steady)
+      solution = solve_steady(job, options.shakedown);
+    else
+      require_film_carries(job.loaded.spec, job.placement, job.bem);
+  });
+
+  require_apart(job.out, job.loaded);
+  const FolderHold hold = prepare_output_folder(job.out, options.force);
+  try {
+    if (steady) answer_interrupt_with(kHalfWritten);
+    clear_old_results(job.out);
+    write_origin(job.out, job.loaded, options.command_line, options.threads);
+    if (!steady) solution = with_places(job.loaded, [&] { return solve_and_show(job); });
+    answer_interrupt_with(kHalfWritten);
+    write_half_space_result(job.out, table_origin(job.loaded), job.loaded.spec, job.placement, solution);
+  } catch (EnvironmentError& e) {
+    if (!e.remedy.empty()) e.remedy += ", then start it again with --force";
+    throw;
+  }
+  if (const std::string track = track_text(job.loaded.spec); !track.empty()) spdlog::info("{}", track);
+  for (const auto& notes : {job.placement.notes, solution.result.notes})
+    for (const std::string& note : notes) spdlog::info("{}", note);
+  print_summary(solution.summary, options.json);
+  spdlog::info("results are in {}", job.out.string());
+  const bool page_ok = !options.page || add_report(job.out, control()),
+             ok = page_ok && all_checks_hold(solution.summary);
+  if (!ok) spdlog::warn("a check failed: read the results with care");
+  return ok ? ExitCode::ok : ExitCode::failed_checks;
+}
+
+namespace {
+
+void declare_bem(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-bem");
+  add_cell(sub, options);
+  sub.add_flag_callback(
+      "--no-single-track", [&options] { options.shakedown.single_track = false; },
+      "Of shakedown leave out the limit for one track, which takes some seconds");
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kBemCommand{
+    "bem", "Solve a case by half-space theory, in about a second: the files and numbers of `run`, no meshes",
+    "Examples:\n  railstrata bem cases/paper/base.toml\n  railstrata bem cases/quick --cell \"0.5 mm\" --out "
+    "results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n",
+    declare_bem, command_bem};
+
+}  // namespace railstrata

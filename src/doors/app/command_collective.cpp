@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/case_list.hpp"
+#include "app/case_of.hpp"
+#include "app/commands.hpp"
+#include "app/common_options.hpp"
+#include "app/control.hpp"
+#include "app/option_values.hpp"
+#include "bem/bem_options.hpp"
+#include "collective/collective.hpp"
+#include "collective/collective_files.hpp"
+#include "collective/life_files.hpp"
+#include "core/printable.hpp"
+#include "fatigue/row_strength.hpp"
+#include "io/output_folder.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
+#include "runs/write_half_space_result.hpp"
+#include "runs/write_report.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr const char* kRowFolder = "shown_load";
+
+void solve(const CommandOptions& options, const LoadedCase& loaded, InfluenceCache& cache,
+           std::vector<CollectiveRow>& rows) {
+  CollectiveOptions how;
+  how.bem.cell = cell_size(options.cell);
+  how.bem.cache = &cache;
+  how.shakedown = strength_to_judge(loaded.spec);
+  how.control = &control_by_signals();
+  solve_collective(rows, loaded.folder(), how);
+  how.control->progress("");
+}
+
+/// The row that the page shows whole: with the least reserve, without strengths the one that rubs most.
+const CollectiveRow* shown_row(const std::vector<CollectiveRow>& rows) {
+  if (const CollectiveRow* worst = worst_row(rows)) return worst;
+  const auto energy = [](const CollectiveRow& r) {
+    return r.sound() ? r.passages * r.summary.damage.friction_energy : -1;
+  };
+  const auto most = std::max_element(
+      rows.begin(), rows.end(), [&](const CollectiveRow& a, const CollectiveRow& b) { return energy(a) < energy(b); });
+  return most->sound() ? &*most : nullptr;
+}
+
+/// The whole result of a row, in a folder of its own.
+void write_row(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& folder,
+               const CollectiveRow& row) {
+  LoadedCase one = loaded;
+  one.spec = row.spec;
+  one.spec.title = fmt::format("{}: {}", loaded.spec.title, row.name);
+  one.resolved_toml = resolved_case(one.spec);
+  BemOptions bem;
+  bem.cell = cell_size(options.cell);
+  const Placement placement = place(one.spec, loaded.folder());
+  const HalfSpaceSolution solution = solve_half_space(one.spec, placement, bem);
+  make_folder(folder);
+  clear_old_results(folder);
+  write_origin(folder, one, options.command_line, options.threads);
+  write_half_space_result(folder, table_origin(one), one.spec, placement, solution);
+}
+
+/// Columns of a load on the terminal.
+const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_z kN", "F_z_kN"},
+                                        {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
+                                        {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};
+
+void print_collective(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage) {
+  const CaseTable table = collective_table(rows);
+  print_rows(joined(std::vector<CaseColumn>{{"load", [](const CaseRow& row) { return row.name; }}},
+                    answer_columns(table.rows)),
+             kListed, table.rows);
+  for (const ReportAnswer& a : collective_answers(rows, damage)) fmt::print("{}: {}\n", a.title, printable(a.text));
+}
+
+/// Returns whether the page's verdict holds, true without a page.
+bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& out,
+                         const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage) {
+  const CollectiveRow* shown = shown_row(rows);
+  if (!shown) return true;
+  const std::filesystem::path page = out / "report.html";
+  return write_page_or_warn(page, control(), [&] {
+    write_row(options, loaded, out / kRowFolder, *shown);
+    return WrittenPage{write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name), {}};
+  });
+}
+
+/// Of loads whose passes were asked for and cannot be followed.
+void warn_of_passes(const std::vector<CollectiveRow>& rows) {
+  const auto lacks = [](const CollectiveRow& row) { return !row.not_followed.empty(); };
+  const auto first = std::find_if(rows.begin(), rows.end(), lacks);
+  if (first == rows.end()) return;
+  spdlog::warn("{} of {} loads without passes, which lives by ductility and low-cycle fatigue leave out; {}: {}",
+               std::count_if(first, rows.end(), lacks), rows.size(), first->name, first->not_followed);
+}
+
+ExitCode command_collective(const CommandOptions& options) {
+  const LoadedCase loaded = load_half_space_case_of(options);
+  std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
+  const double cell = cell_size(options.cell);
+  const Placement placement = place(loaded.spec, loaded.folder());
+  const std::filesystem::path out = output_folder_of(options, loaded, "-collective");
+  require_apart(out, loaded);
+  const FolderHold hold = prepare_output_folder(out, options.force);
+  write_origin(out, loaded, options.command_line, options.threads);
+  spdlog::info("{}: {} loads; results go to {}", loaded.spec.title, rows.size(), out.string());
+  InfluenceCache cache;
+  solve(options, loaded, cache, rows);
+  write_collective_table(out / "collective.csv", table_origin(loaded), rows);
+  if (control().stop) {
+    spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
+    return ExitCode::interrupted;
+  }
+  CollectiveDamage damage{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
+  damage.lives = collective_lives(loaded.spec, rows, damage.rail, damage.wheel);
+  write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage.rail);
+  write_wheel_damage(out / "wheel_damage.csv", table_origin(loaded), damage.wheel);
+  write_lives(out / "life.csv", table_origin(loaded), damage.lives);
+  const nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
+  write_whole_file(out / "collective.json", json_text(json, 2) + "\n");
+  if (options.json)
+    fmt::print("{}\n", json_text(json, 2));
+  else
+    print_collective(rows, damage);
+  const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage);
+  warn_of_passes(rows);
+  const auto failed = faults(rows);
+  if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
+  return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;
+}
+
+void declare_collective(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-collective");
+  add_cell(sub, options);
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kCollectiveCommand{
+    "collective",
+    "All rows of the case's load collective by half-space theory, and what their passages do to the rail together: "
+    "wear, rolling contact fatigue, shakedown, by position across it",
+    "Examples:\n  railstrata collective cases/collective/mixed_traffic.toml\n  railstrata collective "
+    "cases/collective/mixed_traffic.toml --set load.0.passages=1e6 --out results/more-freight\n",
+    declare_collective, command_collective};
+
+}  // namespace railstrata

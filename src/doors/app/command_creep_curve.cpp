@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "app/case_of.hpp"
+#include "app/commands.hpp"
+#include "app/common_options.hpp"
+#include "app/option_values.hpp"
+#include "app/waiting.hpp"
+#include "ask/half_space_need.hpp"
+#include "core/faults.hpp"
+#include "creep/creep_curve.hpp"
+#include "io/output_folder.hpp"
+#include "record/csv.hpp"
+#include "result/result_table.hpp"
+
+namespace railstrata {
+namespace {
+
+CurveAxis axis_of(const CreepCurveOptions& options) {
+  CurveAxis out = curve_axis(options.of);
+  if (options.largest > out.bound)
+    throw CaseError(fmt::format("--largest {:g} is out of range", options.largest),
+                    fmt::format("write at most {:g} for --of {}", out.bound, out.word));
+  if (options.largest > 0) out.largest = options.largest;
+  return out;
+}
+
+/// Wide enough for the name and a blank.
+std::size_t width(const CsvColumn& c) { return c.name.size() > 10 ? 20 : 12; }
+
+void print_table(const CurveAxis& axis, const std::vector<CsvColumn>& table) {
+  fmt::print("{}/(f F_n) on the wheel; a driving wheel has creepage < 0 and F_x > 0\n\n", axis.force);
+  for (const CsvColumn& c : table) fmt::print("{:>{}}", c.name, width(c));
+  fmt::print("\n");
+  for (std::size_t i = 0; i < table.front().values.size(); ++i) {
+    for (const CsvColumn& c : table) {
+      if (&c == &table.front())
+        fmt::print("{:>{}.3e}", c.values[i], width(c));
+      else
+        fmt::print("{:>{}}", fixed(c.values[i], 4), width(c));
+    }
+    fmt::print("\n");
+  }
+}
+
+nlohmann::ordered_json as_json(const std::string& title, const std::vector<CsvColumn>& table,
+                               const std::vector<std::string>& notes) {
+  nlohmann::ordered_json out{{"title", title}};
+  for (const CsvColumn& c : table) out[c.name] = c.values;
+  out["notes"] = notes;
+  return out;
+}
+
+/// Notes on settings of the case that a curve ignores.
+std::vector<std::string> notes_of(const CaseSpec& spec) {
+  std::vector<std::string> out;
+  if (spec.transient.kind != TransientKind::none)
+    out.emplace_back("[transient] has no effect: a creep curve is of steady rolling");
+  if (!spec.run.rolling)
+    out.emplace_back("run.rolling = false has no effect: a creep curve is of steady rolling, with the case's friction");
+  return out;
+}
+
+ExitCode command_creep_curve(const CommandOptions& options) {
+  const CreepCurveOptions& wanted = options.creep_curve;
+  const CurveAxis axis = axis_of(wanted);
+  const std::vector<double> varied = curve_values(axis, axis.largest, wanted.points, wanted.both_sides);
+  const LoadedCase loaded = load_half_space_case_of(options, CaseUse::steady_rolling);
+  const std::filesystem::path out = output_folder_of(options, loaded, "-creep-curve");
+  BemOptions bem;
+  bem.cell = cell_size(options.cell);
+  const Placement placement = place(loaded.spec, loaded.folder());
+  require_memory(half_space_need(loaded.spec, placement, bem.cell), bem.cell);
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const std::vector<CsvColumn> table = [&] {
+    const Waiting waiting(fmt::format("creep curve of {} points", varied.size()),
+                          spdlog::should_log(spdlog::level::info));
+    return curve_table(axis, creep_curve(loaded.spec, placement, axis.varied, varied, bem));
+  }();
+
+  const FolderHold hold = prepare_output_folder(out, options.force);
+  write_origin(out, loaded, options.command_line, options.threads);
+  std::vector<std::string> origin = table_origin(loaded);
+  origin.back() = fmt::format(
+      "{}/(f F_n) on the wheel against {}; full: half-space theory with the case's layers, its other force and its "
+      "moment over f F_n beside it; the others: the Hertz ellipse, homogeneous bodies",
+      axis.force, table.front().name);
+  const std::vector<std::string> notes = notes_of(loaded.spec);
+  origin.insert(origin.end(), notes.begin(), notes.end());
+  write_csv(out / "creep_curve.csv", origin, table);
+  if (options.page) write_creep_curve_page(out / "report.html", loaded.spec.title, axis, table, notes);
+  for (const std::string& note : notes) spdlog::warn("{}", note);
+  if (options.json)
+    fmt::print("{}\n", as_json(loaded.spec.title, table, notes).dump(2));
+  else
+    print_table(axis, table);
+  spdlog::info("results are in {}", out.string());
+  return ExitCode::ok;
+}
+
+void declare_creep_curve(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-creep-curve");
+  add_cell(sub, options);
+  sub.add_option("--of", options.creep_curve.of,
+                 "What varies: creepage (longitudinal, default), lateral_creepage or spin; the rest is as in the case")
+      ->check(CLI::IsMember(creep_curve_words()));
+  sub.add_option("--largest", options.creep_curve.largest, "Largest creepage (default: 0.02), or spin in 1/m (5)")
+      ->check(CLI::Range(1e-6, 1000.0))
+      ->check(finite());
+  sub.add_option("--points", options.creep_curve.points,
+                 "Creepages, spaced geometrically over two and a half decades (default: 21)")
+      ->check(CLI::Range(2, 1000));
+  sub.add_flag("--both-sides", options.creep_curve.both_sides,
+               "The curve through zero: driving and braking, slip to the gauge and to the field side");
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kCreepCurveCommand{
+    "creep-curve",
+    "Force against longitudinal or lateral creepage or spin, by the full half-space theory and by the fast ones",
+    "Examples:\n  railstrata creep-curve cases/paper/base.toml\n  railstrata creep-curve cases/quick --largest 0.01 "
+    "--points 11 --cell \"0.5 mm\" --out results/creep\n  railstrata creep-curve cases/paper/layer_3mm_2E0.toml --of "
+    "lateral_creepage --both-sides --set drive.traction_coefficient=0\n",
+    declare_creep_curve, command_creep_curve};
+
+}  // namespace railstrata

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "ask/half_space_need.hpp"
+#include "ask/solve_half_space.hpp"
+#include "ask/solve_settings.hpp"
+#include "bem/bem_options.hpp"
+#include "bridge/functions.hpp"
+#include "bridge/patches.hpp"
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+#include "core/stop_request.hpp"
+#include "io/output_folder.hpp"
+#include "io/summary_json.hpp"
+#include "model/model.hpp"
+#include "runs/write_half_space_result.hpp"
+#include "runs/write_transient.hpp"
+
+namespace railstrata::bridge {
+namespace {
+
+/// A solution with what its stresses and files need.
+struct HalfSpaceRun {
+  LoadedCase loaded;
+  Placement placement;
+  HalfSpaceSolution solution;
+  const BemPatch& patch(std::size_t index) const {
+    return index == 0 ? solution.result : solution.result.further.at(index - 1);
+  }
+};
+
+/// A caller's options for a solution.
+struct Wanted {
+  double cell = kDefaultCell;
+  int threads = 0;
+  bool stresses = true, single_track = false, maps = false;
+};
+
+BemOptions options_of(const Wanted& wanted) {
+  require_cell(wanted.cell);
+  if (wanted.threads < 0) throw CaseError("threads is negative", "give 0 for as many as OpenMP has");
+  BemOptions options;
+  options.cell = wanted.cell;
+  return options;
+}
+
+HalfSpaceSolution solved(const HalfSpaceRun& run, const Wanted& wanted, const TransientObserver& observer) {
+  const BemOptions options = options_of(wanted);
+  require_memory(half_space_need(run.loaded.spec, run.placement, wanted.cell), wanted.cell);
+  if (!wanted.stresses) return solve_half_space_contact(run.loaded.spec, run.placement, options, observer);
+  HalfSpaceSolution solution = solve_half_space(run.loaded.spec, run.placement, options, observer);
+  if (wanted.single_track || wanted.maps) complete_shakedown(run.loaded.spec, solution, wanted.maps);
+  return solution;
+}
+
+void answer_half_space(Call& call) {
+  const auto loaded = call.made<LoadedCase>("case");
+  const Wanted wanted{call.number("cell"), call.whole("threads"), call.flag("stresses"), call.flag("single_track"),
+                      call.flag("maps")};
+  const auto run = std::make_shared<HalfSpaceRun>(HalfSpaceRun{*loaded, place(loaded->spec, loaded->folder()), {}});
+  const TransientObserver observer = [&](const TransientState& state) {
+    call.report(Json::array({static_cast<double>(state.step) / state.steps}));
+    return !call.control.stop.load();
+  };
+  const ThreadsOfCaller threads(wanted.threads);
+  const StopRequest wish(&call.control.stop);
+  try {
+    run->solution = solved(*run, wanted, observer);
+  } catch (const CaseError& e) {
+    throw in_case_file(*loaded, e);
+  }
+  call.answer["summary"] = summary_json(run->solution.summary);
+  call.answer["notes"] = run->solution.result.notes;
+  call.answer["patches"] = Json::array({patch_of(run->patch(0).field)});
+  for (const BemPatch& patch : run->solution.result.further) call.answer["patches"].push_back(patch_of(patch.field));
+  call.make(run);
+}
+
+Subsurface interior(const HalfSpaceRun& run, const std::string& body, std::size_t patch) {
+  if (body == "rail") return rail_interior(run.solution.result.rail, run.patch(patch));
+  return wheel_interior(run.solution.result.wheel, run.patch(patch));
+}
+
+void put(const Sym3& s, double* out) {
+  const double numbers[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
+  std::copy(numbers, numbers + 6, out);
+}
+
+std::vector<Vec3> points_of(const Array& given) {
+  if (given.shape.size() != 2 || given.shape[1] != 3)
+    throw std::invalid_argument("points: an array of shape (n, 3) is wanted");
+  std::vector<Vec3> out;
+  for (std::size_t k = 0; k < given.shape[0]; ++k) {
+    const double* row = given.data + 3 * k;
+    if (!std::isfinite(row[0]) || !std::isfinite(row[1]) || !std::isfinite(row[2]))
+      throw std::invalid_argument("points: row " + std::to_string(k) + " is not a number");
+    out.push_back({row[0], row[1], row[2]});
+  }
+  return out;
+}
+
+std::size_t patch_asked(const Call& call) { return static_cast<std::size_t>(call.whole("patch")); }
+
+/// (n, 6) stresses at (n, 3) points.
+void stresses_at(Call& call) {
+  const auto run = call.made<HalfSpaceRun>("run");
+  const StopRequest wish(&call.control.stop);
+  const std::vector<InteriorPoint> found = interior(*run, call.text("body"), patch_asked(call))
+                                               .at(points_of(call.array("points")), call.flag("below_interface"));
+  std::vector<double> out(6 * found.size());
+  for (std::size_t k = 0; k < found.size(); ++k) put(found[k].stress, &out[6 * k]);
+  call.answer["stresses"] = call.kept(std::move(out), {found.size(), 6});
+}
+
+/// (6, nx, ny) stresses in the cells of the patch's grid at a depth.
+void stress_plane(Call& call) {
+  const auto run = call.made<HalfSpaceRun>("run");
+  const double depth = call.number("depth");
+  const bool below_interface = call.flag("below_interface");
+  if (!(depth >= 0 && std::isfinite(depth))) throw std::invalid_argument("depth: a length of 0 or more is wanted");
+  const PatchGrid& grid = run->patch(patch_asked(call)).grid;
+  std::vector<double> out(6 * grid.size());
+  const Subsurface inside = interior(*run, call.text("body"), patch_asked(call));
+  const StatePlane plane = inside.plane(depth);
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    double numbers[6];
+    put(inside.stress(plane, k, below_interface), numbers);
+    for (std::size_t c = 0; c < 6; ++c) out[c * grid.size() + k] = numbers[c];
+  }
+  call.answer["stresses"] =
+      call.kept(std::move(out), {6, static_cast<std::size_t>(grid.nx), static_cast<std::size_t>(grid.ny)});
+}
+
+void grid_axes(Call& call) {
+  const auto run = call.made<HalfSpaceRun>("run");
+  const PatchGrid& grid = run->patch(patch_asked(call)).grid;
+  std::vector<double> x, y;
+  for (int i = 0; i < grid.nx; ++i) x.push_back(grid.x(i));
+  for (int j = 0; j < grid.ny; ++j) y.push_back(grid.y(j));
+  call.answer["x"] = call.kept(std::move(x), {static_cast<std::size_t>(grid.nx)});
+  call.answer["y"] = call.kept(std::move(y), {static_cast<std::size_t>(grid.ny)});
+}
+
+void write(Call& call) {
+  const auto run = call.made<HalfSpaceRun>("run");
+  const std::string folder = call.text("folder");
+  require_apart(folder, run->loaded);
+  const FolderHold hold = prepare_output_folder(folder, call.flag("force"));
+  clear_old_results(folder);
+  write_origin(folder, run->loaded, {"railstrata.bem (Python)"}, max_threads());
+  write_half_space_result(folder, table_origin(run->loaded), run->loaded.spec, run->placement, run->solution);
+}
+
+}  // namespace
+
+Functions half_space_functions() {
+  return {{"solve_half_space", answer_half_space},
+          {"stresses_at", stresses_at},
+          {"stress_plane", stress_plane},
+          {"grid", grid_axes},
+          {"write_half_space", write}};
+}
+
+}  // namespace railstrata::bridge

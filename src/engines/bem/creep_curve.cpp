@@ -1,0 +1,66 @@
+#include "bem/creep_curve.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "bem/case_patch.hpp"
+#include "bem/several_patches.hpp"
+#include "core/faults.hpp"
+#include "halfspace/creep_theories.hpp"
+#include "model/drive_at_contact.hpp"
+#include "rules/engine_scope.hpp"
+#include "rules/irregularity_rules.hpp"
+
+namespace railstrata {
+namespace {
+
+void vary(VariedCreepage varied, double creepage, RollingContact& contact) {
+  if (varied == VariedCreepage::longitudinal) contact.x = {creepage, {}};
+  if (varied == VariedCreepage::lateral) contact.y = {creepage, {}};
+  if (varied == VariedCreepage::spin) contact.spin = creepage;
+}
+
+}  // namespace
+
+std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, VariedCreepage varied,
+                                         const std::vector<double>& creepages, const BemOptions& options) {
+  require_half_spaces(spec);
+  require_same_along(spec, "a creep curve");
+  if (!(spec.drive.friction_coefficient > 0))
+    throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero",
+                    "drive.friction_coefficient");
+  if (spec.geometry.in_line())
+    throw CaseError("the fast theories of a creep curve are those of ellipses, not of a line contact",
+                    "take `railstrata sweep` over drive.creepage, or geometry.contact = \"point\"", "geometry.contact");
+  const std::optional<double>& approach = spec.vehicle.approach;
+  CasePatch patch = make_case_patch(
+      spec, placement, options,
+      approach ? NormalTarget{{}, approach} : NormalTarget{normal_load(static_load(spec), 0, placement.contact), {}});
+  const double weight = approach ? std::cos(placement.contact.angle) * patch.frictionless.load : static_load(spec);
+  const RollingEllipse ellipse = rolling_ellipse(hertz_estimate(spec, placement.contact), patch.contact.friction,
+                                                 patch.wheel.substrate, patch.rail.substrate);
+  const double hertz_bound = ellipse.friction * ellipse.contact.load;
+  const bool along_x = varied == VariedCreepage::longitudinal;
+  const auto share = [&](const CreepForce& force) { return (along_x ? force.x : force.y) / hertz_bound; };
+  drive_contact(with_drive_at_contact(spec, placement.contact), placement.contact, weight, patch.contact);
+  require_one_plane(
+      placement, patch.frictionless.approach, "geometry.lateral_shift",
+      "a creep curve is that of one patch: move the wheel (geometry.lateral_shift), or lower the load, until it "
+      "touches "
+      "at one place; `railstrata bem` solves several patches together");
+  std::vector<CreepCurvePoint> curve;
+  for (double creepage : creepages) {
+    vary(varied, creepage, patch.contact);
+    const RollingSolution s = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling);
+    const TangentialSolution& t = s.tangential;
+    const Creepage c{t.creepage_x, t.creepage_y, patch.contact.spin};
+    const double bound = patch.contact.friction * s.normal.load;
+    curve.push_back({creepage, (along_x ? t.force_x : t.force_y) / bound, share(fastsim(ellipse, c)),
+                     share(polach(ellipse, c)), share(vermeulen_johnson(ellipse, c)), share(linear_theory(ellipse, c)),
+                     t.slip_area / (t.slip_area + t.stick_area), (along_x ? t.force_y : t.force_x) / bound,
+                     t.moment / bound});
+  }
+  return curve;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,553 @@
+#include "lives/zone_life.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+
+#include "damage/low_cycle.hpp"
+#include "model/zone.hpp"
+#include "spec/case_spec.hpp"
+#include "steady/pass_class.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr int kSettledPasses = 40;  // from 12 to 16 passes a life may change sixfold, from 40 to 200 by 1 %
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
+
+/// A body across: positions, what is removed there in a unit of traffic, passages.
+struct LifeAcross {
+  BodyId body = BodyId::rail;
+  std::vector<double> s, y, passages;
+  std::array<std::vector<double>, 3> wear;  // m a unit, by laws; empty: no data
+  WearLaw law = WearLaw::usfd;
+  double ground = 0, every = 0;  // m, units
+
+  Removal removal(std::size_t cell, WearLaw by) const {
+    const std::vector<double>& w = wear[static_cast<std::size_t>(by)];
+    return {w.empty() || !std::isfinite(w[cell]) ? 0 : w[cell], ground, every};
+  }
+};
+
+bool has_data(const std::vector<double>& depth) {
+  return std::all_of(depth.begin(), depth.end(), [](double v) { return std::isfinite(v); });
+}
+
+constexpr std::array kLaws{WearLaw::usfd, WearLaw::kth, WearLaw::archard};
+
+LifeAcross across_rail(const CaseSpec& spec, const RailDamage& d, double tonnes) {
+  LifeAcross out{.body = BodyId::rail, .s = d.s, .y = d.y, .passages = d.passages, .wear = {}};
+  out.law = spec.collective.wear_law;
+  for (const WearLaw law : kLaws)
+    if (has_data(d.depth(law))) out.wear[static_cast<std::size_t>(law)] = smoothed_wear(d, law);
+  if (spec.grinding.every) {
+    out.ground = spec.grinding.depth;
+    out.every = *spec.grinding.every / 1e3 / tonnes;
+  }
+  return out;
+}
+
+/// m
+double turn_of(const CaseSpec& spec) { return 2 * std::numbers::pi * spec.geometry.wheel_radius; }
+
+LifeAcross across_wheel(const CaseSpec& spec, const WheelDamage& d, double turns) {
+  LifeAcross out{.body = BodyId::wheel, .s = d.s, .y = d.y, .passages = d.share, .wear = {}};
+  out.law = spec.collective.wear_law;
+  const double way = turns * turn_of(spec);
+  for (const WearLaw law : kLaws)
+    if (has_data(d.depth(law)))
+      for (const double per_metre : d.depth(law)) out.wear[static_cast<std::size_t>(law)].push_back(way * per_metre);
+  return out;
+}
+
+/// A section with rows by depth and columns by y, of either kind, and where its y = 0 lies on the profile.
+struct LifeSection {
+  const std::vector<double>*y, *depth;
+  const std::vector<int>* zone;
+  double s0 = 0;
+};
+
+const SectionShakedown* section_of(const LifeLoad& load, BodyId body) {
+  for (const SectionShakedown& s : *load.sections)
+    if (s.body == body) return &s;
+  return nullptr;
+}
+
+double middle_of(const LifeLoad& load, BodyId body, std::size_t patch) {
+  const RigidContact& c = (*load.patches)[std::min(patch, load.patches->size() - 1)].contact;
+  return body == BodyId::rail ? c.rail_s : c.wheel_s;
+}
+
+/// The two rows of a zone beside a depth and the share of the lower one; none: the zone is not in the section.
+struct RowsBeside {
+  std::size_t above = 0, below = 0;
+  double share = 0;
+};
+std::optional<RowsBeside> rows_beside(const LifeSection& s, int zone, double z) {
+  std::optional<RowsBeside> out;
+  for (std::size_t r = 0; r < s.depth->size(); ++r) {
+    if ((*s.zone)[r] != zone) continue;
+    if (!out) out = RowsBeside{r, r, 0};
+    out->below = r;
+    if ((*s.depth)[r] >= z) break;
+    out->above = r;
+  }
+  if (!out) return out;
+  const double top = (*s.depth)[out->above], bottom = (*s.depth)[out->below];
+  out->share = bottom > top ? std::clamp((z - top) / (bottom - top), 0.0, 1.0) : 0;
+  return out;
+}
+
+/// A value of the section at a place of the profile and a depth; 0 beside the section.
+double value_at(const LifeSection& s, const std::vector<double>& values, const RowsBeside& rows, double place) {
+  const double y = place - s.s0;
+  const auto columns = s.y->size();
+  if (columns == 0 || (columns > 1 && (y < s.y->front() || y > s.y->back()))) return 0;
+  const auto right = std::min<std::size_t>(
+      columns - 1, static_cast<std::size_t>(std::upper_bound(s.y->begin(), s.y->end(), y) - s.y->begin()));
+  const std::size_t left = right > 0 ? right - 1 : 0;
+  const double across = right > left ? std::clamp((y - (*s.y)[left]) / ((*s.y)[right] - (*s.y)[left]), 0.0, 1.0) : 0;
+  const auto of_row = [&](std::size_t r) {
+    return (1 - across) * values[r * columns + left] + across * values[r * columns + right];
+  };
+  return (1 - rows.share) * of_row(rows.above) + rows.share * of_row(rows.below);
+}
+
+/// All of a body's zone that its mechanisms need.
+struct LifeZone {
+  const CaseSpec& spec;
+  const std::vector<LifeLoad>& loads;
+  const LifeAcross& across;
+  int zone = 0;
+  double top = 0, bottom = kNever;
+  std::vector<AsideShare> aside{};  // where the wheels of a load run
+  std::vector<double> depth{};      // of the tables
+  std::string key{};                // of the material in the case
+
+  const StrengthSpec& strength() const { return zone_material(spec, across.body, zone).strength; }
+  LifeRow row(const char* place, const char* mechanism) const {
+    const std::string body(body_word(across.body));
+    return {.body = body, .zone = zone_name(spec, across.body, zone), .place = place, .mechanism = mechanism};
+  }
+};
+
+/// Adds at every depth of a place what one load does there, in one of the three variants.
+using AddKind = std::function<void(const LifeLoad&, double s, std::size_t variant, KindDamage&)>;
+
+/// Adds a share of the wheels of a kind, which run aside; the trend is summed by its rate.
+void add_share(const KindDamage& one, double share, KindDamage& sum) {
+  sum.from = one.from;
+  sum.rate.resize(one.rate.size());
+  sum.begun.resize(one.begun.size());
+  sum.trend.resize(one.trend.size());
+  for (std::size_t j = 0; j < one.rate.size(); ++j) sum.rate[j] += share * one.rate[j];
+  for (std::size_t j = 0; j < one.begun.size(); ++j) sum.begun[j] += share * one.begun[j];
+  for (std::size_t j = 0; j < one.trend.size(); ++j) sum.trend[j] += share * one.rate[j] * one.trend[j];
+}
+
+/// What the wheels of a kind do, mean over where they run.
+KindDamage damage_of_kind(const LifeZone& z, const LifeLoad& load, double s, std::size_t variant, const AddKind& add) {
+  KindDamage out;
+  for (const AsideShare& aside : z.aside) {
+    KindDamage one;
+    add(load, s - aside.offset, variant, one);
+    add_share(one, aside.share, out);
+  }
+  for (std::size_t j = 0; j < out.trend.size(); ++j)
+    if (out.rate[j] > 0) out.trend[j] /= out.rate[j];
+  out.wheels = load.passages;
+  return out;
+}
+
+DamagedPlace damaged_place(const LifeZone& z, std::size_t cell, std::size_t variant, const AddKind& add) {
+  DamagedPlace out{.depth = z.depth, .kinds = {}, .top = z.top, .bottom = z.bottom};
+  for (const LifeLoad& load : z.loads) {
+    KindDamage kind = damage_of_kind(z, load, z.across.s[cell], variant, add);
+    if (!kind.rate.empty()) out.kinds.push_back(std::move(kind));
+  }
+  return out;
+}
+
+/// The place across where the zone fails first, by the best values; wear only lengthens what no wear gives.
+struct WorstPlace {
+  std::size_t cell = 0;
+  Failure failure;
+};
+std::optional<WorstPlace> worst_place(const LifeZone& z, const AddKind& add, double from, double to) {
+  std::vector<std::pair<double, std::size_t>> unworn;
+  for (std::size_t cell = 0; cell < z.across.s.size(); ++cell) {
+    if (!(z.across.passages[cell] > 0)) continue;
+    const DamagedPlace place = damaged_place(z, cell, 1, add);
+    if (!place.kinds.empty()) unworn.emplace_back(first_failure(place, {}, 0, kNever).traffic, cell);
+  }
+  std::sort(unworn.begin(), unworn.end());
+  std::optional<WorstPlace> out;
+  for (const auto& [least, cell] : unworn) {
+    if (out && least >= out->failure.traffic) break;
+    const Failure f = first_failure(damaged_place(z, cell, 1, add), z.across.removal(cell, z.across.law), from, to);
+    if (!out || f.traffic < out->failure.traffic) out = WorstPlace{cell, f};
+  }
+  return out;
+}
+
+/// Rows of a body, in units of traffic, and of those by damage the shortest.
+struct FoundLives {
+  std::vector<LifeRow> rows;
+  double units = kNever;  ///< by the best values; without removal where it never fails
+  DamagedPlace place;
+  std::size_t cell = 0;
+  bool any = false;
+};
+void keep_shortest(const LifeZone& z, const AddKind& add, const WorstPlace& worst, FoundLives& out) {
+  const DamagedPlace place = damaged_place(z, worst.cell, 1, add);
+  const double units =
+      std::isfinite(worst.failure.traffic) ? worst.failure.traffic : 3 * first_failure(place, {}, 0, kNever).traffic;
+  if (!(units < out.units)) return;
+  out.units = units;
+  out.place = place;
+  out.cell = worst.cell;
+  out.any = true;
+}
+
+void add_row(const LifeZone& z, const AddKind& add, const char* mechanism, const std::string& rests_on,
+             FoundLives& out) {
+  const bool surface = z.top == 0;
+  for (const bool at_surface : {true, false}) {
+    if (at_surface && !surface) continue;
+    const double from = at_surface ? 0 : surface ? kSkin : 0, to = at_surface ? kSkin : kNever;
+    const std::optional<WorstPlace> worst = worst_place(z, add, from, to);
+    if (!worst) continue;
+    LifeRow row = z.row(at_surface ? "at the surface" : "below", mechanism);
+    for (std::size_t v = 0; v < kVariants.size(); ++v)
+      row.wheels.*kVariants[v] =
+          first_failure(damaged_place(z, worst->cell, v, add), z.across.removal(worst->cell, z.across.law), from, to)
+              .traffic;
+    if (std::isfinite(row.wheels.best)) row.depth = worst->failure.depth;
+    row.y = z.across.y[worst->cell];
+    row.rests_on = rests_on;
+    out.rows.push_back(row);
+    keep_shortest(z, add, *worst, out);
+  }
+}
+
+LifeRow missing(const LifeZone& z, const char* mechanism, const std::string& what) {
+  LifeRow out = z.row("", mechanism);
+  out.rests_on = what;
+  return out;
+}
+
+/// Whether a load makes the zone yield for ever, by its factor for wandering traffic.
+bool yields(const LifeZone& z, const LifeLoad& load) {
+  const SectionShakedown* section = section_of(load, z.across.body);
+  if (!section) return false;
+  for (const ZoneFactors& f : section->found.zones)
+    if (f.zone == z.zone) return f.wandering.value < 1;
+  return false;
+}
+
+/// Of the patch that is nearest to a place.
+const PassedSection& passed_at(const LifeLoad& load, double s, std::size_t variant) {
+  const PassedSections& all = *load.passed;
+  const std::vector<PassedSection>& sections = all[variant].empty() ? all[1] : all[variant];
+  const auto away = [&](const PassedSection& p) { return std::abs(s - middle_of(load, BodyId::rail, p.patch)); };
+  return *std::min_element(sections.begin(), sections.end(),
+                           [&](const PassedSection& a, const PassedSection& b) { return away(a) < away(b); });
+}
+
+double flow_at(const LifeZone& z, const LifeLoad& load, const PassedSection& p, const std::vector<double>& values,
+               double s, double depth) {
+  const LifeSection section{&p.y, &p.depth, &p.zone, middle_of(load, z.across.body, p.patch)};
+  const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
+  return rows ? value_at(section, values, *rows, s) : 0;
+}
+
+AddKind by_fatigue(const LifeZone& z) {
+  return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
+    constexpr std::array kBelow{BelowLimit::as_above, BelowLimit::flatter, BelowLimit::endures};
+    constexpr std::array kSums{1.0 / 3, 1.0, 3.0};
+    const SectionShakedown* found = section_of(load, z.across.body);
+    if (!found || found->fatigue.dang_van_used.empty()) return;
+    const LifeSection section{&found->y, &found->depth, &found->zone, middle_of(load, z.across.body, found->patch)};
+    const SigmaN line{*z.strength().fatigue.exponent, z.strength().fatigue.cycles};
+    const double strength = strength_factor(z.spec, variant);
+    const PassedSection* passed = load.followed() ? &passed_at(load, s, variant) : nullptr;
+    for (const double depth : z.depth) {
+      const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
+      const bool flows = passed && flow_at(z, load, *passed, passed->accumulated, s, depth) >= kNoFlow;
+      const double used = rows && !flows ? value_at(section, found->fatigue.dang_van_used, *rows, s) : 0;
+      kind.rate.push_back(1 / cycles_to_failure(used / strength, line, kBelow[variant]) / kSums[variant]);
+    }
+  };
+}
+
+AddKind by_closed_cycles(const LifeZone& z) {
+  return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
+    constexpr std::array kExponents{0.7, 0.6, 0.5};  // [Suresh1998]; 0.6: [Manson1965]
+    if (!load.followed()) return;
+    const PassedSection& passed = passed_at(load, s, variant);
+    for (const double depth : z.depth) {
+      const double flow = flow_at(z, load, passed, passed.accumulated, s, depth);
+      kind.rate.push_back(
+          flow < kNoFlow ? 0 : 1 / std::max(low_cycle_life(flow, *z.spec.passes.ductility, kExponents[variant]), 1.0));
+    }
+  };
+}
+
+AddKind by_ductility(const LifeZone& z) {
+  return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
+    if (!load.followed()) return;
+    const PassedSection& passed = passed_at(load, s, variant);
+    const double bears = *z.spec.passes.ductility;
+    kind.from = passed.passes;
+    for (const double depth : z.depth) {
+      std::array<double, 3> trends{};
+      for (std::size_t k = 0; k < trends.size(); ++k)
+        trends[k] = std::max(flow_at(z, load, passed, passed.trend[k], s, depth), 0.0);
+      const auto [least, most] = std::minmax_element(trends.begin(), trends.end());
+      kind.rate.push_back(flow_at(z, load, passed, passed.net, s, depth) / bears);
+      kind.begun.push_back(flow_at(z, load, passed, passed.reached, s, depth) / bears);
+      kind.trend.push_back(variant == 0 ? *least : variant == 2 ? *most : trends[1]);
+    }
+  };
+}
+
+/// ", strengths ± 20 %", or nothing.
+std::string scatter_text(const CaseSpec& spec) {
+  const double scatter = spec.life.strength_scatter;
+  return scatter > 0 ? fmt::format(", strengths ± {:.3g} %", 100 * (strength_factor(spec, 2) - 1)) : "";
+}
+
+/// Loads that a life by plastic strain lacks.
+std::string without_passes(const std::vector<LifeLoad>& loads) {
+  double all = 0, lacking = 0;
+  int count = 0;
+  for (const LifeLoad& load : loads) {
+    all += load.passages;
+    if (load.followed()) continue;
+    lacking += load.passages;
+    ++count;
+  }
+  if (count == 0) return {};
+  return fmt::format(", without {} of {} loads ({:.2g} % of the wheels)", count, loads.size(), 100 * lacking / all);
+}
+
+void add_damages(const LifeZone& z, FoundLives& out) {
+  const FatigueSpec& f = z.strength().fatigue;
+  const bool yielding = std::any_of(z.loads.begin(), z.loads.end(), [&](const LifeLoad& l) { return yields(z, l); });
+  const bool passed = z.across.body == BodyId::rail &&
+                      std::any_of(z.loads.begin(), z.loads.end(), [](const LifeLoad& l) { return l.followed(); });
+  if (!f.limit || !f.dang_van || !f.exponent)
+    out.rows.push_back(missing(z, "fatigue",
+                               fmt::format("{0}.{1}", z.key,
+                                           !f.limit      ? "fatigue_limit"
+                                           : !f.dang_van ? "dang_van_coefficient"
+                                                         : "fatigue_exponent")));
+  else
+    add_row(
+        z, by_fatigue(z), "fatigue",
+        fmt::format("Dang Van{}, {:.0f} MPa at {:.3g} cycles, exponent {}{}; Miner's sum 1/3 to 3",
+                    passed ? " where nothing flows" : "", 1e-6 * *f.limit, f.cycles, *f.exponent, scatter_text(z.spec)),
+        out);
+  if (!passed && yielding)
+    out.rows.push_back(missing(z, "ductility exhausted",
+                               z.across.body == BodyId::rail ? "life.passes" : "passes over a wheel are not computed"));
+  if (!passed) return;
+  if (!z.spec.passes.ductility) {
+    out.rows.push_back(missing(z, "ductility exhausted", "passes.ductility"));
+    return;
+  }
+  const std::string ductility =
+      fmt::format("passes.ductility = {}{}{}", *z.spec.passes.ductility, scatter_text(z.spec), without_passes(z.loads));
+  add_row(z, by_closed_cycles(z), "low-cycle fatigue", ductility + "; Coffin and Manson, exponents 0.7 to 0.5", out);
+  add_row(z, by_ductility(z), "ductility exhausted",
+          fmt::format("{}; {} passes of each load and their trend{}", ductility, z.spec.life.passes,
+                      z.spec.life.passes < kSettledPasses ? " (40 passes give a steadier one)" : ""),
+          out);
+}
+
+/// Units until wear and grinding have taken so much somewhere, and where.
+void add_worn_through(const LifeZone& z, std::vector<LifeRow>& out) {
+  LifeRow row = z.row("layer", "worn through");
+  for (const WearLaw law : kLaws) {
+    if (z.across.wear[static_cast<std::size_t>(law)].empty()) continue;
+    double least = kNever;
+    for (std::size_t cell = 0; cell < z.across.s.size(); ++cell)
+      if (z.across.passages[cell] > 0) {
+        const double until = z.across.removal(cell, law).until(z.bottom);
+        if (law == z.across.law && until < least) row.y = z.across.y[cell];
+        least = std::min(least, until);
+      }
+    row.wheels.low = std::fmin(row.wheels.low, least);
+    row.wheels.high = std::fmax(row.wheels.high, least);
+    if (law == z.across.law) row.wheels.best = least;
+  }
+  row.rests_on = row.known() ? "wear of the unworn profile; from the wear laws with data"
+                             : "data of collective.wear_law: hardness, wear_coefficient";
+  out.push_back(row);
+}
+
+/// What the stresses of any load do to a layer at once.
+void add_strengths(const LifeZone& z, std::vector<LifeRow>& out) {
+  LifeRow cracks = z.row("layer", "layer cracks"), shears = z.row("interface", "interface shears");
+  double tension = kNotApplicable, bond = kNotApplicable;
+  for (const LifeLoad& load : z.loads) {
+    const SectionShakedown* section = section_of(load, z.across.body);
+    if (!section) continue;
+    for (const BrittleSummary& b : section->fatigue.brittle)
+      if (b.zone == cracks.zone) tension = std::fmax(tension, b.share_of_tensile);
+    for (const InterfaceSummary& i : section->fatigue.interfaces)
+      if (i.above == cracks.zone) bond = std::fmax(bond, i.delamination);
+  }
+  const auto judge = [&](LifeRow row, double share, const std::string& words, const std::string& key) {
+    for (std::size_t v = 0; v < kVariants.size() && !std::isnan(share); ++v)
+      row.wheels.*kVariants[v] = share / strength_factor(z.spec, v) >= 1 ? 0 : kNever;
+    row.rests_on = std::isnan(share) ? key
+                                     : fmt::format("{} {:.2f}{}; {}", words, share, scatter_text(z.spec),
+                                                   share >= 1 ? "the first wheel reaches it" : "not of many cycles");
+    out.push_back(row);
+  };
+  judge(cracks, tension, "σ₁ with the stress of the process over tensile_strength", z.key + ".tensile_strength");
+  judge(shears, bond, "delamination index", z.key + ".bond_shear, bond_tension");
+}
+
+std::vector<double> table_depths(double top, double bottom, double deepest) {
+  constexpr int kRows = 24;
+  const double end = std::min(bottom, deepest);
+  std::vector<double> out;
+  for (int r = 0; r <= kRows; ++r) out.push_back(top + (end - top) * r * r / (kRows * kRows));
+  return out;
+}
+
+double deepest_of(const std::vector<LifeLoad>& loads, BodyId body) {
+  double out = 0;
+  for (const LifeLoad& load : loads) {
+    if (const SectionShakedown* s = section_of(load, body)) out = std::max(out, s->depth.back());
+    if (body != BodyId::rail || !load.followed()) continue;
+    for (const PassedSection& p : (*load.passed)[1]) out = std::max(out, p.depth.back());
+  }
+  return out;
+}
+
+LifeCurve curve_of(const LifeAcross& across, const DamagedPlace& place, std::size_t cell, double end, double mgt) {
+  constexpr int kPoints = 400;
+  LifeCurve out;
+  const Removal removal = across.removal(cell, across.law);
+  out.y = across.y[cell];
+  for (int k = 0; k <= kPoints; ++k) {
+    out.mgt.push_back(mgt * end * k / kPoints);
+    out.removed.push_back(removal.after(end * k / kPoints));
+  }
+  const std::vector<double> when = failures_by_depth(place);
+  for (std::size_t j = 0; j < when.size(); ++j)
+    if (when[j] <= end) {
+      out.damaged_mgt.push_back(mgt * when[j]);
+      out.damaged.push_back(place.depth[j]);
+    }
+  if (!(removal.mean() > 0)) return out;
+  for (const auto& [depth, failed] : failures_until(place, removal, end)) {
+    out.failed_mgt.push_back(mgt * failed);
+    out.failed.push_back(depth);
+  }
+  return out;
+}
+
+void add_body(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const LifeAcross& across, double mgt,
+              Lives& out) {
+  const std::vector<std::size_t> layers = layers_on(spec, across.body);
+  const double deepest = deepest_of(loads, across.body);
+  FoundLives found;
+  double top = 0;
+  for (std::size_t k = 0; k <= layers.size(); ++k) {
+    const bool layer = k < layers.size();
+    LifeZone z{.spec = spec,
+               .loads = loads,
+               .across = across,
+               .zone = layer ? static_cast<int>(k) + 1 : 0,
+               .top = top,
+               .bottom = layer ? top + spec.layers[layers[k]].thickness : kNever};
+    z.aside = aside_shares(spec.collective.lateral_deviation, 0.5 * spec.collective.lateral_deviation);
+    z.key = layer ? fmt::format("layer.{}", layers[k]) : fmt::format("material.{}", body_word(across.body));
+    if (deepest > top) {
+      z.depth = table_depths(top, z.bottom, deepest);
+      add_damages(z, found);
+    }
+    if (layer) add_worn_through(z, found.rows);
+    if (layer) add_strengths(z, found.rows);
+    top = z.bottom;
+  }
+  if (across.body == BodyId::rail && found.any)
+    out.curve = curve_of(across, found.place, found.cell, 1.5 * found.units, mgt);
+  if (across.body == BodyId::rail && !layers.empty()) out.curve.layer = spec.layers[layers.front()].thickness;
+  for (LifeRow& row : found.rows) {
+    for (double LifeRange::*v : kVariants) {
+      if (std::isfinite(mgt)) row.mgt.*v = row.wheels.*v * mgt;
+      row.wheels.*v *= out.wheels;
+      if (across.body == BodyId::wheel) row.distance.*v = row.wheels.*v * turn_of(spec);
+    }
+    out.rows.push_back(row);
+  }
+}
+
+std::string number_text(double v) {
+  if (v == kNever) return "never";
+  return v >= 1000 ? fmt::format("{:.0f}", v) : fmt::format("{:.3g}", v);
+}
+
+}  // namespace
+
+double strength_factor(const CaseSpec& spec, std::size_t variant) {
+  return 1 + 2 * spec.life.strength_scatter * (static_cast<double>(variant) - 1);
+}
+
+Lives zone_lives(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const RailDamage& rail,
+                 const WheelDamage& wheel) {
+  Lives out;
+  for (const LifeLoad& load : loads) {
+    out.wheels += load.passages;
+    out.tonnes += load.passages * gross_tonnes(load.force, spec.vehicle.gravity);
+  }
+  if (loads.empty()) return out;
+  add_body(spec, loads, across_rail(spec, rail, out.tonnes), 1e-6 * out.tonnes, out);
+  add_body(spec, loads, across_wheel(spec, wheel, out.wheels), kNotApplicable, out);
+  return out;
+}
+
+const LifeRow* shortest(const std::vector<LifeRow>& rows) {
+  const LifeRow* out = nullptr;
+  for (const LifeRow& row : rows)
+    if (row.mgt.known() && (!out || row.mgt.best < out->mgt.best)) out = &row;
+  return out;
+}
+
+std::string range_text(const LifeRange& r) {
+  if (!r.known()) return "not known";
+  if (r.low == r.best && r.best == r.high) return number_text(r.best);
+  return fmt::format("{} ({} to {})", number_text(r.best), number_text(r.low), number_text(r.high));
+}
+
+std::string life_text(const std::vector<LifeRow>& rows) {
+  const LifeRow* row = shortest(rows);
+  std::vector<std::string> unknown;
+  for (const LifeRow& r : rows)
+    if (!r.known() && r.body == body_word(BodyId::rail))
+      unknown.push_back(fmt::format("{}: {} ({})", r.zone, r.mechanism, r.rests_on));
+  std::string out;
+  if (!row)
+    out = "nothing that it could end by is known";
+  else if (row->mgt.best == kNever)
+    out = "no end by what is known";
+  else
+    out = fmt::format("lasts {} MGT: {}, {}, {}", range_text(row->mgt),
+                      row->zone == row->body ? row->body : fmt::format("{} of the {}", row->zone, row->body),
+                      row->place, row->mechanism);
+  return unknown.empty() ? out : fmt::format("{}; not known: {}", out, fmt::join(unknown, "; "));
+}
+
+}  // namespace railstrata

@@ -1,0 +1,68 @@
+#pragma once
+// Files of passes over a yielding rail: passes.csv (a row a pass), residual.csv (a row a point of the section after the
+// last pass), profile.csv (a row a depth), passes.json, and state.csv, from which the passes go on to the same bits.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passes/pass_point.hpp"
+#include "passes/pass_series.hpp"
+#include "passes/pass_way.hpp"
+#include "record/column.hpp"
+#include "result/summary.hpp"
+#include "spec/case_fwd.hpp"
+
+namespace railstrata {
+
+/// passes.csv: the columns that both methods have.
+Columns<PassRow> pass_columns();
+/// Plastic strain of passes read back from such a table.
+std::vector<PassStrain> pass_strains(const CsvTable& table);
+/// A row of the stationary method; cycle: that which the pass completes, else NaN.
+struct StationaryRow {
+  const PassRow& pass;
+  PassStrain cycle;
+};
+Columns<StationaryRow> stationary_columns();
+/// Quantities of a series of passes (class, strain of the last pass), or none of a single run.
+enum class PointColumns { of_passes, of_a_run };
+/// The columns of points: of the files of passes those of the last one too.
+struct PointLists {
+  Columns<PassPoint> zone, of_pass, stress, plastic, accumulated;
+};
+PointLists point_lists(PointColumns which);
+/// Meaning of their numbers.
+inline constexpr const char* kPointRemark =
+    "class: 0 elastic shakedown, 1 plastic shakedown, 2 ratchetting, 3 transient. plastic_xy ...: tensor shears; "
+    "plastic_strain_accumulated: accumulated over all passes.";
+/// A table of points: residual.csv and profile.csv. Of elements with their row and column in the fine zone, -1 deeper.
+void write_pass_points(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                       const std::vector<PassPoint>& points, PointColumns which = PointColumns::of_passes);
+
+/// The state, as one table that is whole or not there.
+void write_pass_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                      const SteadyGrid& grid, const PassSeries& series);
+/// Stations of the grid that a state is of, as of SteadyGrid::active_stations.
+int active_stations(const std::filesystem::path& state);
+/// Reads both; the table up to the pass of the state. cycle: as of PassSeries. Throws CaseError if they are of
+/// another grid.
+PassSeries read_pass_series(const std::filesystem::path& state, const std::filesystem::path& table,
+                            const SteadyGrid& grid, int cycle = 1);
+
+/// All points, row by row.
+std::vector<PassPoint> section_points(const RailPasses& rail, const PassSeries& series, const PassResult& last);
+/// residual.csv and profile.csv of the last pass.
+void write_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                    const RailPasses& rail, const PassSeries& series, const PassResult& last);
+
+/// Contents of passes.json besides the series itself.
+struct PassAnswer {
+  std::string verdict, law;         ///< sentences (passes/pass_text.hpp)
+  ShakedownSummary shakedown;       ///< of the elastic stress of the first of the tractions; empty: none
+  std::optional<double> ductility;  ///< equivalent strain that the material bears
+};
+void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec, const RailPasses& rail,
+                        const PassSeries& series, const PassResult& last, const PassWay& way, const PassAnswer& answer);
+
+}  // namespace railstrata

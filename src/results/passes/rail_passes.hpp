@@ -1,0 +1,73 @@
+#pragma once
+// Passes of a wheel over a rail that yields, from a half-space solution: the rail's rows, their laws and the strain of
+// the contact on the grid of the stationary method (steady/steady_pass.hpp).
+//
+// Assumptions of the half-space remain: layers without lateral ends; one patch, which rolls along a straight rail.
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bem/solve_bem.hpp"
+#include "spec/case_fwd.hpp"
+#include "steady/pass_class.hpp"
+#include "steady/steady_pass.hpp"
+
+namespace railstrata {
+
+/// A rail ready for passes.
+struct RailPasses {
+  SteadyGrid grid;        ///< x from the middle of the patch, y in the contact frame
+  double middle_x = 0;    ///< m, of the patch in the contact frame
+  double window = 0;      ///< half-lengths of the patch behind the load where flow is followed
+  std::vector<int> zone;  ///< of rows: 0 the rail, then its layers from the surface down
+  std::vector<SteadyRow> rows;
+  RowModuli below;                                    ///< of what lies under the rows
+  std::vector<std::array<double, 2>> initial_stress;  ///< Pa, of rows
+  std::vector<std::string> notes;                     ///< which strengths are estimates, and how
+  std::vector<Field> contact_stress;                  ///< Pa, SteadyGrid::size() each: of each solution
+};
+
+/// solutions: of cases_of_tractions (passes/pass_plan.hpp), the grid is that of the first one's patch, as wide as the
+/// wheels wander. strength: factor of all strengths (scaled in material/plastic.hpp). Throws CaseError: no strength of
+/// rail or layers, several patches, wheels that wander too far.
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, double strength = 1);
+
+/// The next longer window for a rail whose first pass flows on behind this one (passes.window_tolerance); none if it
+/// does not, if the case gives the window, or if it is four times the usual one.
+std::optional<double> longer_window(const PassesSpec& passes, const RailPasses& rail, double late_flow);
+
+/// Stress in the rail under another contact of the same wheel, Pa, as contact_stress.
+Field contact_stress(const RailPasses& passes, const BemResult& contact);
+
+/// The body of it, and the strain of a stress of the contact, so many columns to the side.
+SteadyBody body_of(const RailPasses& passes);
+Field contact_strain(const RailPasses& passes, const SteadyBody& body, const Field& contact_stress, int columns = 0);
+/// The column nearest to a place across.
+int columns_to(const SteadyGrid& grid, double lateral);
+
+/// A pass as one row of a table.
+struct PassRow {
+  int pass = 0, iterations = 0;
+  double error = 0;
+  bool converged = true;
+  PassStrain largest;                    ///< Δp and net strain, each of the point where it is largest
+  double net_y = 0, net_depth = 0;       ///< m, where the net strain is largest
+  double strain = 0;                     ///< largest equivalent plastic strain √(2/3 Ep:Ep) so far
+  std::array<double, 2> stress{};        ///< Pa, most compressive residual stress along x and y
+  std::array<double, 2> stress_depth{};  ///< m, where
+  double forward = 0, lateral = 0;       ///< m, largest displacement of the surface since the first pass, with its sign
+  double sinking = 0;                    ///< m, largest
+  double place = 0;                      ///< m across, where the wheel ran: at a column of the grid
+  double traction = 0;                   ///< F_T over the normal force
+  double force = 0;                      ///< N along x: what the passes put into an endless rail; of a line contact N/m
+  double force_share = 0;                ///< the same, over the integral of |S_xx|
+  double largest_pressure = 0;           ///< Pa
+  double creepage = 0;                   ///< of the wheel along the rail
+  int rounds = 0;                        ///< of contact and yielding; 0: pressure of the elastic bodies
+  double late_flow = 0;                  ///< as of PassResult
+  double balance = 0;  ///< largest |mean of S_zz, S_yz, S_xz of a row| over the largest mean |S_xx|: equilibrium
+};
+PassRow pass_row(const SteadyGrid& grid, int pass, const PassResult& result);
+
+}  // namespace railstrata

@@ -1,0 +1,139 @@
+#include "ask/life_passes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "bem/contact_places.hpp"
+#include "core/faults.hpp"
+#include "material/strain_claim.hpp"
+#include "passes/following_contact.hpp"
+#include "passes/rail_passes.hpp"
+#include "spec/case_spec.hpp"
+
+namespace railstrata {
+namespace {
+
+/// s of net ~ n^-s between two passes of a point; 0 where it does not flow in both.
+double trend_between(double net, double later_net, double ratio) {
+  return net > 0 && later_net > 0 ? -std::log(later_net / net) / std::log(ratio) : 0;
+}
+
+/// The patch as a result of its own.
+BemResult alone(const BemResult& result, const BemPatch& patch) {
+  BemResult out;
+  static_cast<BemPatch&>(out) = patch;
+  out.wheel = result.wheel;
+  out.rail = result.rail;
+  return out;
+}
+
+/// A new rail under one patch, pass after pass.
+class PassesOfPatch {
+ public:
+  PassesOfPatch(const CaseSpec& spec, const BemResult& patch, double strength, const Control* control,
+                FollowingContact* following)
+      : spec_(spec),
+        patch_(patch),
+        strength_(strength),
+        following_(following),
+        rail_(rail_passes(spec, {patch}, strength)) {
+    limits_.control = control;
+    stand();
+  }
+
+  PassResult next() {
+    PassResult out = one();
+    while (state_.passes == 1) {
+      const std::optional<double> window = longer_window(spec_.passes, rail_, out.late_flow);
+      if (!window) break;
+      CaseSpec longer = spec_;
+      longer.passes.window = window;
+      rail_ = rail_passes(longer, {patch_}, strength_);
+      stand();
+      out = one();
+    }
+    return out;
+  }
+  const RailPasses& rail() const { return rail_; }
+
+ private:
+  void stand() {
+    body_.emplace(rail_.grid, rail_.rows, rail_.below, rail_.initial_stress);
+    strain_ = contact_strain(rail_, *body_, rail_.contact_stress.front());
+    state_ = body_->virgin();
+  }
+  PassResult one() {
+    if (following_) return following_->run_pass(rail_, *body_, 0, 0, state_, limits_).result;
+    return body_->run_pass(strain_, state_, limits_);
+  }
+
+  const CaseSpec& spec_;
+  const BemResult& patch_;
+  const double strength_;
+  FollowingContact* following_;
+  RailPasses rail_;
+  std::optional<SteadyBody> body_;  // of rail_
+  Field strain_;
+  PassState state_;
+  PassLimits limits_;
+};
+
+PassedSection passed_section(int wanted, const BemResult& patch, PassesOfPatch& passes) {
+  PassedSection out;
+  out.passes = wanted;
+  const int quarter = wanted / 4, half = wanted / 2;
+  std::array<std::vector<double>, 2> earlier;  // net strain of those passes
+  PassResult last;
+  for (int n = 1; n <= wanted; ++n) {
+    last = passes.next();
+    if (n == 1) earlier.fill(std::vector<double>(last.net.size(), 0.0));
+    if (*std::max_element(last.accumulated.begin(), last.accumulated.end()) == 0) break;  // nor do the passes after it
+    if (n == quarter) earlier[0] = last.net;
+    if (n == half) earlier[1] = last.net;
+  }
+  const RailPasses& rail = passes.rail();
+  const double place = along_plane(patch.contact, patch.place.point);
+  for (int j = 0; j < rail.grid.ny; ++j) out.y.push_back(rail.grid.y(j) - place);
+  for (int r = 0; r < rail.grid.rows(); ++r) out.depth.push_back(rail.grid.depth(r));
+  out.zone = rail.zone;
+  out.accumulated = last.accumulated;
+  out.net = last.net;
+  for (const std::array<double, 6>& e : last.plastic_strain) out.reached.push_back(equivalent_strain(e.data()));
+  const double first = static_cast<double>(half) / quarter, second = static_cast<double>(wanted) / half;
+  for (std::size_t p = 0; p < last.net.size(); ++p) {
+    out.trend[0].push_back(trend_between(earlier[0][p], earlier[1][p], first));
+    out.trend[1].push_back(trend_between(earlier[0][p], last.net[p], first * second));
+    out.trend[2].push_back(trend_between(earlier[1][p], last.net[p], second));
+  }
+  return out;
+}
+
+}  // namespace
+
+PassedSections passed_sections(const CaseSpec& spec, const Placement& placement, const BemResult& result,
+                               const BemOptions& bem, const Control* control) {
+  std::optional<FollowingContact> following;
+  if (spec.passes.pressure == PassPressure::following) {
+    if (!result.further.empty())
+      throw CaseError("passes.pressure: two contacts, and pressure follows the surface of one alone",
+                      "passes.pressure = \"elastic\"");
+    following.emplace(std::vector<CaseSpec>{spec}, std::vector<Placement>{placement}, bem);
+  }
+  PassedSections out;
+  for (std::size_t v = 0; v < out.size(); ++v) {
+    const double strength = strength_factor(spec, v);
+    if (v != 1 && strength == 1) continue;
+    for (const BemPatch* one : patches_of(result)) {
+      const BemResult patch = alone(result, *one);
+      PassesOfPatch passes(spec, patch, strength, control, following ? &*following : nullptr);
+      out[v].push_back(passed_section(spec.life.passes, patch, passes));
+      out[v].back().patch = out[v].size() - 1;
+    }
+  }
+  return out;
+}
+
+}  // namespace railstrata

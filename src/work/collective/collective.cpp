@@ -1,0 +1,167 @@
+#include "collective/collective.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "ask/life_passes.hpp"
+#include "ask/load_life.hpp"
+#include "ask/solve_half_space.hpp"
+#include "core/faults.hpp"
+#include "core/root.hpp"
+#include "fatigue/traffic_damage.hpp"
+#include "io/summary_json.hpp"
+#include "judge/bem_summary.hpp"
+#include "many/each_case.hpp"
+#include "many/result_columns.hpp"
+#include "tables/load_rows.hpp"
+
+namespace railstrata {
+namespace {
+
+/// A rail that passes cannot be followed on keeps its wear, rolling contact fatigue and shakedown.
+void follow_passes(CollectiveRow& row, const Placement& placement, const BemResult& result,
+                   const CollectiveOptions& options) {
+  try {
+    row.passed = passed_sections(row.spec, placement, result, options.bem, options.control);
+  } catch (const CaseError& e) {
+    row.not_followed = fault_line(e);
+  } catch (const NumericalError& e) {
+    row.not_followed = fault_line(e);
+  }
+}
+
+/// Moves the shift until the wheel has the row's guiding force, within a twentieth of it or a hundredth of the load.
+void match_guiding_force(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
+  constexpr double kFirst = 10e-6, kNarrow = 1e-8, kClose = 0.05, kOfLoad = 0.01;
+  constexpr int kMost = 30;
+  const double shift = row.spec.geometry.lateral_shift, wanted = *row.given.guiding_force;
+  double close = kClose * std::abs(wanted);
+  const auto excess_at = [&](double moved) {
+    row.moved = moved;
+    row.spec.geometry.lateral_shift = shift + moved;
+    const Summary s = solve_half_space_contact(row.spec, place(row.spec, folder), options.bem).summary;
+    close = std::max(close, kOfLoad * s.contact.F_z);
+    return -s.contact.F_y - wanted;
+  };
+  double a = 0, at_a = excess_at(a), b = a, at_b = at_a;
+  if (std::abs(at_a) <= close) return;
+  const double side = at_a > 0 ? -1 : 1;  // the flange pushes the rail to its field side
+  for (double away = kFirst; at_a * at_b > 0 && std::abs(b) < kFarthestMatch; away *= 3) {
+    a = b;
+    at_a = at_b;
+    b = side * std::min(away, kFarthestMatch);
+    at_b = excess_at(b);
+  }
+  if (at_a * at_b < 0 && narrow_root(a, at_a, b, at_b, close, kNarrow, kMost, excess_at)) return;
+  row.spec.geometry.lateral_shift = shift;
+  row.moved = kNotApplicable;
+}
+
+void solve(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
+  if (row.spec.collective.match_guiding_force && row.given.guiding_force) match_guiding_force(row, folder, options);
+  const Placement placement = place(row.spec, folder);
+  row.track = placement.track;
+  HalfSpaceSolution solution = solve_half_space_contact(row.spec, placement, options.bem);
+  Summary& s = solution.summary;
+  if (options.shakedown) {
+    const std::vector<SectionShakedown> sections = half_space_shakedown(row.spec, solution.result);
+    s.shakedown = shakedown_summary(row.spec, sections);
+    for (const SectionShakedown& section : sections) s.fatigue.push_back(section.fatigue);
+    row.sections = sections;
+  }
+  if (row.spec.life.passes > 0) follow_passes(row, placement, solution.result, options);
+  s.warnings = bem_warnings(s, row.spec, solution.result);
+  row.patches = patch_damages(row.spec, solution);
+  row.summary = std::move(s);
+  row.summary_json = summary_json(row.summary);
+  row.fault = failed_check(row.summary_json);
+}
+
+void solve_or_tell(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
+  try {
+    solve(row, folder, options);
+  } catch (const std::exception& e) {
+    row.fault = fault_line(e);
+  }
+}
+
+/// Rows whose checks failed are shown, but not summed.
+std::vector<WheelKind> kinds_of(const std::vector<CollectiveRow>& rows) {
+  std::vector<WheelKind> out;
+  for (const CollectiveRow& row : rows)
+    if (row.sound()) out.push_back({row.passages, row.patches});
+  return out;
+}
+
+}  // namespace
+
+std::vector<CollectiveRow> plan_collective(const CaseSpec& spec) {
+  if (spec.loads.empty())
+    throw CaseError("the case has no load collective",
+                    "write rows of [[load]], each with passages and what differs from the case, or name a table with "
+                    "collective.file = \"loads.csv\"");
+  if (!spec.run.rolling)
+    throw CaseError("nothing rolls in this case (run.rolling = false): it has no wear and no fatigue of passages",
+                    "take out run.rolling");
+  std::vector<CollectiveRow> rows;
+  for (std::size_t i = 0; i < spec.loads.size(); ++i) {
+    CollectiveRow& row = rows.emplace_back();
+    row.name = load_name(spec, i);
+    row.passages = spec.loads[i].passages;
+    row.given = spec.loads[i];
+    row.spec = with_load(spec, spec.loads[i]);
+  }
+  return rows;
+}
+
+void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::path& folder,
+                      const CollectiveOptions& options) {
+  std::size_t done = 0;
+  for_each_completed(rows.size(), options.control, [&](std::size_t i) {
+    solve_or_tell(rows[i], folder, options);
+    return [&, i] {
+      rows[i].done = true;
+      if (options.control)
+        options.control->progress("loads", static_cast<double>(++done) / static_cast<double>(rows.size()));
+    };
+  });
+}
+
+RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell) {
+  return rail_damage(rows.front().spec, kinds_of(rows), placement, cell);
+}
+
+WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell) {
+  return wheel_damage(rows.front().spec, kinds_of(rows), placement, cell);
+}
+
+Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& rows, const RailDamage& rail,
+                       const WheelDamage& wheel) {
+  std::vector<LifeLoad> loads;
+  for (const CollectiveRow& row : rows)
+    if (row.sound()) loads.push_back({row.passages, row.summary.contact.F_z, &row.patches, &row.sections, &row.passed});
+  return zone_lives(spec, loads, rail, wheel);
+}
+
+double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law) {
+  double area = 0;
+  for (const WheelKind& kind : kinds_of(rows))
+    for (const PatchDamage& patch : kind.patches)
+      for (const StreamlineRow& line : patch.rows) area += kind.passages * line.width * line.depth(law);
+  return rows.front().spec.collective.wear_factor * area;
+}
+
+const CollectiveRow* worst_row(const std::vector<CollectiveRow>& rows) {
+  const CollectiveRow* worst = nullptr;
+  const auto factor = [](const CollectiveRow& r) { return r.summary.shakedown.least(&ShakedownFactors::wandering); };
+  for (const CollectiveRow& row : rows)
+    if (row.sound() && std::isfinite(factor(row)) && (!worst || factor(row) < factor(*worst))) worst = &row;
+  return worst;
+}
+
+long faults(const std::vector<CollectiveRow>& rows) {
+  return std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return !r.fault.empty(); });
+}
+
+}  // namespace railstrata

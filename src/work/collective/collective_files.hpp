@@ -1,0 +1,56 @@
+#pragma once
+// The files of a load collective.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "collective/collective.hpp"
+#include "many/case_row.hpp"
+#include "report/checks.hpp"
+
+namespace railstrata {
+
+/// Title of the axis of pictures across the rail.
+inline constexpr const char* kAcross = "y across the rail, from its axis to the field side [mm]";
+
+/// The columns of collective.csv, a row for each load.
+CaseTable collective_table(const std::vector<CollectiveRow>& rows);
+void write_collective_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                            const std::vector<CollectiveRow>& rows);
+
+/// rail_damage.csv: a row for each cell across the rail; columns that lack data are left out.
+void write_rail_damage(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                       const RailDamage& damage);
+
+/// wheel_damage.csv: a row for each cell across the wheel's tread, depths per 1000 km.
+void write_wheel_damage(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                        const WheelDamage& damage);
+
+/// Damage of both bodies by all passages.
+struct CollectiveDamage {
+  RailDamage rail;
+  WheelDamage wheel;
+  Lives lives{};
+};
+
+/// collective.json: totals, where the extremes are, and every row in short.
+nlohmann::ordered_json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows,
+                                       const CollectiveDamage& damage);
+
+/// What the passages do, the worst first: whether and how long the rail lasts, rolling contact fatigue, wear.
+std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage);
+
+/// A page over all rows; `looked_at` is the result folder of the row that it shows whole, by the name `shown`.
+ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
+                                    const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
+                                    const std::filesystem::path& looked_at, const std::string& shown);
+
+/// A depth of the cells that is known everywhere.
+struct KnownWear {
+  WearLaw law;
+  std::string key, words;
+};
+std::vector<KnownWear> known_wear(const RailDamage& damage);
+std::vector<KnownWear> known_wear(const WheelDamage& damage);
+
+}  // namespace railstrata

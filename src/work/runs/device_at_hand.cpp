@@ -1,0 +1,34 @@
+#include "runs/device_at_hand.hpp"
+
+#include "device/device_of.hpp"
+#include "rules/engine_scope.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr const char* kKey = "run.device";
+
+bool on_a_device(const CaseSpec& spec) { return spec.run.rolling && spec.run.device != ComputeDevice::cpu; }
+
+}  // namespace
+
+void require_device(const CaseSpec& spec, const Ranks& ranks) {
+  if (spec.run.rolling && !ranks.alone()) require_shareable(spec);
+  if (!on_a_device(spec)) return;
+  if (!ranks.alone())
+    throw CaseError("several ranks share a run on processors only", "start one rank, or run.device = \"cpu\"", kKey);
+  device::require_at_hand();
+}
+
+void require_device(const LoadedCase& loaded, const Ranks& ranks) {
+  try {
+    require_device(loaded.spec, ranks);
+  } catch (const CaseError& e) {
+    throw in_case_file(loaded, e);
+  } catch (const EnvironmentError& e) {
+    const Diagnostic found = in_case_file(loaded, CaseError(e.what(), e.remedy, kKey)).diagnostics.front();
+    throw EnvironmentError(found.where + ": " + found.message, found.remedy);
+  }
+}
+
+}  // namespace railstrata

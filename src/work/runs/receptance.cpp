@@ -1,0 +1,163 @@
+#include "runs/receptance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+#include "fem/rolling_system.hpp"
+#include "record/output_file.hpp"
+#include "report/page.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kFrequencyStep = 10;  // Hz
+constexpr double kAtRest = 0.5;        // Hz, in place of 0: an endless beam is at rest nowhere
+constexpr double kDecibelZero = 1e-9;  // m/N, of a chart's decibels
+
+struct ForcePlace {
+  const char *name, *shown;
+  double phase;  // of a force at x = 0
+};
+constexpr ForcePlace kForcePlaces[] = {{"midspan", "midspan", 0.5}, {"sleeper", "over a sleeper", 0}};
+
+double decibels(std::complex<double> value) { return 20 * std::log10(std::abs(value) / kDecibelZero); }
+
+ReportSeries receptance_line(const Receptance& r, const ReceptanceCurve& curve, bool dashed,
+                             double (*value)(std::complex<double>)) {
+  ReportSeries out{.name = curve.shown, .x = {}, .y = {}, .markers = false, .dash = dashed ? "dash" : "solid"};
+  for (std::size_t k = 1; k < r.frequency.size(); ++k) {
+    out.x.push_back(r.frequency[k]);
+    out.y.push_back(value(curve.values[k]));
+  }
+  return out;
+}
+
+ReportChart receptance_chart(const Receptance& r, const char* id, const char* title, const char* y,
+                             double (*value)(std::complex<double>)) {
+  ReportChart out{id, title, "", "frequency, Hz", y, {}};
+  for (const ReceptanceCurve& c : r.curves)
+    out.series.push_back(receptance_line(r, c, c.name.starts_with("beam"), value));
+  return out;
+}
+
+/// Integral of values e^(-i omega t) dt, samples of the time steps.
+std::complex<double> fourier(const std::vector<double>& values, double dt, double frequency) {
+  const double angle = 2 * std::numbers::pi * frequency * dt;
+  std::complex<double> sum = 0;
+  for (std::size_t n = 0; n < values.size(); ++n)
+    if (values[n] != 0) sum += values[n] * std::polar(dt, -angle * static_cast<double>(n));
+  return sum;
+}
+
+ReceptanceCurve over_force(const ForcePlace& place, const char* of, const BlowResponse& blow,
+                           const std::vector<double>& displacement, const std::vector<double>& frequency) {
+  ReceptanceCurve out{fmt::format("{}_{}", of, place.name), fmt::format("{}, {}", of, place.shown), {}};
+  out.values.resize(frequency.size());
+  for_each(static_cast<std::ptrdiff_t>(frequency.size()), [&](std::ptrdiff_t k) {
+    out.values[k] = fourier(displacement, blow.dt, frequency[k]) / fourier(blow.force, blow.dt, frequency[k]);
+  });
+  return out;
+}
+
+}  // namespace
+
+std::vector<double> receptance_frequencies(double largest) {
+  std::vector<double> out{0};
+  for (int k = 1; k * kFrequencyStep <= largest; ++k) out.push_back(k * kFrequencyStep);
+  return out;
+}
+
+Receptance beam_receptances(const Model& model, const std::vector<double>& frequency) {
+  const TrackSpec& track = model.spec.track;
+  if (track.held())
+    throw CaseError("the foot of this rail is held: there is no track whose receptance could be found",
+                    "give [track] preset = \"delft\", \"medium\" or \"cn60\"");
+  const RailBeam beam = rail_beam(model);
+  Receptance out{frequency, pinned_pinned_frequency(beam, track.support.spacing), {}};
+  for (const ForcePlace& place : kForcePlaces) {
+    SleeperTrack below = track.support;
+    below.phase = place.phase;
+    ReceptanceCurve curve{fmt::format("beam_{}", place.name), fmt::format("beam, {}", place.shown), {}};
+    curve.values.resize(frequency.size());
+    for_each(static_cast<std::ptrdiff_t>(frequency.size()), [&](std::ptrdiff_t k) {
+      curve.values[k] = beam_receptance(beam, below, 0, std::max(kAtRest, frequency[k]));
+    });
+    out.curves.push_back(std::move(curve));
+  }
+  return out;
+}
+
+std::vector<BlowEnergy> add_hammer_receptances(const Model& model, double time,
+                                               const std::function<void(double)>& progress, Receptance& r) {
+  const SleeperTrack& track = model.spec.track.support;
+  const Body rail(model.rail, model.rail_materials, element_options(model.spec));
+  const RailPads pads = rail_pads(rail, track);
+  const std::vector<double>& at = model.rail.blocks[model.rail.contact.block].stations.at;
+  const double middle = 0.5 * (at.front() + at.back());
+  std::vector<BlowEnergy> out;
+  for (const ForcePlace& place : kForcePlaces) {
+    const double offset = (track.phase + place.phase) * track.spacing;
+    const HammerBlow blow{offset + track.spacing * std::round((middle - offset) / track.spacing),
+                          1 / r.frequency.back(), time, model.spec.run.step_safety};
+    const double done = static_cast<double>(out.size()) / std::size(kForcePlaces);
+    const BlowResponse response = strike(rail, pads, blow, [&](double share) {
+      if (progress) progress(done + share / std::size(kForcePlaces));
+    });
+    r.curves.push_back(over_force(place, "rail", response, response.section, r.frequency));
+    r.curves.push_back(over_force(place, "head", response, response.head, r.frequency));
+    out.push_back(response.energy);
+  }
+  return out;
+}
+
+std::vector<CsvColumn> receptance_table(const Receptance& r) {
+  const auto name = [](const std::string& of, const Unit& unit) { return fmt::format("{}{}", of, unit.column_ending); };
+  std::vector<CsvColumn> out{{name("frequency", unit::kHertz), r.frequency}};
+  for (const ReceptanceCurve& c : r.curves) {
+    CsvColumn modulus{name(c.name, unit::kNanometresPerNewton), {}}, phase{name(c.name + "_phase", unit::kDegrees), {}};
+    for (const std::complex<double>& v : c.values) {
+      modulus.values.push_back(unit::kNanometresPerNewton.column_factor * std::abs(v));
+      phase.values.push_back(unit::kDegrees.column_factor * std::arg(v));
+    }
+    out.push_back(std::move(modulus));
+    out.push_back(std::move(phase));
+  }
+  return out;
+}
+
+void write_receptance_page(const std::filesystem::path& page, const std::string& title, const Receptance& r) {
+  Report report;
+  report.title = fmt::format("{}: receptance", title);
+  report.charts.push_back(receptance_chart(r, "modulus", "Receptance", "|u/F|, dB of 1 nm/N", decibels));
+  report.charts.push_back(receptance_chart(r, "phase", "Phase", "degrees",
+                                           [](std::complex<double> v) { return unit::kDegrees.factor * std::arg(v); }));
+  ReportChart& modulus = report.charts.front();
+  modulus.note = fmt::format(
+      "Vertical force on the rail. beam: endless, loss factor 0.01; rail: finite elements, mean of the section by "
+      "mass; head: the same where the hammer strikes. "
+      "Pinned-pinned mode of the beam: {:.0f} Hz, marked.",
+      r.pinned_pinned);
+  if (r.pinned_pinned < r.frequency.back()) {
+    const auto [low, high] = std::minmax_element(modulus.series.front().y.begin(), modulus.series.front().y.end());
+    modulus.series.push_back({.name = "pinned-pinned",
+                              .x = {r.pinned_pinned, r.pinned_pinned},
+                              .y = {*low, *high},
+                              .markers = false,
+                              .dash = "dot"});
+  }
+  ReportTable& at_rest = report.tables.emplace_back();
+  at_rest.id = "static";
+  at_rest.title = "Static compliance";
+  at_rest.columns = {"", "nm/N"};
+  for (const ReceptanceCurve& c : r.curves)
+    at_rest.rows.push_back({c.shown, unit::kNanometresPerNewton.factor * std::abs(c.values.front())});
+  write_whole_file(page, report_page(report));
+}
+
+}  // namespace railstrata

@@ -1,0 +1,152 @@
+#include "runs/solve_fem.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+#include "core/process_memory.hpp"
+#include "device/device_of.hpp"
+#include "fem/memory_need.hpp"
+#include "io/provenance.hpp"
+#include "judge/fem_summary.hpp"
+#include "passage/passage.hpp"
+#include "rules/irregularity_rules.hpp"
+#include "runs/device_at_hand.hpp"
+
+namespace railstrata {
+namespace {
+
+/// Asks the control on behalf of the rolling, and hands the states that it asked for to the observer.
+class StateKeeper {
+ public:
+  StateKeeper(RunControl& control, const RunObserver& observer, const FemOptions& options)
+      : control_(control),
+        observer_(observer),
+        ranks_(options.ranks),
+        states_wanted_(observer.save || options.control || options.times.limit > 0) {}
+
+  void observe(RunObserver& run) {
+    run.demand = [this] {  // of several ranks what any of them asks for: signals and clocks differ
+      const auto own = static_cast<double>(answer(control_.demand()));
+      return static_cast<Demand>(largest_of_all(ranks_, own));
+    };
+    if (states_wanted_) run.save = [this](const RunState& state, bool stopping) { save(state, stopping); };
+  }
+
+  std::optional<RunState> stopped_at;
+
+ private:
+  /// Without anyone to take a checkpoint, there is nothing to do on the way.
+  Demand answer(Demand demand) const { return demand == Demand::save && !observer_.save ? Demand::go_on : demand; }
+
+  void save(const RunState& state, bool stopping) {
+    const auto start = std::chrono::steady_clock::now();
+    if (observer_.save) observer_.save(state, stopping);
+    control_.saved(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (stopping) stopped_at = state;
+  }
+
+  RunControl& control_;
+  const RunObserver& observer_;
+  Ranks ranks_;
+  bool states_wanted_;
+};
+
+FemPosition position_of(const RollingSystem& system, const RunResult& run, const PositionSamples& samples) {
+  FemPosition out;
+  out.contact = mean_contact(system, samples);
+  const Model& model = system.model;
+  const double contact_y = model.placement.contact.point.y;
+  out.rail = band_stress(model.rail, out.contact.rail, contact_y - model.rail.origin.y);
+  out.wheel = band_stress(model.wheel, out.contact.wheel, contact_y - model.wheel.origin.y);
+  out.summary = fem_summary(system, run, out.contact);
+  CaseSpec here = model.spec;
+  here.layers = layers_at(model.spec.layers, out.contact.position);
+  out.streamlines = streamlines(here, out.contact.field);
+  out.summary.damage = damage_summary(here, out.summary, out.streamlines);
+  // its theorems judge elastic stresses that come again and again
+  if (!model.spec.run.plasticity && varying_key(model.spec).empty())
+    out.shakedown = fem_shakedown(model, out.contact.patch, {out.rail, rail_band_surface(system, out.contact)},
+                                  {out.wheel, wheel_band_surface(system, out.contact)});
+  out.summary.shakedown = shakedown_summary(model.spec, out.shakedown);
+  for (const SectionShakedown& section : out.shakedown) out.summary.fatigue.push_back(section.fatigue);
+  for (BodyFatigue& fatigue : passage_fatigue(system, run)) out.summary.fatigue.push_back(std::move(fatigue));
+  out.summary.run.commit = commit_text();
+  out.summary.run.threads = max_threads();
+  out.summary.run.peak_memory_bytes = peak_memory();
+  return out;
+}
+
+/// On the rank that has the positions.
+bool has_residual(const RollingSystem& system, const FemOptions& options) {
+  return options.residual && system.model.spec.run.plasticity && options.ranks.is_root();
+}
+
+RunResult roll(const RollingSystem& system, const RunObserver& observer, const RunControl& control,
+               const FemOptions& options, std::optional<RunState> begun) {
+  require_device(system.model.spec, options.ranks);
+  const std::unique_ptr<device::Device> device = device::device_of(system.model.spec);
+  const StepBy by{options.ranks, device::engine_on(device.get())};
+  try {
+    return begun ? resume_rolling(system, observer, *std::move(begun), by)
+                 : run_rolling(system, observer, options.before, by);
+  } catch (const Interrupted&) {
+    if (!control.limit_reached()) throw;
+    throw EnvironmentError(
+        "the static preload alone takes longer than --max-time allows: there is nothing to resume yet",
+        "give the run more time");
+  }
+}
+
+}  // namespace
+
+RollingSystem fem_system(const CaseSpec& spec, const std::filesystem::path& folder) {
+  const Model model = build_model(spec, folder);
+  require_memory(model);
+  return RollingSystem(model);
+}
+
+FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, const FemOptions& options,
+                      std::optional<RunState> begun) {
+  Control& asked = control_or_none(options.control);
+  RunControl control(options.times, asked);
+  StateKeeper states(control, observer, options);
+  RunObserver run_observer = observer;
+  run_observer.preload = [&](double residual, double wanted, int iterations) {
+    asked.detail("preload: residual {:.1e} (wanted {:.0e}), {} iterations", residual, wanted, iterations);
+    return !control.must_stop();
+  };
+  if (!observer.progress)
+    run_observer.progress = [&](double fraction, const HistoryRow& row) {
+      asked.progress("rolling", fraction);
+      asked.detail("rolling: x {:.1f} mm, F_z {:.2f} kN, F_x/F_z {:.3f}, p_max {:.0f} MPa", 1e3 * row.position,
+                   1e-3 * row.forces.z, row.forces.x / row.forces.z, 1e-6 * row.p_max);
+    };
+  std::optional<RunResidual> residual;
+  run_observer.finished = [&](const RollingState& state) {
+    if (observer.finished) observer.finished(state);
+    if (has_residual(system, options) && varying_key(system.model.spec).empty()) residual = run_residual(system, state);
+  };
+  states.observe(run_observer);
+
+  RunResult run = roll(system, run_observer, control, options, std::move(begun));
+  if (has_residual(system, options)) {
+    if (!system.model.spec.run.rolling) residual.emplace().none = "the wheel stands where it was put on";
+    if (!varying_key(system.model.spec).empty()) residual.emplace().none = "the rail is not the same all along";
+  }
+  FemSolution out;
+  out.stopped = run.stopped;
+  out.limit_reached = control.limit_reached();
+  out.state = std::move(states.stopped_at);
+  if (!options.ranks.is_root()) return out;
+  for (const PositionSamples& samples : run.positions) {
+    if (samples.samples.empty()) break;
+    out.positions.push_back(position_of(system, run, samples));
+  }
+  out.residual = std::move(residual);
+  out.history = std::move(run.history);
+  return out;
+}
+
+}  // namespace railstrata

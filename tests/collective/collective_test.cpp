@@ -1,0 +1,357 @@
+#include "collective/collective.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "ask/solve_half_space.hpp"
+#include "collective/collective_files.hpp"
+#include "core/faults.hpp"
+#include "reader/case_file.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr const char* kArcs =
+    "[geometry]\nrail_profile = \"arc:R=80 mm\"\nwheel_profile = \"arc:R=-400 mm\"\ncant = 0\n"
+    "[drive]\ntraction_coefficient = 0.1\nspin = \"0 1/m\"\n";
+
+CollectiveOptions coarse() {
+  CollectiveOptions options;
+  options.bem.cell = 1e-3;
+  return options;
+}
+
+std::vector<CollectiveRow> solved(const CaseSpec& spec) {
+  std::vector<CollectiveRow> rows = plan_collective(spec);
+  solve_collective(rows, {}, coarse());
+  return rows;
+}
+
+}  // namespace
+
+TEST(Collective, ARowThatCannotBeSolvedIsToldAndTheOthersGoOn) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[[load]]\npassages = 10\n[[load]]\nname = \"beside the rail\"\n"
+                                       "lateral_shift = \"50 mm\"\n[[load]]\npassages = 20\nwheel_load = \"60 kN\"\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].fault, "");
+  EXPECT_EQ(rows[2].fault, "");
+  EXPECT_NE(rows[1].fault, "");
+  EXPECT_FALSE(rows[1].solved());
+  EXPECT_EQ(faults(rows), 1);
+  const Placement placement = place(spec, {});
+  const auto json =
+      collective_json("t", rows, {rail_damage(rows, placement, 0.5e-3), wheel_damage(rows, placement, 0.5e-3)});
+  EXPECT_EQ(json["totals"]["passages"], 30);
+  EXPECT_EQ(json["totals"]["passages_left_out"], 1);
+  EXPECT_EQ(json["loads"][1]["name"], "beside the rail");
+}
+
+// Tread and gauge corner of one wheel, each with passes of its own.
+TEST(Collective, PassesAreFollowedUnderEachOfTwoContacts) {
+  const CaseSpec spec =
+      parse_case(
+          "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\n"
+          "wheel_radius = \"460 mm\"\n[material.rail]\nyield_strength = \"1000 MPa\"\n[drive]\n"
+          "traction_coefficient = 0\nfriction_coefficient = 0.3\n[life]\npasses = 8\n[passes]\nductility = 5\n"
+          "[[load]]\npassages = 10\nlateral_shift = \"5.3 mm\"\nwheel_load = \"20 kN\"\n",
+          "a.toml")
+          .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(rows[0].fault, "");
+  ASSERT_EQ(rows[0].not_followed, "");
+  ASSERT_EQ(rows[0].patches.size(), 2u);
+  ASSERT_EQ(rows[0].passed[1].size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const PassedSection& p = rows[0].passed[1][k];
+    EXPECT_EQ(p.patch, k);
+    EXPECT_LT(p.y.front(), 0);
+    EXPECT_GT(p.y.back(), 0);
+  }
+  const std::vector<double>& reached = rows[0].passed[1].front().reached;
+  EXPECT_GT(*std::max_element(reached.begin(), reached.end()), 1e-4) << "the gauge corner, 1.9 GPa";
+}
+
+// Friction beyond the strength of the surface has no passes, but it wears.
+TEST(Collective, ALoadWhosePassesCannotBeFollowedKeepsItsWear) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[material.rail]\nyield_strength = \"100 MPa\"\n[life]\npasses = 8\n[passes]\n"
+                                       "ductility = 5\n[[load]]\npassages = 10\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  EXPECT_NE(rows[0].not_followed.find("friction on the surface"), std::string::npos) << rows[0].not_followed;
+  EXPECT_TRUE(rows[0].sound()) << rows[0].fault;
+  EXPECT_TRUE(rows[0].passed[1].empty());
+  EXPECT_GT(streamline_area(rows, WearLaw::usfd), 0);
+}
+
+// A layer of t lasts t over the depth that a collective wears, grinding of t at once ends it, in MGT of 2 F/g a wheel.
+TEST(Collective, ALayerWornThroughHasItsLifeInGrossTonnes) {
+  const auto life = [](const char* more) {
+    const CaseSpec spec =
+        parse_case(std::string(kArcs) + "[[layer]]\nname = \"clad\"\nthickness = \"0.1 mm\"\nyoung_ratio = 1.2\n" +
+                       more + "[[load]]\npassages = 1e4\nwheel_load = \"60 kN\"\n",
+                   "a.toml")
+            .spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    const Placement placement = place(spec, {});
+    const RailDamage damage = rail_damage(rows, placement, 0.5e-3);
+    const Lives lives = collective_lives(spec, rows, damage, wheel_damage(rows, placement, 0.5e-3));
+    const double mgt = 1e4 * 2e-9 * rows[0].summary.contact.F_z / spec.vehicle.gravity;
+    for (const LifeRow& row : lives.rows)
+      if (row.mechanism == "worn through") {
+        const std::vector<double> wear = smoothed_wear(damage, WearLaw::usfd);
+        return std::pair{row.mgt.best, mgt * 0.1e-3 / *std::max_element(wear.begin(), wear.end())};
+      }
+    return std::pair{0.0, 1.0};
+  };
+  const auto [worn, expected] = life("");
+  EXPECT_NEAR(worn / expected, 1, 1e-9);
+  EXPECT_NEAR(life("[grinding]\nevery = \"0.01 Mt\"\ndepth = \"0.2 mm\"\n").first, 0.01, 1e-9);
+}
+
+// The wheels of a row run aside by a normal distribution: the sum stays, the variance grows by theirs, which the cut at
+// three deviations takes 2.7 % off.
+TEST(Collective, WheelsThatRunAsideSpreadTheirWear) {
+  const auto wear_of = [](const char* more) {
+    const CaseSpec spec =
+        parse_case(std::string(kArcs) + more + "[[load]]\npassages = 1e4\nwheel_load = \"60 kN\"\n", "a.toml").spec;
+    const RailDamage damage = rail_damage(solved(spec), place(spec, {}), 0.25e-3);
+    double sum = 0, mean = 0, square = 0;
+    for (std::size_t k = 0; k < damage.s.size(); ++k) {
+      sum += damage.usfd[k];
+      mean += damage.usfd[k] * damage.s[k];
+      square += damage.usfd[k] * damage.s[k] * damage.s[k];
+    }
+    return std::array{sum, mean / sum, square / sum - mean * mean / (sum * sum)};
+  };
+  const auto straight = wear_of(""), aside = wear_of("[collective]\nlateral_deviation = \"4 mm\"\n");
+  EXPECT_NEAR(aside[0] / straight[0], 1, 1e-9);
+  EXPECT_NEAR(aside[1], straight[1], 1e-6);
+  EXPECT_NEAR((aside[2] - straight[2]) / (0.973 * 16e-6), 1, 0.01);
+}
+
+// Dang Van's line with the exponent k: the low life has strengths two deviations lower and a third of Miner's sum.
+TEST(Collective, TheRangeOfALifeHasTheScatterOfStrengths) {
+  const auto life = [](const char* more) {
+    const CaseSpec spec = parse_case(std::string(kArcs) +
+                                         "[material.rail]\nyield_strength = \"2000 MPa\"\nfatigue_limit = \"100 MPa\"\n"
+                                         "dang_van_coefficient = 0.1\nfatigue_exponent = 6\n" +
+                                         more + "[[load]]\npassages = 1e4\nwheel_load = \"60 kN\"\n",
+                                     "a.toml")
+                              .spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    const Placement placement = place(spec, {});
+    const Lives lives =
+        collective_lives(spec, rows, rail_damage(rows, placement, 0.5e-3), wheel_damage(rows, placement, 0.5e-3));
+    for (const LifeRow& row : lives.rows)
+      if (row.body == "rail" && row.place == "below" && row.mechanism == "fatigue") return row;
+    return LifeRow{};
+  };
+  const LifeRow given = life(""), scattered = life("[life]\nstrength_scatter = 0.05\n");
+  ASSERT_TRUE(given.known() && std::isfinite(given.wheels.best));
+  EXPECT_DOUBLE_EQ(scattered.wheels.best, given.wheels.best);
+  EXPECT_NEAR(scattered.wheels.low / given.wheels.low, std::pow(0.9, 6), 1e-3);
+  EXPECT_NE(scattered.rests_on.find("strengths ± 10 %"), std::string::npos) << scattered.rests_on;
+  EXPECT_GT(life("[collective]\nlateral_deviation = \"6 mm\"\n").wheels.best, 1.3 * given.wheels.best);
+}
+
+// bem, sweep and study give the life of their one load: that of a collective of it.
+TEST(Collective, TheLifeOfOneLoadIsThatOfItsCollective) {
+  std::string text = kArcs;
+  text +=
+      "friction_coefficient = 0.15\n[material.rail]\nhardening = \"R260\"\n[passes]\npatch_cells = 3\n"
+      "patch_rows = 4\nductility = 5\n[life]\npasses = 8\n[vehicle]\nwheel_load = \"60 kN\"\n";
+  const CaseSpec one = parse_case(text, "a.toml").spec,
+                 many = parse_case(text + "[[load]]\npassages = 1\n", "a.toml").spec;
+  const Placement placement = place(one, {});
+  const HalfSpaceSolution alone = solve_half_space(one, placement, coarse().bem);
+  const std::vector<CollectiveRow> rows = solved(many);
+  const double cell = coarse().bem.cell;
+  const Lives lives =
+      collective_lives(many, rows, rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell));
+  EXPECT_EQ(alone.summary.life.text, life_text(lives.rows));
+  EXPECT_DOUBLE_EQ(alone.summary.life.best, 1e9 * shortest(lives.rows)->mgt.best);
+  EXPECT_GT(alone.summary.life.best, 0);
+}
+
+// Yield two deviations lower flows more, higher less.
+TEST(Collective, PassesAreFollowedWithScatteredStrengths) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "friction_coefficient = 0.15\n[material.rail]\nhardening = \"R260\"\n"
+                                       "[passes]\npatch_cells = 3\npatch_rows = 4\n[life]\npasses = 8\n"
+                                       "strength_scatter = 0.05\n[[load]]\npassages = 10\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(rows[0].not_followed, "");
+  std::array<double, 3> most{};
+  for (std::size_t v = 0; v < 3; ++v) {
+    const std::vector<double>& reached = rows[0].passed[v].front().reached;
+    most[v] = *std::max_element(reached.begin(), reached.end());
+  }
+  EXPECT_GT(most[0], 1.1 * most[1]);
+  EXPECT_GT(most[1], 1.1 * most[2]);
+}
+
+TEST(Collective, NamesTheLoadThatDecidesAndDoubtsTheWearOfOneProfile) {
+  const auto answers = [](const char* passages) {
+    std::string text = kArcs;
+    text +=
+        "[material.rail]\nhardness = \"280 HV\"\nyield_strength = \"400 MPa\"\n"
+        "[[load]]\nname = \"light\"\nwheel_load = \"20 kN\"\npassages = 1\n"
+        "[[load]]\nname = \"heavy\"\nwheel_load = \"90 kN\"\npassages = ";
+    text += passages;
+    const CaseSpec spec = parse_case(text, "a.toml").spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    return collective_answers(rows, {rail_damage(rows, place(spec, {}), 0.5e-3), {}});
+  };
+  const std::vector<ReportAnswer> few = answers("1000");
+  ASSERT_EQ(few.size(), 2u);
+  EXPECT_EQ(few[0].title, "Does not last");
+  EXPECT_TRUE(few[0].text.starts_with("load \"heavy\", rail, ")) << few[0].text;
+  EXPECT_EQ(few[1].tone, "plain") << few[1].text;
+  EXPECT_EQ(answers("1e8").back().tone, "open") << "millimetres";
+}
+
+TEST(Collective, AnswersGiveWearAndTheFirstCrackByGrossTonnes) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[[load]]\nwheel_load = \"50 kN\"\npassages = 1e5\n"
+                                       "traction_coefficient = 0.1\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  CollectiveDamage damage{rail_damage(rows, place(spec, {}), 0.5e-3), {}, {}};
+  damage.lives.tonnes = 2e6;
+  damage.rail.rcf_damage.front() = 0.25;  // more than any other cell has
+  const std::vector<ReportAnswer> answers = collective_answers(rows, damage);
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_TRUE(answers[0].text.ends_with("a visible crack: after 8 MGT")) << answers[0].text;
+  const std::vector<double> wear = smoothed_wear(damage.rail, WearLaw::usfd);
+  const double deepest = *std::max_element(wear.begin(), wear.end());
+  EXPECT_NE(answers[1].text.find(fmt::format(", {:.3g} mm per 100 MGT at y", 50 * 1e3 * deepest)), std::string::npos)
+      << answers[1].text;
+}
+
+TEST(Collective, PutsTheVehicleCodesForcesBesideItsOwn) {
+  const auto answer = [](const char* given) {
+    const CaseSpec spec =
+        parse_case(std::string(kArcs) + "[[load]]\npassages = 1\nwheel_load = \"60 kN\"\n" + given, "a.toml").spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    const std::vector<ReportAnswer> all =
+        collective_answers(rows, {rail_damage(rows, place(spec, {}), 0.5e-3), {}, {}});
+    return std::pair{all.back(), rows[0].summary};
+  };
+  const auto [far, own] = answer("t_gamma = \"1 kN\"\n");
+  EXPECT_EQ(far.title, "Beside the vehicle code");
+  EXPECT_EQ(far.tone, "open");
+  EXPECT_EQ(far.text, fmt::format("mean of the wheels: T-gamma {:.3g} N here, 1000 N there", own.damage.t_gamma));
+  const std::string same = fmt::format("guiding_force = \"{} N\"\n", -own.contact.F_y);
+  EXPECT_EQ(answer(same.c_str()).first.tone, "plain");
+  EXPECT_EQ(answer("").first.title, "Wear");
+}
+
+// Tread and flange touch: 0.1 mm of the shift change the guiding force by 1.6 kN. And a
+// force that no shift has.
+TEST(Collective, MovesTheShiftUntilTheWheelHasTheGuidingForce) {
+  const auto row = [](const char* shift, const std::string& force) {
+    const CaseSpec spec =
+        parse_case(
+            std::string("[geometry]\nrail_profile = \"UIC60\"\nwheel_profile = \"S1002\"\ncant = "
+                        "\"1:40\"\nyaw = \"1 mrad\"\n[drive]\ntraction_coefficient = 0\nfriction_coefficient = 0.1\n"
+                        "[collective]\nmatch_guiding_force = true\n[[load]]\n"
+                        "wheel_load = \"73 kN\"\nlateral_shift = \"") +
+                shift + "\"\n" + force,
+            "a.toml")
+            .spec;
+    return solved(spec).front();
+  };
+  const double there = -row("5.05 mm", "").summary.contact.F_y;
+  const CollectiveRow matched = row("4.95 mm", fmt::format("guiding_force = \"{} N\"\n", there));
+  EXPECT_NEAR(-matched.summary.contact.F_y, there, 0.01 * 73e3);
+  EXPECT_GT(matched.moved, 10e-6);
+  EXPECT_LE(matched.moved, 200e-6);
+  EXPECT_DOUBLE_EQ(matched.spec.geometry.lateral_shift, 4.95e-3 + matched.moved);
+  const CollectiveRow out_of_reach = row("4.95 mm", "guiding_force = \"-50 kN\"\n");
+  EXPECT_TRUE(std::isnan(out_of_reach.moved));
+  EXPECT_DOUBLE_EQ(out_of_reach.spec.geometry.lateral_shift, 4.95e-3);
+}
+
+TEST(Collective, TheWearFactorMultipliesTheWearOfBothBodies) {
+  const auto worn = [](const char* more) {
+    const CaseSpec spec = parse_case(std::string(kArcs) + more + "[[load]]\npassages = 10\n", "a.toml").spec;
+    const std::vector<CollectiveRow> rows = solved(spec);
+    const Placement placement = place(spec, {});
+    const RailDamage rail = rail_damage(rows, placement, 0.5e-3);
+    const WheelDamage wheel = wheel_damage(rows, placement, 0.5e-3);
+    return std::array{worn_area(rail, rail.usfd), worn_area(wheel, wheel.usfd), streamline_area(rows, WearLaw::usfd)};
+  };
+  const std::array given = worn(""), fifth = worn("[collective]\nwear_factor = 0.2\n");
+  for (std::size_t k = 0; k < given.size(); ++k) EXPECT_NEAR(fifth[k] / given[k], 0.2, 1e-12);
+}
+
+TEST(Collective, SumsTheRowsTimesTheirPassages) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[material.rail]\nhardness = \"280 HV\"\n"
+                                       "[[load]]\npassages = 10\n[[load]]\npassages = 20\n"
+                                       "[[load]]\npassages = 5\nlateral_shift = \"4 mm\"\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(faults(rows), 0);
+  const RailDamage damage = rail_damage(rows, place(spec, {}), 0.5e-3);
+  for (const WearLaw law : {WearLaw::usfd, WearLaw::kth})
+    EXPECT_NEAR(worn_area(damage, damage.depth(law)) / streamline_area(rows, law), 1, 1e-9);
+  double energy = 0;
+  for (const CollectiveRow& r : rows) energy += r.passages * r.summary.damage.friction_energy;
+  EXPECT_NEAR(worn_area(damage, damage.friction_energy) / energy, 1, 1e-9);
+  EXPECT_DOUBLE_EQ(rows[0].summary.damage.usfd_depth, rows[1].summary.damage.usfd_depth);
+}
+
+// A wheel and a rail of one material lose the same volume; twice the hardness, half the depth.
+TEST(Collective, AWheelLosesOverADistanceWhatTheRailLosesBelowIt) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[material.rail]\nhardness = \"280 HV\"\n[material.wheel]\nhardness = \"560 "
+                                       "HV\"\n[[load]]\npassages = 3\n[[load]]\nlateral_shift = \"4 mm\"\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(faults(rows), 0);
+  const WheelDamage wheel = wheel_damage(rows, place(spec, {}), 0.5e-3);
+  const double turn = 2 * std::numbers::pi * spec.geometry.wheel_radius;
+  EXPECT_NEAR(turn * worn_area(wheel, wheel.usfd) / (streamline_area(rows, WearLaw::usfd) / 4), 1, 2e-3);
+  EXPECT_NEAR(turn * worn_area(wheel, wheel.kth) / (0.5 * streamline_area(rows, WearLaw::kth) / 4), 1, 2e-3);
+  EXPECT_TRUE(std::isnan(worn_area(wheel, wheel.archard)));
+}
+
+TEST(Collective, WheelsShiftedAlikeToEitherSideWearSymmetrically) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[[load]]\npassages = 7\nlateral_shift = \"3 mm\"\n"
+                                       "[[load]]\npassages = 7\nlateral_shift = \"-3 mm\"\n",
+                                   "a.toml")
+                            .spec;
+  const RailDamage damage = rail_damage(solved(spec), place(spec, {}), 0.5e-3);
+  const std::size_t n = damage.s.size();
+  double largest = 0;
+  for (const double d : damage.usfd) largest = std::max(largest, d);
+  ASSERT_GT(largest, 0);
+  for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(damage.usfd[i], damage.usfd[n - 1 - i], 1e-3 * largest) << i;
+}
+
+TEST(Collective, NeedsRowsAndRolling) {
+  EXPECT_THROW(plan_collective(parse_case("", "a.toml").spec), CaseError);
+  EXPECT_THROW(plan_collective(parse_case("[run]\nrolling = false\n[[load]]\n", "a.toml").spec), CaseError);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+
+#include "core/faults.hpp"
+#include "reader/case_file.hpp"
+#include "rules/case_rules.hpp"
+
+namespace railstrata {
+namespace {
+
+TEST(DeviceCase, TheDeviceIsReadAndWrittenBack) {
+  EXPECT_EQ(parse_case("", "a.toml").spec.run.device, ComputeDevice::cpu);
+  const LoadedCase loaded = parse_case("[run]\ndevice = \"gpu\"\n", "a.toml");
+  EXPECT_EQ(loaded.spec.run.device, ComputeDevice::gpu);
+  EXPECT_EQ(parse_case(loaded.resolved_toml, "a.toml").spec.run.device, ComputeDevice::gpu);
+}
+
+TEST(DeviceCase, WhatADeviceDoesNotTakeIsRefusedWithARemedy) {
+  const auto refused = [](const std::string& text, const std::string& what) {
+    try {
+      parse_case(text, "a.toml");
+      ADD_FAILURE() << text;
+    } catch (const CaseError& e) {
+      const std::string said = e.what();
+      EXPECT_NE(said.find("run.device: a device takes steps without " + what + " only"), std::string::npos) << said;
+      EXPECT_NE(said.find("remedy: run.device = \"cpu\""), std::string::npos) << said;
+    }
+  };
+  refused("[run]\ndevice = \"gpu\"\ntime_step_method = \"local\"\n", "run.time_step_method = \"local\"");
+  refused("[run]\ndevice = \"gpu\"\nplasticity = true\n[material.rail]\nyield_strength = \"500 MPa\"\n",
+          "run.plasticity = true");
+  refused("[run]\ndevice = \"gpu\"\n[friction]\nlateral_table = [[\"0 mm\", 0.2], [\"9 mm\", 0.4]]\n",
+          "friction.lateral_table");
+}
+
+TEST(DeviceCase, ItIsIdleWhereNothingRolls) {
+  const CaseSpec spec = parse_case("[run]\ndevice = \"gpu\"\nrolling = false\n", "a.toml").spec;
+  EXPECT_EQ(idle_settings(spec).size(), 1);
+}
+
+}  // namespace
+}  // namespace railstrata
