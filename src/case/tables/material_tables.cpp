@@ -140,7 +140,7 @@ std::vector<std::string> notes_of(const UnitTable& table, const std::filesystem:
 
 std::vector<CurvePoint> read_shear_yield(const std::string& text, const std::filesystem::path& file) {
   const std::array<Option, 2> options{Option{"pss", nullptr, "", dimension::kNumber, {0, 50}},
-                                      Option{"sys", nullptr, "", dimension::kPressure, above(0, 2e10)}};
+                                      Option{"sys", nullptr, "", dimension::kPressure, option_slot::above(0, 2e10)}};
   UnitTableForm form{{{&options[0], "plastic_shear_strain"}, {&options[1], "shear_yield_stress"}},
                      {},
                      "a table of points",
