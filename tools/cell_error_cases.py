@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Cases and fine-cell references behind the error bars of half-space results (docs/error-bars.md):
+"""Cases and fine-cell references behind the error bars of half-space results (docs/bem-verification.md):
 
     tools/cell_error_cases.py draw CASES.csv --seed 20 --number 150 [--program build/railstrata-bin]
     tools/cell_error_cases.py cover CASES.csv [--program build/railstrata-bin]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The table of docs/reliability.md: each promise of docs/reliability.toml, how it is tested, what was seen, the command
+"""The table of tests/records/README.md: each promise of docs/reliability.toml, its tests, what was seen, the command
 that repeats it.
 
 usage: reliability_table.py collect BUILD [--only WORD]   run the commands (those with WORD in them) and keep what they
@@ -23,7 +23,7 @@ import tomllib
 import types
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
-PAGE, PROMISES = SOURCE / "docs/reliability.md", SOURCE / "docs/reliability.toml"
+PAGE, PROMISES = SOURCE / "tests/records/README.md", SOURCE / "docs/reliability.toml"
 FACTS = SOURCE / "tests/records/facts.json"
 START, END = "<!-- table of tools/reliability_table.py -->", "<!-- end of the table -->"
 
