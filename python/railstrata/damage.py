@@ -9,7 +9,7 @@
     cycle = result.rail.at([[xi, 0, 2e-3] for xi in x])      # one passage of the wheel at a point
     rs.damage.dang_van(cycle, c=0.3).stress
 
-SI units; equations, ranges and sources stand in docs/damage-indices.md. What a case gives by itself is in
+SI units; equations, ranges and sources stand in docs/damage-theory.md. What a case gives by itself is in
 `result.damage`, `result.fatigue` and `result.shakedown`. Constants of a material have no default.
 """
 from __future__ import annotations

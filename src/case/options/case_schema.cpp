@@ -159,7 +159,7 @@ std::string more_about(const OptionTable& table) {
   if (table.name == "collective")
     return "\nThe file has the keys of [[load]] under their names with units, `wheel_load [kN]` or `wheel_load_kN`, a "
            "line a row; an empty\ncell means the value of the case. Results: "
-           "[docs/life.md](life.md#load-collectives).\n";
+           "[docs/damage.md](damage.md#load-collectives).\n";
   if (table.name == "layer")
     return "\n`young_table` gives a modulus that varies with depth, row by row from the layer's top, linear between "
            "the rows:\n\n"
