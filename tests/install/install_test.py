@@ -197,6 +197,8 @@ class PkgConfigConsumer(Consumer):
         manual = (SOURCE / "docs/library.md").read_text()
         rpath = "-Wl,-rpath,$(pkg-config --variable=libdir railstrata)"
         self.assertIn(rpath, manual)
+        for header in re.findall(r"`#include <(.*?)>`", manual):
+            self.assertTrue((PREFIX / "include" / header).exists(), header)
         includes, body = re.search(r"```cpp\n(.*?)```", manual, re.S)[1].split("\n\n", 1)
         (self.folder / "mine.cpp").write_text(f"{includes}\nint main() {{\n{body}}}\n")
         shutil.copy(PREFIX / "share/railstrata/cases/quick/case.toml", self.folder)
