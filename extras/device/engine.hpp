@@ -1,6 +1,6 @@
 #pragma once
 // The steps of a rolling on a device: elements, ties, added mass, ends, bore, contact, axle, suspension, node updates
-// and the energy book. Between the records of a few steps nothing is copied (docs/gpu.md).
+// and the energy book. Between the records of a few steps nothing is copied (README.md).
 #include "device/contact_arrays.hpp"
 #include "device/step_kernels.hpp"
 #include "fem/step_engine.hpp"

@@ -7,7 +7,7 @@
 // s_n: share of the work of the rank that has most; B_n: bytes that a rank receives; l, b: latency and bandwidth of the
 // network; r_n: share of T(1) that a rank spends on what others do too: the contact, in proportion to the share L of
 // the nodes that are on lines, and the lines that it keeps, in proportion to their share K_n, with copies into and out
-// of messages. c and o are measured for one mesh (docs/ranks.md).
+// of messages. c and o are measured for one mesh (extras/mpi/README.md).
 #include "model/model.hpp"
 
 namespace railstrata {

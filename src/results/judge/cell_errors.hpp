@@ -1,7 +1,7 @@
 #pragma once
 // Error bars of half-space results: what the size of the cells leaves uncertain in steady rolling of one patch. The
 // laws cost nothing beside the solution. Their constants are those that 98 % of 150 cases drawn at random keep, each
-// against its solution on cells of a quarter (tools/cell_error_cases.py, docs/error-bars.md).
+// against its solution on cells of a quarter (tools/cell_error_cases.py, docs/bem-verification.md).
 //
 // With h the cell, a the shorter semi-axis, r = sqrt(area / pi), L the patch's length, s the slip area, d2 the largest
 // second difference of the pressure of a cell and its neighbours, in either direction:

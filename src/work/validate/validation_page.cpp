@@ -122,11 +122,10 @@ ReportTable verdicts_of(std::span<const Validation> all) {
       {"bar", [](const VerdictLine& l) { return measured_text(*l.comparison->column, l.comparison->column->bar); }},
       {"verdict", [](const VerdictLine& l) { return agreement_text(l.comparison->agreement); }}};
   ReportTable table{.id = "verdicts",
-                    .title = "Answers against numbers of others",
+                    .title = "Comparison with published results",
                     .note =
-                        "A bar is chosen before a comparison, or the set says otherwise. Within the scatter: no "
-                        "further from the data than "
-                        "these scatter.",
+                        "A bar was chosen before the comparison unless the set notes otherwise. Within the scatter: "
+                        "no further from the data than their standard deviations.",
                     .columns = {},
                     .rows = {}};
   add_rows(table, lines, columns);
@@ -244,9 +243,8 @@ std::string comparison_svg(const Validation& validation, const ComparedColumn& c
 
 void write_validation_docs(const fs::path& docs, const std::vector<Validation>& all) {
   std::string text =
-      "# Held against numbers of others\n\nEvery set runs again with `railstrata validate` ([how](validate.md)); this "
-      "page is what `railstrata validate --all --docs docs` writes. A bar is chosen before a comparison, or the set "
-      "says otherwise.\n\n"
+      "# Comparison with published results\n\n`railstrata validate --all --docs docs` writes this page "
+      "([how](validate.md)). A bar was chosen before the comparison unless the set notes otherwise.\n\n"
       "| set | reference | verdict |\n|---|---|---|\n";
   for (const Validation& v : all)
     text += fmt::format("| {} | {} | {} |\n", v.set->title, v.set->reference, agreement_text(v.agreement));
