@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """The documentation as a site: pages of docs/, cards of cases and rooms, tutorial, interfaces of Python and C.
 
-usage: make_site.py [--out FOLDER] [--run] [--explorer PAGE] [ROOT]
+usage: make_site.py [--out FOLDER] [--run] [ROOT]
 
 Writes the site to FOLDER (default: ROOT/build/site) by MkDocs (Debian: mkdocs, mkdocs-material), strictly: a link to a
-page that is not there ends it. --run executes the tutorial for its pictures, with the package in build/python.
---explorer: a page of `railstrata explore`, which the first page then leads to. Pages ask for nothing from other
-machines; the search needs a server (python3 -m http.server -d FOLDER).
+page that is not there ends it. --run executes the tutorial for its pictures, with the package in build/python. The
+first page leads to web/explore.html, that of the last release. Pages ask for nothing from other machines; the search
+needs a server (python3 -m http.server -d FOLDER).
 Exit code: 0 done, 1 something is wrong, 77 a program is missing.
 """
 import argparse
@@ -269,7 +269,7 @@ def with_explorer(page, folder):
     first.write_text(text)
 
 
-def make(root, site, run, explorer=None):
+def make(root, site, run):
     work = site.parent / (site.name + "-pages")
     shutil.rmtree(work, ignore_errors=True)
     folder = work / "pages"
@@ -280,8 +280,7 @@ def make(root, site, run, explorer=None):
         if name.endswith(".md") and (root / name).exists():
             copy_page(name, root, folder, pages)
     copy_pictures(root, folder, pages)
-    if explorer:
-        with_explorer(explorer, folder)
+    with_explorer(root / "web/explore.html", folder)
     (folder / "python-interface.md").write_text(python_interface(root))
     (folder / "c-interface.md").write_text(c_interface(root))
     (folder / "site.css").write_text(STYLE)
@@ -298,13 +297,12 @@ def main():
     parser.add_argument("root", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--run", action="store_true")
-    parser.add_argument("--explorer", type=pathlib.Path)
     args = parser.parse_args()
     if not shutil.which("mkdocs"):
         print("make_site.py: mkdocs is missing (Debian: mkdocs, mkdocs-material)", file=sys.stderr)
         return 77
     root = args.root.resolve()
-    return int(make(root, (args.out or root / "build/site").resolve(), args.run, args.explorer))
+    return int(make(root, (args.out or root / "build/site").resolve(), args.run))
 
 
 if __name__ == "__main__":

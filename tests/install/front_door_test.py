@@ -20,7 +20,8 @@ class FrontDoor(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.folder.chmod(0o755)
         self.root, self.tools, self.work = (self.folder / name for name in ("checkout", "tools", "work"))
-        inside = [self.root / name for name in ("src/base/core", "extras", "cmake", "src/results/report", "web/dist", "build")]
+        inside = [self.root / name
+                  for name in ("src/base/core", "extras", "cmake", "src/results/report", "web/dist", "build")]
         for folder in (*inside, self.tools, self.work):
             folder.mkdir(parents=True)
         self.work.chmod(0o777)

@@ -1,4 +1,4 @@
-"""A number of the summary is said once: its symbol stands in src/results/result/result_table.cpp and in what is generated."""
+"""A number of the summary is said once: its symbol stands in src/results/result/result_table.cpp."""
 import json
 import pathlib
 import re
@@ -8,7 +8,6 @@ import unittest
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 ROW = "src/results/result/result_table.cpp"
-GENERATED = {"web/src/columns.ts"}
 # columns of every table, lines of screen and page, axes of a study's trends, rows of `compare`
 ALONE = {"layers/critical_flaw_m", "layers/interface_tension_Pa", "layers/interface_shear_Pa",
          "layers/interface_shear_range_Pa"}
@@ -18,9 +17,7 @@ MOST_ELSEWHERE = 54  # that checks, pictures and selections name besides, or who
 def texts():
     for place, ending in (("src", "*.?pp"), ("extras", "*.?pp"), ("web/src", "*.ts"), ("python", "*.py")):
         for file in sorted((SOURCE / place).rglob(ending)):
-            name = str(file.relative_to(SOURCE))
-            if name not in GENERATED:
-                yield name, " ".join(re.findall(r'"(?:[^"\\\n]|\\.)*"', file.read_text()))
+            yield str(file.relative_to(SOURCE)), " ".join(re.findall(r'"(?:[^"\\\n]|\\.)*"', file.read_text()))
 
 
 class Places(unittest.TestCase):

@@ -3,7 +3,9 @@ console says."""
 import base64
 import json
 import pathlib
+import re
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
@@ -24,6 +26,17 @@ for program, package in [("chromium", "chromium"), ("chromedriver", "chromium-dr
 
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--disable-sync", "--window-size=1366,900"]
+
+
+def engine_is_todays(sources):
+    """Whether the engine in web/dist was compiled from src/ as it stands: between releases it is older, and its numbers
+    are those of the commit that it names."""
+    commit = re.search(r"\((\w+)\)", (sources / "web/dist/engine_version.txt").read_text())[1]
+    try:
+        return subprocess.run(["git", "-C", sources, "diff", "--quiet", commit, "--", "src", "web/engine"],
+                              capture_output=True).returncode == 0
+    except FileNotFoundError:
+        return False
 
 
 class Browser:

@@ -7,7 +7,6 @@ railstrata_python_test(report:results ${here}/make_results.py ${railstrata} ${re
 railstrata_python_test(report:page SLOW ${here}/page_test.py ${railstrata} ${results})
 railstrata_python_test(report:passes_page ${here}/passes_page_test.py ${railstrata} ${CMAKE_SOURCE_DIR})
 railstrata_python_test(report:view SLOW ${here}/view_test.py ${results})
-railstrata_python_test(report:columns ${CMAKE_SOURCE_DIR}/web/columns.py ${railstrata} --check)
 railstrata_python_test(report:bundle ${here}/bundle_test.py ${CMAKE_SOURCE_DIR}/web)
 railstrata_python_test(report:what_if ${here}/what_if_page_test.py ${railstrata} ${results})
 set_tests_properties(report:what_if report:view report:passes_page PROPERTIES LABELS slow)

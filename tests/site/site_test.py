@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The documentation's site. usage: site_test.py SOURCE_DIR SITE BINARY"""
+"""The documentation's site. usage: site_test.py SOURCE_DIR SITE"""
 import html.parser
 import json
 import pathlib
@@ -101,10 +101,7 @@ class Parts(unittest.TestCase):
 
 if __name__ == "__main__":
     SITE.parent.mkdir(parents=True, exist_ok=True)
-    page = SITE.parent / "explore.html"
-    explore = [pathlib.Path(sys.argv[3]).resolve(), "explore", "cases/quick", "--force", "--out", page]
-    subprocess.run(explore, check=True, cwd=SOURCE)
-    made = subprocess.run([sys.executable, SOURCE / "tools/make_site.py", SOURCE, "--explorer", page, "--out", SITE])
+    made = subprocess.run([sys.executable, SOURCE / "tools/make_site.py", SOURCE, "--out", SITE])
     if made.returncode:
         sys.exit(made.returncode)
     unittest.main(argv=[sys.argv[0], "-v"])

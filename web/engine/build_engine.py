@@ -1,15 +1,14 @@
 #!/usr/bin/python3
 """Builds dist/engine.js and dist/engine.wasm.gz, the engine of the explorer's page, from the rooms of src/ as they
-stand, with the licences of what is inside and the hashes of the sources, which a test compares.
+stand, with the licences of what is inside and the version that the page names. It is made at a release (RELEASING.md):
+a change of a source does not ask for it.
 
-usage: web/engine/build_engine.py [--list] [FOLDER FOR OBJECTS]      --list: names sources and hashes, builds nothing
+usage: web/engine/build_engine.py [FOLDER FOR OBJECTS]
 
 It needs Debian's packages emscripten, ninja-build, libfmt-dev, libeigen3-dev, libtomlplusplus-dev and
 nlohmann-json3-dev. The sources are those that src/doors/explore/calls.cpp reaches by its #includes.
 """
 import gzip
-import hashlib
-import json
 import os
 import pathlib
 import re
@@ -56,7 +55,7 @@ def includes(file):
 
 
 def sources():
-    """(files to compile, all files read) below src/, sorted."""
+    """Files to compile, by room, sorted."""
     seen, todo = set(), [ENTRY]
     while todo:
         file = todo.pop()
@@ -69,7 +68,7 @@ def sources():
             if placed(own) and (own in CALLED_HERE or not own.startswith(TYPES_ALONE)):
                 todo.append(own)
         todo += ("/".join(f.parts[-2:]) for pattern in DEFINED_IN.get(file, ()) for f in SRC.glob(f"*/{pattern}"))
-    return sorted(f for f in seen if f.endswith(".cpp")), sorted(seen)
+    return sorted(f for f in seen if f.endswith(".cpp"))
 
 
 def ninja_file(objects, compiled):
@@ -88,11 +87,14 @@ def ninja_file(objects, compiled):
     return "\n".join(lines)
 
 
-def hashes():
-    """SHA-256 of every file that goes into the engine."""
-    _, read = sources()
-    files = [placed(f) for f in read] + sorted((HERE / "stand_in").iterdir()) + [HERE / "build_engine.py"]
-    return {str(f.relative_to(ROOT)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
+def version():
+    """As the program names itself: "0.4.0 (48540c40454e)"."""
+    def git(*words):
+        return subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True, check=True).stdout.strip()
+
+    number = re.search(r"^project\(.*?VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M | re.S)[1]
+    dirty = "+dirty" if git("status", "--porcelain", "--", "src", "web/engine") else ""
+    return f"{number} ({git('rev-parse', '--short=12', 'HEAD')}{dirty})"
 
 
 def licences():
@@ -109,8 +111,7 @@ def build(objects):
         link = objects / "headers" / name
         if not link.exists():
             link.symlink_to(folder)
-    compiled, _ = sources()
-    (objects / "build.ninja").write_text(ninja_file(objects, compiled))
+    (objects / "build.ninja").write_text(ninja_file(objects, sources()))
     # a Node that is not Debian's does not look where Debian has the parts that Emscripten asks for
     places = [os.environ.get("NODE_PATH", ""), "/usr/share/nodejs"]
     return subprocess.run(["ninja", "-C", objects, "-j2"], check=False,
@@ -118,14 +119,11 @@ def build(objects):
 
 
 def main():
-    if sys.argv[1:] == ["--list"]:
-        print(json.dumps(hashes(), indent=2))
-        return 0
     objects = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/wasm").resolve()
-    before = hashes()
+    before = version()
     if build(objects):
         return 1
-    if hashes() != before:
+    if version() != before:
         print("a source has changed while this was built: start it again", file=sys.stderr)
         return 1
     dist = HERE.parent / "dist"
@@ -134,8 +132,8 @@ def main():
     packed = gzip.compress((objects / "engine.wasm").read_bytes(), mtime=0)
     (dist / "engine.wasm.gz").write_bytes(packed)
     (dist / "explore_licences.txt").write_text(licences())
-    (dist / "engine_sources.json").write_text(json.dumps(before, indent=2) + "\n")
-    print(f"dist/engine.wasm.gz: {len(packed) / 1e6:.2f} MB from {len(sources()[0])} sources")
+    (dist / "engine_version.txt").write_text(before + "\n")
+    print(f"dist/engine.wasm.gz: {len(packed) / 1e6:.2f} MB from {len(sources())} sources, RailStrata {before}")
     return 0
 
 

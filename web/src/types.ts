@@ -100,3 +100,29 @@ export interface Summary {
   residual?: ResidualNumbers;
   run: Record<string, number|string|null>;
 }
+
+export interface Unit {
+  si: string;
+  shown: string;   // "MPa", "%", "inside|outside" for 0 and 1, "" for a plain number
+  factor: number;  // SI to what is shown
+}
+
+/// A number of summary.json and how it is written.
+export interface Quantity {
+  path: string;  // "contact/p_max_Pa"
+  name: string;
+  label: string;  // short, as in the head of a table
+  unit: Unit;
+  digits: number;  // significant ones
+  shown: boolean;
+  round_off: {share: number; of: string[]}|null;  // below share times the numbers at these paths nothing is a result
+  error_bar?: string|null;                        // path of its bar
+  comparable: boolean;  // false: a small remainder, or another thing in the other engine: no difference is shown
+}
+
+/// The program's list of results, as it stands in every page: a new number needs no new script.
+export interface NumberWords {
+  numbers: Quantity[];
+  zones: {key: string; name: string}[];
+  measures: {key: Measure; name: string}[];
+}

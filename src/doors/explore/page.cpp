@@ -19,6 +19,7 @@
 #include "record/markup_text.hpp"
 #include "report/base64.hpp"
 #include "report/page_parts.hpp"
+#include "report/result_reference.hpp"
 #include "result/patch.hpp"
 #include "spec/case_spec.hpp"
 #include "text/text_file.hpp"
@@ -66,6 +67,17 @@ bool takes_ratio(const LoadedCase& loaded, std::size_t layer) {
   }
 }
 
+/// Names and units of the numbers, so that a new one needs no new script.
+Json number_words() {
+  const Json all = results_reference_json();
+  return {{"numbers", all["numbers"]}, {"zones", all["zones"]}, {"measures", all["measures"]}};
+}
+
+std::string engine_version() {
+  const std::string_view line = explorer_engine_version();
+  return std::string(line.substr(0, line.find('\n')));
+}
+
 Json seed_of(const LoadedCase& loaded, const fs::path& as_given, double cell) {
   const fs::path file = loaded.file.lexically_normal();
   const fs::path stem = file.stem() == "case" ? fs::absolute(file).parent_path().filename() : file.stem();
@@ -79,7 +91,9 @@ Json seed_of(const LoadedCase& loaded, const fs::path& as_given, double cell) {
             {"files", Json::object()},
             {"ratioKeys", Json::array()},
             {"cell", cell},
-            {"version", version_text()}};
+            {"version", version_text()},
+            {"engine", engine_version()},
+            {"words", number_words()}};
   place_profile(loaded, "rail_profile", loaded.spec.geometry.rail_profile, seed);
   place_profile(loaded, "wheel_profile", loaded.spec.geometry.wheel_profile, seed);
   place_others(loaded, seed);
@@ -166,7 +180,7 @@ std::string page_of(const LoadedCase& loaded, const Json& seed) {
              "<noscript>This page computes with a script of its own; allow scripts to use it.</noscript>\n",
              policy, version_text(), markup_text(loaded.spec.title), explorer_style()) +
          data_block("data", "application/json", json_in_page(json_text(seed))) +
-         data_block("worker", "text/plain", explorer_worker()) +
+         data_block("worker", "text/plain", fmt::format("{}\n{}", explorer_engine_script(), explorer_worker())) +
          data_block("engine", "text/plain", base64_of(explorer_engine())) +
          data_block("licences", "text/plain", explorer_licences()) +
          fmt::format("<script>{}</script>\n</body>\n</html>\n", explorer_script());

@@ -16,7 +16,7 @@ function row(knob: Knob, state: State, changed: () => void): {node: HTMLElement;
   const slider = element("input", {type: "range", id: `s-${knob.id}`, "aria-label": knob.name, step: "any"});
   const field =
       element("input", {type: "number", id: `n-${knob.id}`, "aria-label": `${knob.name}, number`, step: "any"});
-  const none = element("span", {class: "none"}, knob.zeroIsNone ?? "");
+  const none = element("span", {class: "none"});
   const name = element("span", {class: "name"}, knob.name, knob.unit ? element("small", {}, ` ${knob.unit}`) : null);
   const node = element("label", {class: "knob"}, name, slider, field, none);
   const refresh = () => {
@@ -26,9 +26,11 @@ function row(knob: Knob, state: State, changed: () => void): {node: HTMLElement;
     if (document.activeElement !== slider) slider.value = String(toSlider(knob, value));
     if (document.activeElement !== field) field.value = String(value);
     node.classList.toggle("moved", state.moved.has(knob.id));
-    node.classList.toggle("empty", knob.zeroIsNone !== undefined && value === 0);
-    const off = knob.layer >= 0 && knob.key !== "thickness" && !state.has(knob.layer);
-    slider.disabled = field.disabled = off || state.fixed(knob);
+    const off = knob.layer >= 0 && !state.has(knob.layer);
+    const excluded = off ? null : state.excludedBy(knob);
+    slider.disabled = field.disabled = excluded !== null || (off && knob.key !== "thickness");
+    none.textContent = excluded ?? knob.zeroIsNone ?? "";
+    node.classList.toggle("empty", excluded !== null || (knob.zeroIsNone !== undefined && value === 0));
   };
   const take = (shown: number) => {
     state.set(knob, shown);

@@ -4,7 +4,7 @@ import {csvText, frame, type Figure} from "../figures";
 import {controls} from "./controls";
 import {Engine} from "./engine";
 import {centreFigure, depthFigure, measureChoice, patchFigures, sectionFigure, show, type Shown} from "./figures";
-import {lasting, numbersCsv, table, tiles} from "./numbers";
+import {lasting, numbersCsv, setWords, table, tiles} from "./numbers";
 import {profiles, type Kind} from "./profiles";
 import {reportedAnswer} from "./reported";
 import {kAsked, State, written} from "./state";
@@ -16,6 +16,7 @@ const kRest = 150;       // ms without a change before finer cells
 const seed = JSON.parse(embedded("data")) as Seed;
 // m, at rest: those of the command line or of the report among them
 const kCells = [...new Set([0.5e-3, 0.25e-3, 0.125e-3, seed.cell])].sort((a, b) => b - a);
+setWords(seed.words);
 const state = new State(seed);
 let cell = seed.cell;
 const reported = reportedAnswer(seed);
@@ -104,6 +105,8 @@ function take(a: Answer): void {
   root.classList.remove("waiting");
   refuse(false);
   faultBox.replaceChildren();
+  state.take(a.head);
+  side.refresh();
   const last = shown?.now;
   // stresses of before stay until those of now are there
   if (!a.head.section && last?.head.section) keepStresses(a, last);
@@ -315,11 +318,25 @@ function build(): void {
       "div", {class: "results"}, grid("three", patches), grid("two", lines), grid("two", sections),
       element("h2", {}, "Does it last?"), lastBox, element("h2", {}, "Numbers"), numberBox, noteBox);
   const about = element(
-      "p", {class: "note"}, `RailStrata ${seed.version}, the program's own half-space engine in this page: `,
-      "nothing is sent anywhere. The numbers are those of ", element("code", {}, "railstrata bem"), ".");
+      "p", {class: "note"}, `RailStrata ${seed.version}: the program's half-space engine runs in this page, `,
+      "nothing is sent anywhere. ", ...engineWords());
   document.body.append(element(
       "main", {}, element("header", {}, title, buttons, status), element("div", {class: "both"}, aside, head, results),
       element("footer", {}, about, licences())));
+}
+
+/// Whose numbers these are: the engine is compiled at a release, the page is written by any program since.
+function engineWords(): (string|HTMLElement)[] {
+  const command = element("code", {}, "railstrata bem");
+  if (seed.engine === seed.version) return ["The numbers are those of ", command, "."];
+  const release = (text: string) => text.split(" ")[0];
+  const here = element("span", {id: "engine-version"}, seed.engine);
+  if (release(seed.engine) === release(seed.version))
+    return ["The engine was compiled from ", here, ": the numbers are those of ", command, " at that commit."];
+  return [
+    "The engine is older than the program: it was compiled from ", here, ", and its numbers are those of ", command,
+    " of that version."
+  ];
 }
 
 function licences(): HTMLElement {

@@ -1,13 +1,12 @@
 // The numbers of a state, with what they have changed by against the pinned one.
-import {kColumns, kMeasures, kZones, type Column} from "../columns";
 import {element} from "../dom";
 import type {DataTable} from "../figures";
 import {minus, numberText} from "../text";
-import type {Summary} from "../types";
+import type {NumberWords, Quantity, Summary} from "../types";
 import type {Answer} from "./types";
 
 /// A number that is shown: of the program's list, or a stress of a zone.
-interface Shown extends Pick<Column, "name"|"unit"|"digits"> {
+interface Shown extends Pick<Quantity, "name"|"unit"|"digits"> {
   path: string;
   tile: boolean;
 }
@@ -53,17 +52,25 @@ const kPaths = [
   "shakedown/factors/kinematic",
 ];
 
-/// A column by its path; the parts of a stress have names and units of their own.
-function columnAt(path: string): Pick<Column, "name"|"unit"|"digits"> {
-  const known = kColumns.find((c) => c.path === path);
-  if (known) return known;
-  const [, body, zone, measure, what] = path.split("/");
-  const like = kColumns.find((c) => c.path === (what === "depth_m" ? "plastic/depth_m" : "contact/p_max_Pa"))!;
-  const name = `${kMeasures[measure]} ${kZones[zone]}, ${body}`;
-  return {...like, name: what === "depth_m" ? `${name}: depth` : name};
-}
+let numbers: Shown[] = [];
 
-const kNumbers: Shown[] = kPaths.map((path) => ({...columnAt(path), path, tile: kTiles.has(path)}));
+/// Set once, before anything is shown. The parts of a stress get their names from zone and measure; a path that the
+/// program's list does not have is left out.
+export function setWords(words: NumberWords): void {
+  const at = (path: string) => words.numbers.find((n) => n.path === path);
+  const stressAt = (path: string) => {
+    const [group, body, zone, measure, what] = path.split("/");
+    const like = at(what === "depth_m" ? "plastic/depth_m" : "contact/p_max_Pa");
+    if (group !== "stress" || !like) return undefined;
+    const named = (rows: {key: string; name: string}[], key?: string) => rows.find((r) => r.key === key)?.name ?? key;
+    const name = `${named(words.measures, measure)} ${named(words.zones, zone)}, ${body}`;
+    return {...like, name: what === "depth_m" ? `${name}: depth` : name};
+  };
+  numbers = kPaths.flatMap((path) => {
+    const found = at(path) ?? stressAt(path);
+    return found ? [{...found, path, tile: kTiles.has(path)}] : [];
+  });
+}
 
 /// In SI; null where the summary has none.
 function valueOf(n: Shown, s: Summary): number|null {
@@ -96,7 +103,7 @@ function change(now: number|null, before: number|null, digits: number): string {
 export function tiles(a: Answer, against: Answer|null, last: Answer|null): HTMLElement[] {
   const s = a.head.summary;
   const known = (n: Shown) => shown(n, s) !== null || (last !== null && shown(n, last.head.summary) !== null);
-  return kNumbers.filter((n) => n.tile && known(n)).map((n) => {
+  return numbers.filter((n) => n.tile && known(n)).map((n) => {
     const value = shown(n, s);
     const difference = against ? change(value, shown(n, against.head.summary), 3) : "";
     return element(
@@ -111,7 +118,7 @@ export function tiles(a: Answer, against: Answer|null, last: Answer|null): HTMLE
 export function table(a: Answer, pinned: Answer|null): HTMLElement {
   const head =
       ["", "now", ...(pinned ? [pinned.name ?? "pin", "change"] : [])].map((t) => element("th", {scope: "col"}, t));
-  const rows = kNumbers.filter((n) => shown(n, a.head.summary) !== null).map((n) => {
+  const rows = numbers.filter((n) => shown(n, a.head.summary) !== null).map((n) => {
     const now = shown(n, a.head.summary), then = pinned ? shown(n, pinned.head.summary) : null;
     const name =
         element("th", {scope: "row"}, n.name, n.unit.shown ? element("small", {}, ` [${n.unit.shown}]`) : null);
@@ -122,7 +129,7 @@ export function table(a: Answer, pinned: Answer|null): HTMLElement {
       "table", {class: "numbers"}, element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows));
 }
 
-/// Does it last? By zone; nothing without strengths.
+/// Does it last? The answer as `railstrata bem` prints it, then the factors by zone; nothing without strengths.
 export function lasting(a: Answer): HTMLElement|null {
   const found = a.head.summary.shakedown;
   if (!found) return null;
@@ -135,10 +142,12 @@ export function lasting(a: Answer): HTMLElement|null {
                          "tr", {}, element("th", {scope: "row"}, `${b.body}: ${z.zone}`),
                          element("td", {}, text(z.factors.wandering, 3)),
                          element("td", {}, percent(z.factors.wandering)), element("td", {}, z.verdict ?? "–"))));
-  const titles = ["", "factor", "reserve", "verdict"].map((t) => element("th", {scope: "col"}, t));
+  const titles = ["", "load factor", "reserve", "by the load factors"].map((t) => element("th", {scope: "col"}, t));
   const notes = found.bodies.flatMap((b) => b.notes).map((n) => element("p", {class: "note"}, n));
+  const {answer} = found;
+  const words = answer ? element("p", {class: `answer ${answer.tone}`}, `${answer.lasts}: ${answer.reason}`) : null;
   return element(
-      "div", {}, element("p", {class: "answer"}, `Under wandering traffic: ${found.verdict ?? "–"}`),
+      "div", {}, words,
       element(
           "div", {class: "scroll"},
           element(
@@ -149,7 +158,7 @@ export function lasting(a: Answer): HTMLElement|null {
 
 /// All numbers as summary.json has them: by path, in SI.
 export function numbersCsv(a: Answer): DataTable {
-  const rows = kNumbers.flatMap((n) => {
+  const rows = numbers.flatMap((n) => {
     const value = valueOf(n, a.head.summary);
     return value === null ? [] : [[n.path, String(Number(value.toPrecision(12))), n.unit.si]];
   });

@@ -22,6 +22,7 @@ export interface Knob {
 const kLoads = ["vehicle.sprung_mass", "vehicle.wheel_load", "vehicle.axle_load", "vehicle.approach"];
 const kTractions = ["drive.traction_coefficient", "drive.tractive_force", "drive.creepage"];
 export const kSlots = 2;
+const kByTable = "the layer's young_table gives thickness and stiffness";
 
 function layerKnobs(k: number): Knob[] {
   const group = k === 0 ? "Layer" : "Second layer";
@@ -174,7 +175,8 @@ export class State {
   private initial = new Map<string, number>();
   private present = 0;  // layers of the case
   private lines: [string, string][][] = [];
-  private graded: boolean[] = [];
+  /// Keys of the case without effect, and why: by the engine's answer and the page's own knowledge.
+  private excluded: Record<string, string> = {};
 
   constructor(private readonly seed: Seed) {}
 
@@ -182,12 +184,19 @@ export class State {
   learn(head: Head): void {
     this.present = head.layers.length;
     this.lines = layerLines(head.case ?? "");
-    this.graded = head.layers.map((l) => l.graded);
+    this.take(head);
     kKnobs.forEach((knob, k) => {
       const value = head.values[kAsked[k]!];
       const shown = value === null || value === undefined ? knob.preset : value * knob.factor;
       if (shown !== undefined) this.initial.set(knob.id, Number(shown.toPrecision(10)));
     });
+  }
+
+  /// What an answer says of the state that it answers.
+  take(head: Head): void {
+    const tables = head.layers.flatMap(
+        (l, k) => (l.graded ? ["thickness", "young_ratio"].map((key) => [`layer.${k}.${key}`, kByTable]) : []));
+    this.excluded = {...Object.fromEntries(tables), ...head.excluded};
   }
 
   first(knob: Knob): number { return this.initial.get(knob.id) ?? knob.preset ?? knob.low; }
@@ -202,9 +211,10 @@ export class State {
 
   private knob(id: string): Knob { return kKnobs.find((k) => k.id === id)!; }
 
-  /// A table by depth gives thickness and stiffness: there is nothing to slide.
-  fixed(knob: Knob): boolean {
-    return ["thickness", "young_ratio"].includes(knob.key) && this.graded[knob.layer] === true;
+  /// Why a number has no effect in this state; null: it has.
+  excludedBy(knob: Knob): string|null {
+    const before = [...Array(Math.max(knob.layer, 0)).keys()].filter((k) => this.has(k)).length;
+    return this.excluded[knob.layer < 0 ? knob.key : `layer.${before}.${knob.key}`] ?? null;
   }
 
   /// Whether a slot of a layer has one. A thickness below zero is no way to say "none": the engine reports its range.

@@ -1,7 +1,9 @@
-// What the program puts into the page (src/doors/explore/page.cpp), and what the engine answers (src/doors/explore/solve.hpp).
-import type {Summary} from "../types";
+// What the program puts into the page (src/doors/explore/page.cpp), and what the engine answers
+// (src/doors/explore/solve.hpp).
+import type {NumberWords, Summary} from "../types";
 
-/// Numbers, centre line, border of the patch and largest stresses over depth of a result, SI (src/doors/explore/page.cpp).
+/// Numbers, centre line, border of the patch and largest stresses over depth of a result, SI
+/// (src/doors/explore/page.cpp).
 export interface Reported {
   summary: Summary;
   x: number[];
@@ -21,8 +23,10 @@ export interface Seed {
   files: Record<string, string>;  // that the case reads, by the name below the folder
   ratioKeys: boolean[];           // of each layer: it takes young_ratio; else young
   cell: number;                   // m
-  version: string;
-  reported?: Reported;  // inside a report: its own result
+  version: string;                // of the program that wrote the page
+  engine: string;                 // of the program that the engine was compiled from
+  words: NumberWords;             // names and units of the numbers
+  reported?: Reported;            // inside a report: its own result
 }
 
 export interface Fault {
@@ -77,6 +81,7 @@ export interface Head {
   values: Record<string, number|null>;
   layers: LayerHead[];
   strengths: boolean;
+  excluded?: Record<string, string>;  // keys without effect in this case: why
   doubts: string[];
   notes: string[];
   milliseconds: number;

@@ -1,7 +1,7 @@
 // What the program puts into the page: src/results/report/payload.cpp writes it, this file reads it. Millimetres, MPa,
 // milliseconds and newtons, except in `summary`, which is summary.json as it stands (SI).
 import type {Dash} from "../chart";
-import type {BodyName, Measure, Summary, Values} from "../types";
+import type {BodyName, NumberWords, Summary, Unit, Values} from "../types";
 
 /// Numbers to 1/65534 of their range: 16-bit steps in base64; 65535 is "no value".
 interface PackedNumbers {
@@ -196,23 +196,6 @@ export interface Grids {
   grids: VerdictGrid[];
 }
 
-export interface Unit {
-  shown: string;   // "MPa", "%", "inside|outside" for 0 and 1, "" for a plain number
-  factor: number;  // SI to what is shown
-}
-
-/// A number of summary.json and how it is written.
-export interface Quantity {
-  path: string;  // "contact/p_max_Pa"
-  name: string;
-  unit: Unit;
-  digits: number;  // significant ones
-  shown: boolean;
-  round_off: {share: number; of: string[]}|null;  // below share times the numbers at these paths nothing is a result
-  error_bar?: string|null;                        // path of its bar
-  comparable: boolean;  // false: a small remainder, or another thing in the other engine: no difference is shown
-}
-
 export interface CheckWords {
   key: string;
   name: string;
@@ -267,11 +250,9 @@ export interface VerdictWords {
   lasts: boolean;
 }
 
-/// The words for results, from the program's tables (src/results/result/result_table.cpp, src/results/judge/check_limits.hpp).
-export interface Words {
-  numbers: Quantity[];
-  zones: {key: string; name: string}[];
-  measures: {key: Measure; name: string}[];
+/// The words for results, from the program's tables (src/results/result/result_table.cpp,
+/// src/results/judge/check_limits.hpp).
+export interface Words extends NumberWords {
   checks: CheckWords[];
   verdicts: VerdictWords[];
 }

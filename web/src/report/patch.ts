@@ -1,5 +1,4 @@
 // The contact patch: maps of pressure, traction, slip and state, and the centre line.
-import {kColumns} from "../columns";
 import {element, table} from "../dom";
 import type {Figure} from "../figures";
 import {magnitudeScale, signedScale, stateScale} from "../scale";
@@ -17,7 +16,7 @@ import {
 } from "./data";
 import {linesFigure, type Series} from "./lines";
 import {mapFigure, type Arrow, type MapSpec} from "./maps";
-import {runLabel, withoutRoundOff} from "./words";
+import {quantityAt, runLabel, withoutRoundOff} from "./words";
 
 /// A patch of a run, y from the rigid contact point as in the tables; nothing outside the contact.
 export interface Patch {
@@ -325,7 +324,7 @@ export function centreLines(runs: Run[]): Figure[] {
 /// The patches of wheels that touch at several places, a row each.
 export function patchesTable(runs: Run[]): HTMLElement|null {
   const keys = ["contact_angle_rad", "F_x_N", "F_y_N", "F_z_N", "p_max_Pa", "patch_area_m2", "spin_per_m"];
-  const columns = keys.map((key) => kColumns.find((c) => c.path === `contact/${key}`)!);
+  const columns = keys.map((key) => quantityAt(`contact/${key}`));
   const rows = runs.flatMap((run) => (run.summary.patches ?? []).map((patch, k) => {
     const numberOf = (path: string) => patch[path.replace("contact/", "")] ?? null;
     const numbers = columns.map(({path, unit}) => {

@@ -1,8 +1,8 @@
 // Verdict, numbers and origin: the parts of the page around the patch and its stresses.
 import {details, element, note, table, tableHead, type Cell} from "../dom";
 import {barText, countText, numberText, percentText} from "../text";
-import type {BodyName, Values} from "../types";
-import {numberAt, option, type Answer, type Check, type CheckWords, type Quantity, type Report, type Run} from "./data";
+import type {BodyName, Quantity, Values} from "../types";
+import {numberAt, option, type Answer, type Check, type CheckWords, type Report, type Run} from "./data";
 import {
   checkWords,
   engineName,

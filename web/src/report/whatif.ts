@@ -1,4 +1,5 @@
-// The explorer on the case of the report, in a frame of its own (src/doors/explore/page.cpp): there if it was asked for.
+// The explorer on the case of the report, in a frame of its own (src/doors/explore/page.cpp): there if it was asked
+// for.
 import {details, element, note, part} from "../dom";
 
 const page = () => document.getElementById("what-if-page");

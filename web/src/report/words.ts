@@ -1,6 +1,7 @@
 // Words: what checks and quantities are called.
 import {minus, numberText} from "../text";
-import type {CheckWords, Quantity, Run, Unit, VerdictWords, Words} from "./data";
+import type {Quantity, Unit} from "../types";
+import type {CheckWords, Run, VerdictWords, Words} from "./data";
 
 export function engineName(engine: string): string {
   if (engine === "fem") return "finite elements";
@@ -12,6 +13,7 @@ export function runLabel(run: Run): string { return `${run.name} (${engineName(r
 // The program's tables of results give names and units; set once, before anything is built.
 let words: Words = {numbers: [], zones: [], measures: [], checks: [], verdicts: []};
 const kPlain: Unit = {
+  si: "",
   shown: "",
   factor: 1
 };
@@ -51,7 +53,8 @@ function inUnit(value: number|null, unit: Unit, text: (shown: number) => string)
 export function shownQuantities(): Quantity[] { return words.numbers.filter((q) => q.shown); }
 
 export function quantityAt(path: string): Quantity {
-  const unknown = {path, name: path, unit: kPlain, digits: 4, shown: true, comparable: false, round_off: null};
+  const unknown =
+      {path, name: path, label: path, unit: kPlain, digits: 4, shown: true, comparable: false, round_off: null};
   return words.numbers.find((q) => q.path === path) ?? unknown;
 }
 
