@@ -255,7 +255,7 @@ void write_validation_docs(const fs::path& docs, const std::vector<Validation>& 
     if (!has_chart(*v.set)) continue;
     for (std::size_t k = 0; k < v.set->compared.size(); ++k) {
       write_whole_file(docs / "images" / picture_name(v, k), comparison_svg(v, v.set->compared[k]));
-      text += fmt::format("![{} of {}](images/{})\n\n", v.set->compared[k].title, v.set->title, picture_name(v, k));
+      text += fmt::format("![{}](images/{})\n\n", v.set->compared[k].title, picture_name(v, k));
     }
   }
   while (text.ends_with("\n\n")) text.pop_back();
