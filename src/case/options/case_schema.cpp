@@ -102,8 +102,8 @@ constexpr const char* kAboutTransient =
     "that of [drive].\nA shift begins at rest under the first row's load and goes from row to row; a direction without "
     "a "
     "column is held.\n`history_file` has the columns under their names with units, `distance [mm]` or `distance_mm`, a "
-    "line a row, commas,\nsemicolons or tabs between them, with the last two decimal commas too (`2,5; 102`). How it "
-    "is\nfollowed and what comes out: [docs/bem.md](bem.md#transients). Signs: "
+    "line a row, commas,\nsemicolons or tabs between them, with the last two decimal commas too (`2,5; 102`). Results: "
+    "[docs/bem.md](bem.md#transients). Signs: "
     "[conventions](conventions.md#axes-and-signs).\n";
 
 std::string about_conditions() {
@@ -134,7 +134,7 @@ std::string about_conditions() {
 std::string more_about(const OptionTable& table) {
   if (table.name == "geometry")
     return "\n`rail_profile` and `wheel_profile` also take an arc, `\"arc:R=200 mm\"`: convex of this radius, hollow "
-           "with `R=-450 mm`;\n`\"flat\"` is a plane. Both are 60 mm wide, or as `W=` has it: `\"flat:W=10 mm\"`, "
+           "with `R=-450 mm`;\n`\"flat\"` is a plane. Both are 60 mm wide, or have the width `W=`: `\"flat:W=10 mm\"`, "
            "`\"arc:R=300 mm, W=10 mm\"`. "
            "Profile files: "
            "[data/profiles](../data/profiles/README.md).\n";

@@ -42,11 +42,11 @@ std::vector<Option> creepage_options() {
              "Longitudinal creepage (V - omega r) / V, instead of the traction; negative drives, 1 is a locked wheel",
              kNumber, {-10, 1}),
       option("wheel_rotation", at<&C::drive, &D::creepage>,
-             "Of the wheel's spindle, instead of the creepage: that is 1 - rotation * wheel_radius / speed", kRotation,
-             {0, 1e5})
+             "Rotation of the wheel's spindle, instead of the creepage = 1 - rotation * wheel_radius / speed",
+             kRotation, {0, 1e5})
           .derived({creepage_of_rotation, "give another rotation, geometry.wheel_radius or speed"}),
       option("lateral_force", at<&C::drive, &D::lateral_traction_coefficient>,
-             "Friction force F_y on the wheel along the contact plane; positive towards the field side", kForce,
+             "Friction force F_y on the wheel along the contact plane, positive towards the field side", kForce,
              {-1e7, 1e7})
           .derived({over_static_load, kLessForce}),
       option("lateral_traction_coefficient", at<&C::drive, &D::lateral_traction_coefficient>, "The same force over G",
@@ -55,14 +55,13 @@ std::vector<Option> creepage_options() {
              "Along the contact plane, positive where the wheel slips towards the field side; finite elements: the "
              "wheel moves sideways on its way",
              kNumber, {-10, 10}),
-      choice_at<&C::drive, &D::creepage_of>("creepage_of",
-                                            "What creepages are of, here and in a collective: the contact that touches "
-                                            "first, in its plane; or the wheel, "
-                                            "(V - omega wheel_radius) / V of its tape circle and its slip sideways, "
-                                            "level, of which every contact has what "
-                                            "its radius and angle make of it. Of a wheel on tread and flange a change "
-                                            "of shift changes which touches first",
-                                            {{"contact", CreepageOf::contact}, {"wheel", CreepageOf::wheel}}),
+      choice_at<&C::drive, &D::creepage_of>(
+          "creepage_of",
+          "Meaning of the creepages, here and in a collective: those of the contact that touches first, in its plane; "
+          "or of the wheel, (V - omega wheel_radius) / V at its tape circle and its horizontal lateral slip, from "
+          "which each contact's creepages follow by its radius and angle. For a wheel on tread and flange use "
+          "\"wheel\": a small shift changes which contact touches first",
+          {{"contact", CreepageOf::contact}, {"wheel", CreepageOf::wheel}}),
       option("spin", at<&C::drive, &D::spin>,
              "About the normal of the contact plane, over V, positive from the rolling direction towards the field "
              "side; half-space engine",
@@ -113,8 +112,8 @@ OptionTable vehicle_table() {
                .derived({sprung_mass_under_axle, kMoreLoad})
                .or_mass(),
            option("approach", at<&C::vehicle, &V::approach>,
-                  "By how much wheel and rail come together along the contact normal, instead of a load, which is then "
-                  "a result; half-space engine",
+                  "Approach of wheel and rail along the contact normal, instead of a load, which is then a result; "
+                  "half-space engine",
                   kLength, above(0, 0.01)),
            option("suspension_stiffness", at<&C::vehicle, &V::suspension_stiffness>, "Of all groups together",
                   kStiffness, {0, 1e10}),
@@ -124,7 +123,7 @@ OptionTable vehicle_table() {
                   "Spring and dashpot groups around the axle", kNumber, {1, 64}),
            option("gravity", at<&C::vehicle, &V::gravity>, "Acceleration of gravity", kAcceleration, above(0, 100)),
            option("couple_sprung_mass", at<&C::vehicle, &V::couple_sprung_mass>,
-                  "The sprung mass rides along with the axle lengthwise and adds its inertia to it")},
+                  "The sprung mass moves longitudinally with the axle and adds its inertia")},
           {},
           {{"sprung_mass", "wheel_load", "axle_load", "approach"}}};
 }
@@ -133,10 +132,11 @@ OptionTable drive_table() {
   OptionTable out{
       "drive",
       "Speed, traction and friction",
-      {option("speed", at<&C::drive, &D::speed>, "Rolling speed; of a rail that turns its surface's", kSpeed,
+      {option("speed", at<&C::drive, &D::speed>, "Rolling speed; of a rotating rail the speed of its surface", kSpeed,
               above(0, 200)),
        option("rail_rotation", at<&C::drive, &D::speed>,
-              "Of the roller's spindle, instead of the speed: that is rotation * rail_radius", kRotation, above(0, 1e5))
+              "Rotation of the roller's spindle, instead of the speed = rotation * rail_radius", kRotation,
+              above(0, 1e5))
            .derived({surface_speed, "give geometry.rail_radius, or another rotation"}),
        option("traction_coefficient", at<&C::drive, &D::traction_coefficient>,
               "Wanted F_T / G; positive drives, negative brakes", kNumber, {-1, 1})
@@ -145,7 +145,7 @@ OptionTable drive_table() {
               kForce, {-1e7, 1e7})
            .derived({over_static_load, kLessForce}),
        option("friction_coefficient", at<&C::drive, &D::friction_coefficient>,
-              "Coulomb's coefficient; of friction that falls with slip the one at rest", kNumber, {0, 2}),
+              "Coulomb's coefficient; with falling friction the coefficient at rest", kNumber, {0, 2}),
        option("torque_ramp", at<&C::drive, &D::torque_ramp>, "Smooth rise of the torque at the start", kTime, {0, 1}),
        option("creepage_start", at<&C::drive, &D::creepage_start>,
               "Longitudinal creepage at the start, (V - omega r) / V: negative drives", kNumber, {-0.1, 0.1})},
@@ -163,8 +163,7 @@ OptionTable friction_table() {
       "friction",
       "How friction depends on slip; at rest it is drive.friction_coefficient",
       {option("condition", at<&C::friction, &F::condition>,
-              "A set by name of drive.friction_coefficient, this table and third_body, under the keys that are given "
-              "beside it")
+              "A named set of drive.friction_coefficient, this table and third_body; keys that are given override it")
            .where(named_condition),
        choice_at<&C::friction, &F::law>("law",
                                         "Coulomb's constant coefficient, or one that falls with the slip velocity "
@@ -175,8 +174,8 @@ OptionTable friction_table() {
        option("kinetic_coefficient", at<&C::friction, &F::kinetic_coefficient>,
               "Falling laws: the coefficient's limit for fast slip", kNumber, {0, 2})
            .where(falls),
-       option("half_velocity", at<&C::friction, &F::half_velocity>,
-              "Falling laws: slip velocity at which half of the fall is done", kSpeed, above(0, 100))
+       option("half_velocity", at<&C::friction, &F::half_velocity>, "Falling laws: slip velocity at half of the fall",
+              kSpeed, above(0, 100))
            .where(falls),
        option("memory_distance", at<&C::friction, &F::memory_distance>,
               "Falling laws: sliding distance over which the coefficient follows the slip velocity; 0: at once. "
@@ -184,8 +183,7 @@ OptionTable friction_table() {
               kLength, {0, 10 * kMilli})
            .where(falls),
        option("memory_velocity", at<&C::friction, &F::memory_velocity>,
-              "With memory_distance: the coefficient follows as if slip were at least as fast, so that it comes "
-              "back at rest",
+              "With memory_distance: smallest velocity with which the coefficient follows, so that it recovers at rest",
               kSpeed, {0, 10})
            .where(remembers),
        table_over(column("y", "", kLength, {-0.2, 0.2}), column("coefficient", "", kNumber, {0, 2}), "lateral_table",
@@ -204,10 +202,10 @@ OptionTable friction_table() {
                   "half-space engine",
                   R"([["20 K", 1], ["400 K", 0.6]])"),
        option("rail_temperature", at<&C::friction, &F::rail_temperature>,
-              "Of the rail as it comes into the contact, with the zero of the temperature tables", kTemperature,
+              "Temperature of the rail before the contact, with the zero of the temperature tables", kTemperature,
               {-300, 3000})
            .where(has_temperature),
-       option("wheel_temperature", at<&C::friction, &F::wheel_temperature>, "The same of the wheel", kTemperature,
+       option("wheel_temperature", at<&C::friction, &F::wheel_temperature>, "The same for the wheel", kTemperature,
               {-300, 3000})
            .where(has_temperature)}};
 }
@@ -226,10 +224,10 @@ OptionTable third_body_table() {
                   kPressureGradient, {-1e15, 1e15})
                .where(has_film),
            option("residual_shear", at<&C::third_body, &Film::residual_shear>,
-                  "A film that softens: its yield_shear after much shear", kPressure, above(0, 1e11))
+                  "Softening film: yield_shear after large shear", kPressure, above(0, 1e11))
                .where(softens),
            option("yield_by_pressure", at<&C::third_body, &Film::yield_by_pressure>,
-                  "Rise of yield_shear by the pressure of a place; half-space engine", kNumber, {0, 10})
+                  "Rise of yield_shear per local pressure; half-space engine", kNumber, {0, 10})
                .where(has_film),
            option("modulus_by_pressure", at<&C::third_body, &Film::modulus_by_pressure>, "The same of shear_modulus",
                   kNumber, {0, 1000})

@@ -11,33 +11,32 @@ using C = CaseSpec;
 using G = GeometrySpec;
 
 std::vector<Option> shape_options() {
-  return {
-      option("rail_profile", at<&C::geometry, &G::rail_profile>,
-             "A built-in name (see `railstrata info`), an arc, or a file (two columns, Simpack, MiniProf), "
-             "relative to the case file"),
-      option("wheel_profile", at<&C::geometry, &G::wheel_profile>,
-             "A built-in name, an arc, or a file (two columns, Simpack, MiniProf), relative to the case file"),
-      option("rail_mirror", at<&C::geometry, &G::rail_mirror>,
-             "A rail from a file: y is turned round first, for a right-hand rail with its gauge side at y > 0"),
-      option("rail_offset", at<&C::geometry, &G::rail_offset>,
-             "A rail from a file: added to its y. Points measured from the gauge face of a head 72 mm wide, running "
-             "into it: \"-36 mm\"",
-             kLength, {-0.2, 0.2}),
-      option("wheel_mirror", at<&C::geometry, &G::wheel_mirror>, "A wheel from a file: y is turned round first"),
-      option("wheel_offset", at<&C::geometry, &G::wheel_offset>,
-             "A wheel from a file: added to its y. Points measured from the flange back: \"-70 mm\"", kLength,
-             {-0.2, 0.2}),
-      choice_at<&C::geometry, &G::rail_shape>("rail_shape",
-                                              "Whole rail section, or a block with the profile on top (verification)",
-                                              {{"rail", RailShape::rail}, {"block", RailShape::block}}),
-      choice_at<&C::geometry, &G::wheel_shape>("wheel_shape", "Rim, web and hub, or a plain disc (verification)",
-                                               {{"wheel", WheelShape::wheel}, {"disc", WheelShape::disc}}),
-      choice_at<&C::geometry, &G::contact>("contact",
-                                           "A patch, closed all round; or a line: a cylinder on a plane in plane "
-                                           "strain (both profiles \"flat\", half-space engine)",
-                                           {{"point", ContactShape::point}, {"line", ContactShape::line}}),
-      option("line_length", at<&C::geometry, &G::line_length>, "contact = \"line\": length that bears the load evenly",
-             kLength, {0.1 * kMilli, 10.0})};
+  return {option("rail_profile", at<&C::geometry, &G::rail_profile>,
+                 "A built-in name (see `railstrata info`), an arc, or a file (two columns, Simpack, MiniProf), "
+                 "relative to the case file"),
+          option("wheel_profile", at<&C::geometry, &G::wheel_profile>,
+                 "A built-in name, an arc, or a file (two columns, Simpack, MiniProf), relative to the case file"),
+          option("rail_mirror", at<&C::geometry, &G::rail_mirror>,
+                 "A rail from a file: y is mirrored first, for a right-hand rail with its gauge side at y > 0"),
+          option("rail_offset", at<&C::geometry, &G::rail_offset>,
+                 "A rail from a file: added to its y. For points measured from the gauge face into a head 72 mm wide: "
+                 "\"-36 mm\"",
+                 kLength, {-0.2, 0.2}),
+          option("wheel_mirror", at<&C::geometry, &G::wheel_mirror>, "A wheel from a file: y is mirrored first"),
+          option("wheel_offset", at<&C::geometry, &G::wheel_offset>,
+                 "A wheel from a file: added to its y. For points measured from the flange back: \"-70 mm\"", kLength,
+                 {-0.2, 0.2}),
+          choice_at<&C::geometry, &G::rail_shape>(
+              "rail_shape", "Whole rail section, or a block with the profile on top (verification)",
+              {{"rail", RailShape::rail}, {"block", RailShape::block}}),
+          choice_at<&C::geometry, &G::wheel_shape>("wheel_shape", "Rim, web and hub, or a plain disc (verification)",
+                                                   {{"wheel", WheelShape::wheel}, {"disc", WheelShape::disc}}),
+          choice_at<&C::geometry, &G::contact>("contact",
+                                               "A closed patch; or a line: a cylinder on a plane in plane strain (both "
+                                               "profiles \"flat\", half-space engine)",
+                                               {{"point", ContactShape::point}, {"line", ContactShape::line}}),
+          option("line_length", at<&C::geometry, &G::line_length>,
+                 "contact = \"line\": length that bears the load evenly", kLength, {0.1 * kMilli, 10.0})};
 }
 
 constexpr std::string_view kInclination =
@@ -66,7 +65,7 @@ std::vector<Option> track_options() {
           option("cant", at<&C::geometry, &G::cant>, "Inclination of the rail towards the track centre (a tangent)",
                  kSlope, {-0.2, 0.2})
               .with_remedy(kInclination),
-          option("inclination", at<&C::geometry, &G::cant>, "The same as cant: the rail's, 1:20 or 1:40", kSlope)
+          option("inclination", at<&C::geometry, &G::cant>, "The same as cant, e.g. 1:20 or 1:40", kSlope)
               .with_remedy(kInclination)
               .derived({as_written}),
           option("lateral_shift", at<&C::geometry, &G::lateral_shift>, "Of the wheel, positive to the field side",
@@ -80,14 +79,14 @@ std::vector<Option> track_options() {
                  "with the field side up (a tangent); half-space engine",
                  kSlope, {-0.1, 0.1}),
           option("curve_radius", at<&C::geometry, &G::curve_radius>,
-                 "Of the track, positive with the centre on the field side (the inner wheel); none: straight. Adds to "
-                 "the spin alone; half-space engine",
+                 "Of the track, positive with the centre on the field side (the inner wheel); not given: straight. "
+                 "Changes only the spin; half-space engine",
                  kLength, {-1e6, 1e6}),
           option("wheel_radius", at<&C::geometry, &G::wheel_radius>, "At the tape circle", kLength, {5 * kMilli, 2.0}),
           option("rail_radius", at<&C::geometry, &G::rail_radius>,
-                 "Of the rail along the rolling direction, at the origin of its profile: a roller of a rig, the other "
-                 "disc of a twin-disc machine; below 0 hollow. Its axle is level and square to the rolling direction, "
-                 "under the middle of the tape circle. None: a straight rail",
+                 "Radius of the rail along the rolling direction, at the origin of its profile: a roller of a rig or "
+                 "the lower disc of a twin-disc machine; negative: hollow. Its axle is horizontal and normal to the "
+                 "rolling direction, under the middle of the tape circle. Not given: a straight rail",
                  kLength, {-1e4, 1e4})};
 }
 

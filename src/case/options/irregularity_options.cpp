@@ -21,26 +21,24 @@ bool is(const CaseSpec& spec, std::size_t index) {
 const Range kHeightWay{-100, 100};  // m
 
 std::vector<Option> height_shape_options() {
-  return {
-      option("length", irregularity<&I::length>, "indentation, step, flat: from end to end", kLength, above(0, 20)),
-      option("wavelength", irregularity<&I::wavelength>, "corrugation", kLength, above(0, 20)),
-      option("order", irregularity<&I::order>, "out_of_round: waves round the wheel", kNumber, {1, 1000})
-          .where(is<Kind::out_of_round>),
-      option("depth", irregularity<&I::depth>,
-             "Peak to valley, of an indentation and of a flat that is worn round; a fresh flat is a chord of its "
-             "length",
-             kLength, {0, 0.02}),
-      option("height", irregularity<&I::height>,
-             "step: of the rail behind it over the rail before it; negative: it lies lower", kLength, {-0.02, 0.02}),
-      option("width", irregularity<&I::width>, "Across, falling off as a cosine; not given: the same all across",
-             kLength, above(0, 0.2)),
-      option("offset", irregularity<&I::offset>, "Of the middle across, from the first contact to the field side",
-             kLength, {-0.1, 0.1}),
-      option("angle", irregularity<&I::angle>, "dip: between its two ramps", kSlope, {0, 0.2}),
-      option("ramp", irregularity<&I::ramp>, "dip: length of each", kLength, above(0, 20)).where(is<Kind::dip>),
-      choice<&I::shape>("shape", irregularity<&I::shape>, "dip: how the ramps run to their ends",
-                        {{"parabola", RampShape::parabola}, {"line", RampShape::line}})
-          .where(is<Kind::dip>)};
+  return {option("length", irregularity<&I::length>, "indentation, step, flat: from end to end", kLength, above(0, 20)),
+          option("wavelength", irregularity<&I::wavelength>, "corrugation", kLength, above(0, 20)),
+          option("order", irregularity<&I::order>, "out_of_round: waves round the wheel", kNumber, {1, 1000})
+              .where(is<Kind::out_of_round>),
+          option("depth", irregularity<&I::depth>,
+                 "Peak to valley, of an indentation or a rounded flat; a fresh flat is a chord of its length", kLength,
+                 {0, 0.02}),
+          option("height", irregularity<&I::height>, "step: height of the following rail relative to the preceding one",
+                 kLength, {-0.02, 0.02}),
+          option("width", irregularity<&I::width>, "Lateral width, with a cosine shape; not given: uniform across",
+                 kLength, above(0, 0.2)),
+          option("offset", irregularity<&I::offset>,
+                 "Lateral position of the middle, from the first contact to the field side", kLength, {-0.1, 0.1}),
+          option("angle", irregularity<&I::angle>, "dip: between its two ramps", kSlope, {0, 0.2}),
+          option("ramp", irregularity<&I::ramp>, "dip: length of each", kLength, above(0, 20)).where(is<Kind::dip>),
+          choice<&I::shape>("shape", irregularity<&I::shape>, "dip: shape of the ramps",
+                            {{"parabola", RampShape::parabola}, {"line", RampShape::line}})
+              .where(is<Kind::dip>)};
 }
 
 std::vector<Option> height_spectrum_options() {
@@ -62,12 +60,12 @@ std::vector<Option> height_point_options() {
              "the resolved case has its values")
           .where(never),
       option("smoothing", irregularity<&I::smoothing>,
-             "file: length of the mean with cosine weights that its heights are smoothed by along x; 0: as they are",
-             kLength, {0, 1})
+             "file: length of the cosine-weighted mean that smooths its heights along x; 0: not smoothed", kLength,
+             {0, 1})
           .where(is<Kind::file>),
-      option("x", irregularity<&I::x>, "In place of the file: along the way, from `at`", kLength, kHeightWay),
-      option("y", irregularity<&I::y>, "In place of the file: across, from `offset`", kLength, {-0.2, 0.2}),
-      option("z", irregularity<&I::z>, "In place of the file: heights, positive out of the body", kLength,
+      option("x", irregularity<&I::x>, "Instead of the file: position along the way, from `at`", kLength, kHeightWay),
+      option("y", irregularity<&I::y>, "Instead of the file: lateral position, from `offset`", kLength, {-0.2, 0.2}),
+      option("z", irregularity<&I::z>, "Instead of the file: heights, positive out of the body", kLength,
              {-0.02, 0.02})};
 }
 
@@ -77,7 +75,7 @@ OptionTable irregularity_table() {
   OptionTable out{
       "irregularity",
       "A height along the running surface of rail or wheel, positive out of the body; several are added up",
-      {choice<&I::on>("on", irregularity<&I::on>, "Of the wheel x is the arc from the first contact",
+      {choice<&I::on>("on", irregularity<&I::on>, "Body; on the wheel x is the arc from the first contact",
                       {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
        choice<&I::kind>("kind", irregularity<&I::kind>, "Its shape",
                         {{"indentation", Kind::indentation},
@@ -88,11 +86,12 @@ OptionTable irregularity_table() {
                          {"out_of_round", Kind::out_of_round},
                          {"roughness", Kind::roughness},
                          {"file", Kind::file}}),
-       option("at", irregularity<&I::at>, "Its middle, of waves a crest, of a file x = 0: from the first contact on",
+       option("at", irregularity<&I::at>, "Distance of its middle (waves: a crest; file: x = 0) from the first contact",
               kLength, kHeightWay),
-       option("from", irregularity<&I::from>, "corrugation, roughness: begin, eased in over the longest wave", kLength,
-              kHeightWay),
-       option("to", irregularity<&I::to>, "corrugation, roughness: end, eased out likewise", kLength, kHeightWay)},
+       option("from", irregularity<&I::from>,
+              "corrugation, roughness: beginning, with a smooth rise over the longest wave", kLength, kHeightWay),
+       option("to", irregularity<&I::to>, "corrugation, roughness: end, with a smooth fall likewise", kLength,
+              kHeightWay)},
       list_of<&CaseSpec::irregularities>(),
       {{"file", "x"}, {"file", "y"}, {"file", "z"}}};
   for (const auto& rows : {height_shape_options(), height_spectrum_options(), height_point_options()})

@@ -51,9 +51,9 @@ OptionTable load_table() {
       "load",
       "A row of a load collective, for `railstrata collective`: a wheel and how often it passes. What a row does not "
       "give is the case's; signs and meanings are those of the keys of the same names",
-      {option("name", load<&LoadSpec::name>, "What results call the row; \"load 1\", \"load 2\", … by its place")
+      {option("name", load<&LoadSpec::name>, "Name of the row in results; default \"load 1\", \"load 2\", …")
            .where(has_name),
-       option("passages", load<&LoadSpec::passages>, "How often such a wheel passes", kNumber, above(0, 1e12)),
+       option("passages", load<&LoadSpec::passages>, "Number of passages of such a wheel", kNumber, above(0, 1e12)),
        option("wheel_load", load<&LoadSpec::wheel_load>, "Load of the wheel on the rail, a force or a mass", kForce,
               above(0, 1e7))
            .or_mass(),
@@ -77,14 +77,13 @@ OptionTable load_table() {
               {-1e6, 1e6}),
        option("speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200)),
        option("guiding_force", load<&LoadSpec::guiding_force>,
-              "Y of the vehicle code, of the wheel on the rail, positive to the field side: compared with what comes "
-              "out, not "
-              "used",
+              "Y of the vehicle code, of the wheel on the rail, positive to the field side; only for comparison with "
+              "the result",
               kForce, {-1e6, 1e6}),
        option("t_gamma", load<&LoadSpec::t_gamma>,
-              "T-gamma of the vehicle code, without spin: compared with what comes out, not used", kForce, {0, 1e6}),
+              "T-gamma of the vehicle code, without spin; only for comparison with the result", kForce, {0, 1e6}),
        option("friction_energy", load<&LoadSpec::friction_energy>,
-              "Friction power of the vehicle code over the speed, with spin: compared with what comes out, not used",
+              "Friction power of the vehicle code over the speed, with spin; only for comparison with the result",
               kForce, {0, 1e6})},
       list_of<&CaseSpec::loads>(),
       {{"wheel_load", "axle_load"},
@@ -109,46 +108,41 @@ OptionTable collective_table() {
           {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}})
           .where(has_loads);
   const Option deviation =
-      option(
-          "lateral_deviation", at<&CaseSpec::collective, &C::lateral_deviation>,
-          "Standard deviation of the places across where the wheels of a row run, about its own: wear, rolling contact "
-          "fatigue and damage are spread by a normal distribution, cut at three of it; some 2 to 6 mm on straight "
-          "track",
-          kLength, {0, 0.03})
+      option("lateral_deviation", at<&CaseSpec::collective, &C::lateral_deviation>,
+             "Standard deviation of the lateral positions of a row's wheels: wear, rolling contact fatigue and damage "
+             "are spread by a normal distribution, cut at three deviations; 2 to 6 mm on straight track",
+             kLength, {0, 0.03})
           .where(has_life);
-  const Option factor =
-      option("wear_factor", at<&CaseSpec::collective, &C::wear_factor>,
-             "Wear of rail and wheel over that of the laws, which are of dry laboratory surfaces: from a measured "
-             "depth; a lubricated or wet rail has 0.2 and less",
-             kNumber, above(0, 1000))
-          .where(has_life);
+  const Option factor = option("wear_factor", at<&CaseSpec::collective, &C::wear_factor>,
+                               "Wear of rail and wheel over that of the laws (dry laboratory surfaces), from a "
+                               "measured depth; 0.2 or less for a lubricated or wet rail",
+                               kNumber, above(0, 1000))
+                            .where(has_life);
   const Option bins =
       option("bin_scale", at<&CaseSpec::collective, &C::bin_scale>,
              "Scale of the widths of the bins of a series of samples: 0.5 halves them", kNumber, {0.02, 50})
           .where(never);
   const Option match =
-      option(
-          "match_guiding_force", at<&CaseSpec::collective, &C::match_guiding_force>,
-          "Move the shift of each row with a guiding_force, by at most 0.2 mm, until its wheel has that force: where "
-          "tread and flange touch, some µm of the shift move the load from one to the other")
+      option("match_guiding_force", at<&CaseSpec::collective, &C::match_guiding_force>,
+             "Moves the shift of each row with a guiding_force, by at most 0.2 mm, until its wheel has that force: "
+             "with contact on tread and flange, some µm of shift move the load between them")
           .where(has_loads);
   return {"collective", "All rows of [[load]] together", {file, law, factor, deviation, bins, match}};
 }
 
 OptionTable life_table() {
-  return {
-      "life",
-      "What the lives of `railstrata collective` rest on, beside the strengths",
-      {option("passes", at<&CaseSpec::life, &LifeSpec::passes>,
-              "Passes of every load over a new rail by the stationary method (`railstrata passes`): the strain that "
-              "they leave gives the life of what yields; 0: none, else some 40, at least 8",
-              kNumber, {0, 10000})
-           .where(follows_passes),
-       option("strength_scatter", at<&CaseSpec::life, &LifeSpec::strength_scatter>,
-              "Coefficient of variation of the strengths of rail, wheel and layers: the range of a life has those of "
-              "strengths two deviations lower and higher; three times the passes are followed",
-              kNumber, {0, 0.2})
-           .where(has_life)}};
+  return {"life",
+          "Settings for the lives of `railstrata collective`; they also need strengths",
+          {option("passes", at<&CaseSpec::life, &LifeSpec::passes>,
+                  "Passes of every load over a new rail by the stationary method (`railstrata passes`), for the lives "
+                  "of yielding zones; 0: none, else at least 8, typically 40",
+                  kNumber, {0, 10000})
+               .where(follows_passes),
+           option("strength_scatter", at<&CaseSpec::life, &LifeSpec::strength_scatter>,
+                  "Coefficient of variation of the strengths of rail, wheel and layers: the range of a life includes "
+                  "strengths two deviations lower and higher; computes three times the passes",
+                  kNumber, {0, 0.2})
+               .where(has_life)}};
 }
 
 OptionTable grinding_table() {
@@ -156,9 +150,8 @@ OptionTable grinding_table() {
   return {"grinding",
           "Grinding of the rail, for the lives of `railstrata collective`",
           {option("every", at<&CaseSpec::grinding, &G::every>,
-                  "Gross traffic from one grinding to the next, a mass: \"15 Mt\" are 15 million tonnes", kMass,
-                  {1e6, 1e13}),
-           option("depth", at<&CaseSpec::grinding, &G::depth>, "What is ground off each time, everywhere", kLength,
+                  "Gross traffic between grindings, a mass: \"15 Mt\" are 15 million tonnes", kMass, {1e6, 1e13}),
+           option("depth", at<&CaseSpec::grinding, &G::depth>, "Depth removed by each grinding, everywhere", kLength,
                   {0, 0.01})
                .where(grinds)}};
 }

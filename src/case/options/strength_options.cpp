@@ -47,8 +47,8 @@ std::vector<Option> yield_options(const Option& depth) {
   const Option strength = column("strength", "", kPressure, kStrength).with_remedy(kBeyondStrength),
                hardness = column("hardness", "", kHardness, kHardnessRange).with_remedy(kBeyondHardness);
   return {option("grade", Place::template slot<&S::grade>,
-                 "A steel grade (R260, R350HT, ER8, …; `railstrata info` lists them), for the strength that no other "
-                 "key gives"),
+                 "A steel grade (R260, R350HT, ER8, …; `railstrata info` lists them); supplies a strength that no "
+                 "other key gives"),
           option("yield_strength", Place::template slot<&S::yield_strength>,
                  "Uniaxial yield strength (0.2 % proof stress); shakedown and fatigue are computed where it is known",
                  kPressure, kStrength)
@@ -61,7 +61,7 @@ std::vector<Option> yield_options(const Option& depth) {
                  "yield_strength that varies with depth: rows of depth and strength, linear between")
               .with_rows(RowForm::by_depth, {depth, strength}, R"([["0 mm", "750 MPa"], ["10 mm", "500 MPa"]])"),
           option("hardness", Place::template slot<&S::hardness>,
-                 "Vickers hardness, or Brinell's as \"300 HBW\"; a strength that is not given is estimated from it",
+                 "Vickers hardness, or Brinell hardness as \"300 HBW\"; a missing strength is estimated from it",
                  kHardness, kHardnessRange)
               .with_remedy(kBeyondHardness),
           option("hardness_table", Place::template slot<&S::hardness_table>,
@@ -110,14 +110,14 @@ std::vector<Option> hardening_options() {
           .with_rows(RowForm::named,
                      {column("modulus", "", kPressure, {0, 1e13}), column("recall", "", kNumber, {0, 1e6})},
                      R"([{ modulus = "60 GPa", recall = 250 }, { modulus = "5 GPa", recall = 10 }])"),
-      option("elastic", Place::template slot<&S::elastic>, "Never yields, whatever its strength: for brittle layers")
+      option("elastic", Place::template slot<&S::elastic>, "Never yields, whatever its strength; for brittle layers")
           .where(elastic_on_purpose<Place>)};
 }
 
 template <class Place>
 std::vector<Option> residual_options(const Option& depth) {
   return {option("initial_stress", Place::template slot<&S::initial_stress>,
-                 "Residual stress of the process, longitudinal and lateral, tension positive", kPressure, kResidual)
+                 "Residual stress of manufacturing, longitudinal and lateral, tension positive", kPressure, kResidual)
               .with_example(R"(["-344 MPa", "-200 MPa"])"),
           option("initial_stress_table", Place::template slot<&S::initial_stress_table>,
                  "The same by depth: rows of depth, longitudinal and lateral stress, linear between")
@@ -131,20 +131,19 @@ template <class Place>
 std::vector<Option> fatigue_options() {
   return {
       option("tensile_strength", Place::template slot<&S::tensile_strength>,
-             "Of the tensile test; for a brittle layer what its largest principal stress is held against", kPressure,
-             kStrength),
+             "Of the tensile test; limit of the largest principal stress of a brittle layer", kPressure, kStrength),
       option("fracture_toughness", Place::template slot<&S::fracture_toughness>,
-             "K_Ic of a brittle layer: gives the size of a surface flaw that its largest principal stress opens",
+             "K_Ic of a brittle layer: gives the critical size of a surface flaw under its largest principal stress",
              kToughness, {1e5, 1e9}),
       option("fatigue_limit", Place::template slot<&S::fatigue, &FatigueSpec::limit>,
-             "Of Dang Van's criterion: the amplitude that alternating shear bears for ever", kPressure,
+             "Limit of Dang Van's criterion: the endurable amplitude of alternating shear", kPressure,
              {kMega, 1e4 * kMega}),
       option("fatigue_exponent", Place::template slot<&S::fatigue, &FatigueSpec::exponent>,
-             "k of the sigma-N line through the limit, N = fatigue_cycles (fatigue_limit / stress)^k: gives a life "
-             "where all stays elastic",
+             "k of the sigma-N line through the limit, N = fatigue_cycles (fatigue_limit / stress)^k: life in elastic "
+             "stress",
              kNumber, {1, 50}),
       option("fatigue_cycles", Place::template slot<&S::fatigue, &FatigueSpec::cycles>,
-             "Cycles that the limit bears, the knee of the sigma-N line", kNumber, {1e3, 1e12})
+             "Cycles at the limit, the knee of the sigma-N line", kNumber, {1e3, 1e12})
           .where(has_sigma_n<Place>),
       option("dang_van_coefficient", Place::template slot<&S::fatigue, &FatigueSpec::dang_van>,
              "Weight of the hydrostatic stress in Dang Van's criterion", kNumber, {0, 3}),
@@ -165,13 +164,13 @@ std::vector<Option> fatigue_options() {
              "c of the strain-life curve", kNumber, {-1.5, -0.1}),
       option("wear_coefficient", Place::template slot<&S::wear_coefficient>,
              "Archard's k: worn volume is k times force times distance over hardness", kNumber, above(0, 1)),
-      option("conductivity", Place::template slot<&S::heat, &HeatSpec::conductivity>, "Of heat", kConductivity,
-             {0.01, 5000}),
-      option("heat_capacity", Place::template slot<&S::heat, &HeatSpec::capacity>, "Per mass", kHeatCapacity,
-             {10, 20000}),
+      option("conductivity", Place::template slot<&S::heat, &HeatSpec::conductivity>, "Thermal conductivity",
+             kConductivity, {0.01, 5000}),
+      option("heat_capacity", Place::template slot<&S::heat, &HeatSpec::capacity>, "Specific heat capacity",
+             kHeatCapacity, {10, 20000}),
       option("austenitisation_rise", Place::template slot<&S::heat, &HeatSpec::austenitisation_rise>,
-             "Rise of temperature at which the surface turns to austenite, and to martensite when it cools: of "
-             "pearlitic steel at 20 °C some 700 K without pressure; gives the share that the flash temperature reaches",
+             "Temperature rise at which the surface becomes austenite (and martensite after cooling): about 700 K for "
+             "pearlitic steel at 20 °C without pressure; gives the share that the flash temperature reaches",
              kTemperature, {50, 3000})};
 }
 

@@ -19,7 +19,7 @@ OptionTable stretch_table() {
   return {"stretch",
           "A stretch of rail or wheel in which all its materials, those of its layers too, are stiffer or stronger, as "
           "a weld and its heat-affected zone; several are multiplied",
-          {choice<&Stretch::on>("on", stretch<&Stretch::on>, "Of the wheel x is the arc from the first contact",
+          {choice<&Stretch::on>("on", stretch<&Stretch::on>, "Body; on the wheel x is the arc from the first contact",
                                 {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
            option("along", stretch<&Stretch::along>,
                   "Places along the rail, factors of Young's modulus and factors of strength (the yield stress, all "
@@ -31,7 +31,7 @@ OptionTable stretch_table() {
                            column("young", "Factor of Young's modulus", kNumber, {1e-4, 20}),
                            column("strength", "Factor of strength", kNumber, {0.05, 20})},
                           R"([["190 mm", 1.0, 1.0], ["195 mm", 1.0, 0.75], ["200 mm", 1.0, 1.0]])"),
-           option("depth", stretch<&Stretch::depth>, "Below the running surface; not given: through the body", kLength,
+           option("depth", stretch<&Stretch::depth>, "Below the running surface; not given: the whole body", kLength,
                   above(0, 1))},
           list_of<&CaseSpec::stretches>()};
 }

@@ -25,36 +25,32 @@ OptionTable track_table() {
       "Pads, sleepers and ballast below the rail, of one rail; finite elements (docs/track.md)",
       {choice_at<&C::track, &TrackSpec::preset>(
            "preset",
-           "The set whose numbers count where the keys below are not given; held: no track, the foot's base is "
-           "held. geometry.track is gauge and cant",
+           "Preset that supplies the defaults of the keys below; held: no track, the foot's base is fixed. "
+           "geometry.track is gauge and cant",
            {{"held", TrackSet::held},
             {"delft", TrackSet::delft},
             {"medium", TrackSet::medium},
             {"cn60", TrackSet::cn60}})
            .where(on_sleepers),
-       of_sleepers<&Sleepers::spacing>("spacing", "Of the sleepers", kLength, {0.2, 2}),
-       of_sleepers<&Sleepers::phase>(
-           "phase",
-           "Way from x = 0, where the wheel starts, to the next sleeper, over the spacing: 0 is over "
-           "a sleeper, 0.5 midspan",
-           kNumber, {0, 1}),
+       of_sleepers<&Sleepers::spacing>("spacing", "Spacing of the sleepers", kLength, {0.2, 2}),
+       of_sleepers<&Sleepers::phase>("phase",
+                                     "Distance from x = 0, where the wheel starts, to the next sleeper, over the "
+                                     "spacing: 0 is over a sleeper, 0.5 midspan",
+                                     kNumber, {0, 1}),
        of_sleepers<&Sleepers::pad_stiffness>("pad_stiffness", "Vertical, of one pad", kStiffness, {1e5, 1e11}),
        of_sleepers<&Sleepers::pad_damping>("pad_damping", "Vertical, of one pad", kDamping, {0, 1e8}),
-       of_sleepers<&Sleepers::pad_length>("pad_length", "Along the rail; 0: at the nearest station alone", kLength,
+       of_sleepers<&Sleepers::pad_length>("pad_length", "Along the rail; 0: only at the nearest station", kLength,
                                           {0, 1}),
-       of_sleepers<&Sleepers::pad_shear>(
-           "pad_shear",
-           "Stiffness and damping of a pad sideways and along the rail over the vertical ones; "
-           "the sleeper stands still sideways",
-           kNumber, above(0, 10)),
+       of_sleepers<&Sleepers::pad_shear>("pad_shear",
+                                         "Lateral and longitudinal stiffness and damping of a pad over the vertical "
+                                         "ones; the sleeper does not move laterally",
+                                         kNumber, above(0, 10)),
        of_sleepers<&Sleepers::sleeper_mass>("sleeper_mass", "Of half a sleeper, which moves vertically", kMass,
                                             above(0, 1e4)),
        of_sleepers<&Sleepers::ballast_stiffness>("ballast_stiffness", "Below half a sleeper", kStiffness, {1e4, 1e11}),
        of_sleepers<&Sleepers::ballast_damping>("ballast_damping", "Below half a sleeper", kDamping, {0, 1e8}),
        of_sleepers<&Sleepers::bays>(
-           "bays",
-           "Length of the rail over the spacing, its middle below that of the wheel's path; takes the "
-           "place of mesh.end_length",
+           "bays", "Length of the rail over the spacing, centred below the wheel's path; replaces mesh.end_length",
            kNumber, {2, 400})}};
 }
 

@@ -23,12 +23,12 @@ Option history_column(std::string_view key, std::string_view doc, const Dimensio
 }
 
 std::vector<Option> row_columns() {
-  return {history_column<&T::at_distance>("at_distance", "kind = \"rolling\": rolled distance of each row, from 0 on",
-                                          kLength, {0, 20}),
-          history_column<&T::at_time>("at_time", "Time of each row, from 0 on; what rolls does so at drive.speed",
-                                      kTime, {0, 1e6}),
-          history_column<&T::wheel_load>("wheel_load", "Load of the wheel on the rail", kForce, above(0, 1e7)),
-          history_column<&T::load_factor>("load_factor", "The same over the static load G", kNumber, above(0, 100))};
+  return {
+      history_column<&T::at_distance>("at_distance", "kind = \"rolling\": rolled distance of each row, from 0 on",
+                                      kLength, {0, 20}),
+      history_column<&T::at_time>("at_time", "Time of each row, from 0 on; rolling is at drive.speed", kTime, {0, 1e6}),
+      history_column<&T::wheel_load>("wheel_load", "Load of the wheel on the rail", kForce, above(0, 1e7)),
+      history_column<&T::load_factor>("load_factor", "The same over the static load G", kNumber, above(0, 100))};
 }
 
 std::vector<Option> driven_columns() {
@@ -59,8 +59,7 @@ std::vector<Option> course_options() {
   return {
       choice_at<&C::transient, &T::kind>(
           "kind",
-          "Steady rolling; rolling from a beginning in steps of one cell; a shift without rolling (presliding, "
-          "fretting)",
+          "Steady rolling; rolling from a start, in steps of one cell; a shift without rolling (presliding, fretting)",
           {{"none", TransientKind::none}, {"rolling", TransientKind::rolling}, {"shift", TransientKind::shift}})
           .where(transient),
       choice_at<&C::transient, &T::start>(
@@ -70,7 +69,7 @@ std::vector<Option> course_options() {
           {{"rest", TransientStart::rest}, {"steady", TransientStart::steady}})
           .where(starts),
       option("distance", at<&C::transient, &T::distance>,
-             "kind = \"rolling\": rolled distance; that of the last row where it is not given", kLength, above(0, 20)),
+             "kind = \"rolling\": rolled distance; not given: that of the last row", kLength, above(0, 20)),
       option("increments", at<&C::transient, &T::increments>, "kind = \"shift\": steps from row to row", kNumber,
              {1, 1000})
           .where(shifts),
