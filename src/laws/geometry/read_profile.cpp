@@ -232,7 +232,7 @@ class Reading {
 
   /// What the fit did to the points.
   void tell_smoothing() {
-    constexpr double kToldMovement = 1e-6;  // m, of a measured profile; the digits of a listed one move less
+    constexpr double kSmallestMovement = 1e-6;  // m, of a measured profile; the digits of a listed one move less
     const SmoothingSpline fit = fit_smoothing_spline(points_);
     double squares = 0, largest = 0, hole = 0, steps = 0;
     std::vector<double> apart;
@@ -246,7 +246,7 @@ class Reading {
     const Vec2 at = points_[static_cast<std::size_t>(widest - apart.begin())];
     std::nth_element(apart.begin(), apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2), apart.end());
     steps = apart[apart.size() / 2];
-    if (largest > kToldMovement)
+    if (largest > kSmallestMovement)
       note(
           fmt::format("The points were smoothed: a spline of {} knots over {:.0f} mm passes them by {:.1f} um rms, "
                       "{:.1f} um at most.",

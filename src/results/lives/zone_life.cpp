@@ -7,10 +7,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 
 #include "damage/low_cycle.hpp"
+#include "lives/life_section.hpp"
 #include "model/zone.hpp"
 #include "spec/case_spec.hpp"
 #include "steady/pass_class.hpp"
@@ -21,104 +21,6 @@ namespace {
 constexpr int kSettledPasses = 40;  // from 12 to 16 passes a life may change sixfold, from 40 to 200 by 1 %
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
-
-/// A body across: positions, what is removed there in a unit of traffic, passages.
-struct LifeAcross {
-  BodyId body = BodyId::rail;
-  std::vector<double> s, y, passages;
-  std::array<std::vector<double>, 3> wear;  // m a unit, by laws; empty: no data
-  WearLaw law = WearLaw::usfd;
-  double ground = 0, every = 0;  // m, units
-
-  Removal removal(std::size_t cell, WearLaw by) const {
-    const std::vector<double>& w = wear[static_cast<std::size_t>(by)];
-    return {w.empty() || !std::isfinite(w[cell]) ? 0 : w[cell], ground, every};
-  }
-};
-
-bool has_data(const std::vector<double>& depth) {
-  return std::all_of(depth.begin(), depth.end(), [](double v) { return std::isfinite(v); });
-}
-
-constexpr std::array kLaws{WearLaw::usfd, WearLaw::kth, WearLaw::archard};
-
-LifeAcross across_rail(const CaseSpec& spec, const RailDamage& d, double tonnes) {
-  LifeAcross out{.body = BodyId::rail, .s = d.s, .y = d.y, .passages = d.passages, .wear = {}};
-  out.law = spec.collective.wear_law;
-  for (const WearLaw law : kLaws)
-    if (has_data(d.depth(law))) out.wear[static_cast<std::size_t>(law)] = smoothed_wear(d, law);
-  if (spec.grinding.every) {
-    out.ground = spec.grinding.depth;
-    out.every = *spec.grinding.every / 1e3 / tonnes;
-  }
-  return out;
-}
-
-/// m
-double turn_of(const CaseSpec& spec) { return 2 * std::numbers::pi * spec.geometry.wheel_radius; }
-
-LifeAcross across_wheel(const CaseSpec& spec, const WheelDamage& d, double turns) {
-  LifeAcross out{.body = BodyId::wheel, .s = d.s, .y = d.y, .passages = d.share, .wear = {}};
-  out.law = spec.collective.wear_law;
-  const double way = turns * turn_of(spec);
-  for (const WearLaw law : kLaws)
-    if (has_data(d.depth(law)))
-      for (const double per_metre : d.depth(law)) out.wear[static_cast<std::size_t>(law)].push_back(way * per_metre);
-  return out;
-}
-
-/// A section with rows by depth and columns by y, of either kind, and where its y = 0 lies on the profile.
-struct LifeSection {
-  const std::vector<double>*y, *depth;
-  const std::vector<int>* zone;
-  double s0 = 0;
-};
-
-const SectionShakedown* section_of(const LifeLoad& load, BodyId body) {
-  for (const SectionShakedown& s : *load.sections)
-    if (s.body == body) return &s;
-  return nullptr;
-}
-
-double middle_of(const LifeLoad& load, BodyId body, std::size_t patch) {
-  const RigidContact& c = (*load.patches)[std::min(patch, load.patches->size() - 1)].contact;
-  return body == BodyId::rail ? c.rail_s : c.wheel_s;
-}
-
-/// The two rows of a zone beside a depth and the share of the lower one; none: the zone is not in the section.
-struct RowsBeside {
-  std::size_t above = 0, below = 0;
-  double share = 0;
-};
-std::optional<RowsBeside> rows_beside(const LifeSection& s, int zone, double z) {
-  std::optional<RowsBeside> out;
-  for (std::size_t r = 0; r < s.depth->size(); ++r) {
-    if ((*s.zone)[r] != zone) continue;
-    if (!out) out = RowsBeside{r, r, 0};
-    out->below = r;
-    if ((*s.depth)[r] >= z) break;
-    out->above = r;
-  }
-  if (!out) return out;
-  const double top = (*s.depth)[out->above], bottom = (*s.depth)[out->below];
-  out->share = bottom > top ? std::clamp((z - top) / (bottom - top), 0.0, 1.0) : 0;
-  return out;
-}
-
-/// A value of the section at a place of the profile and a depth; 0 beside the section.
-double value_at(const LifeSection& s, const std::vector<double>& values, const RowsBeside& rows, double place) {
-  const double y = place - s.s0;
-  const auto columns = s.y->size();
-  if (columns == 0 || (columns > 1 && (y < s.y->front() || y > s.y->back()))) return 0;
-  const auto right = std::min<std::size_t>(
-      columns - 1, static_cast<std::size_t>(std::upper_bound(s.y->begin(), s.y->end(), y) - s.y->begin()));
-  const std::size_t left = right > 0 ? right - 1 : 0;
-  const double across = right > left ? std::clamp((y - (*s.y)[left]) / ((*s.y)[right] - (*s.y)[left]), 0.0, 1.0) : 0;
-  const auto of_row = [&](std::size_t r) {
-    return (1 - across) * values[r * columns + left] + across * values[r * columns + right];
-  };
-  return (1 - rows.share) * of_row(rows.above) + rows.share * of_row(rows.below);
-}
 
 /// All of a body's zone that its mechanisms need.
 struct LifeZone {
@@ -375,7 +277,7 @@ void add_damages(const LifeZone& z, FoundLives& out) {
 /// Units until wear and grinding have taken so much somewhere, and where.
 void add_worn_through(const LifeZone& z, std::vector<LifeRow>& out) {
   LifeRow row = z.row("layer", "worn through");
-  for (const WearLaw law : kLaws) {
+  for (const WearLaw law : kWearLaws) {
     if (z.across.wear[static_cast<std::size_t>(law)].empty()) continue;
     double least = kNever;
     for (std::size_t cell = 0; cell < z.across.s.size(); ++cell)
