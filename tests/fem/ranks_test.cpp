@@ -117,14 +117,16 @@ void expect_bits_of_one_rank(const CaseSpec& spec, const std::vector<int>& count
 
 }  // namespace
 
-TEST(Ranks, ComputeTheBitsOfOne) { expect_bits_of_one_rank(damped_case()); }
+TEST(Ranks, TwoComputeTheBitsOfOne) { expect_bits_of_one_rank(damped_case(), {2}, 32); }
 
-TEST(Ranks, OnATrackToo) {
+TEST(SlowRanks, ComputeTheBitsOfOne) { expect_bits_of_one_rank(damped_case()); }
+
+TEST(SlowRanks, OnATrackToo) {
   expect_bits_of_one_rank(on_track(damped_case()), {3}, 32);
   expect_preload_of_one_rank(on_track(small_case()), {{3, 2}});
 }
 
-TEST(Ranks, OverTheEndOfALayerToo) { expect_bits_of_one_rank(ending_layer(damped_case()), {3}, 32); }
+TEST(SlowRanks, OverTheEndOfALayerToo) { expect_bits_of_one_rank(ending_layer(damped_case()), {3}, 32); }
 
 TEST(SlowRanks, WithAThinLayerAndScaledMassesToo) {
   expect_bits_of_one_rank(thinly_layered(damped_case(), TimeStepMethod::mass_scaling));
@@ -160,7 +162,7 @@ TEST(SlowRanks, OfBodiesThatYieldOverTheEndOfALayerToo) {
   expect_bits_of_one_rank(ending_layer(yielding(damped_case())), {2, 4});
 }
 
-TEST(Ranks, FindThePreloadOfOne) { expect_preload_of_one_rank(small_case(), {{2, 2}, {3, 1}, {4, 1}}); }
+TEST(SlowRanks, FindThePreloadOfOne) { expect_preload_of_one_rank(small_case(), {{2, 2}, {3, 1}, {4, 1}}); }
 
 TEST(SlowRanks, FindThePreloadOfOneOfBodiesThatYieldAndAreLayeredAndYawedToo) {
   CaseSpec spec = thinly_layered(yielding(damped_case()), TimeStepMethod::mass_scaling);
@@ -171,7 +173,7 @@ TEST(SlowRanks, FindThePreloadOfOneOfBodiesThatYieldAndAreLayeredAndYawedToo) {
 }
 
 // A signal reaches one of them: all end at the same place.
-TEST(Ranks, StopTogetherInThePreload) {
+TEST(SlowRanks, StopTogetherInThePreload) {
   const RollingSystem system = small_system(small_case());
   std::array<int, 2> ended = {};
   ThreadRanks(2).run(1, [&](const Ranks& mine) {
@@ -250,7 +252,7 @@ TEST(SlowRanks, RunACaseToTheBitsOfOne) {
 
 // One exchange a step and no more, but where the state is made whole.
 // The sums that damping wants are a second exchange.
-TEST(Ranks, ExchangeOnceAStep) {
+TEST(SlowRanks, ExchangeOnceAStep) {
   CaseSpec damped = small_case();
   damped.run.run_up = 1;
   damped.run.run_up_damping = 2000;
@@ -279,7 +281,7 @@ TEST(Ranks, MoreThanThereArePiecesAreRefused) {
 }
 
 // The numbers of `check` are those that are exchanged.
-TEST(Ranks, ExchangeTheBytesThatTheirNeedSays) {
+TEST(SlowRanks, ExchangeTheBytesThatTheirNeedSays) {
   const RollingSystem system = small_system(small_case());
   const PreloadResult preload = solve_preload(system, 1e-3);
   for (int count : {2, 3, 4}) {
@@ -299,7 +301,7 @@ TEST(Ranks, ExchangeTheBytesThatTheirNeedSays) {
 }
 
 // As on a machine of another kind: the second rank starts from another last bit.
-TEST(Ranks, ThatComputeOtherBitsAreFound) {
+TEST(SlowRanks, ThatComputeOtherBitsAreFound) {
   const RollingSystem system = small_system(small_case());
   const PreloadResult preload = solve_preload(system, 1e-3);
   EXPECT_THROW(ThreadRanks(2).run(1,

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Result folders for the tests of the report: fem (a wheel on a layered block, 30 mm of rolling), its reference
-fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), wheel (a layer on the wheel), sweep, creep,
-rest and fretting (the shipped transients), old (what
-folders held before they had sections and geometry), study (both engines). usage: make_results.py BINARY FOLDER"""
+fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), sweep, creep, rest (a shipped transient), old (what
+folders held before they had sections and geometry), study (both engines). With --slow, for the slow tests alone, in the
+same folder: fretting, two (two patches), wheel (a layer on the wheel).
+usage: make_results.py BINARY FOLDER [--slow]"""
 import pathlib
 import shutil
 import subprocess
@@ -182,26 +183,29 @@ def railstrata(*words):
         sys.exit(f"{words}: exit {done.returncode}\n{done.stdout}{done.stderr}")
 
 
+TRANSIENTS = pathlib.Path(__file__).resolve().parents[2] / "cases" / "transient"
+if sys.argv[3:] == ["--slow"]:  # beside the others, which are there
+    railstrata("bem", TRANSIENTS / "fretting.toml", "--out", FOLDER / "fretting", "--cell", "0.4 mm", "--threads", "1",
+               "--quiet")
+    (FOLDER / "two.toml").write_text(TWO_PATCHES)
+    railstrata("bem", FOLDER / "two.toml", "--out", FOLDER / "two", "--cell", "0.5 mm", "--threads", "1", "--quiet")
+    (FOLDER / "wheel.toml").write_text(WHEEL_LAYER)
+    railstrata("bem", FOLDER / "wheel.toml", "--out", FOLDER / "wheel", "--cell", "0.5 mm", "--threads", "1", "--quiet")
+    sys.exit()
+
 shutil.rmtree(FOLDER, ignore_errors=True)
 FOLDER.mkdir(parents=True)
 (FOLDER / "rolling.toml").write_text(ROLLING)
 (FOLDER / "layers.toml").write_text(HALF_SPACE)
 railstrata("run", FOLDER / "rolling.toml", "--out", FOLDER / "fem", "--threads", "1", "--quiet")
 railstrata("bem", FOLDER / "layers.toml", "--out", FOLDER / "bem", "--cell", "0.4 mm", "--threads", "1", "--quiet")
-TRANSIENTS = pathlib.Path(__file__).resolve().parents[2] / "cases" / "transient"
 railstrata("bem", TRANSIENTS / "from_rest.toml", "--out", FOLDER / "rest", "--cell", "0.5 mm", "--threads", "1",
            "--set", "output.series_frames=8", "--quiet")
-railstrata("bem", TRANSIENTS / "fretting.toml", "--out", FOLDER / "fretting", "--cell", "0.4 mm", "--threads", "1",
-           "--quiet")
 railstrata("run", FOLDER / "rolling.toml", "--out", FOLDER / "yields", "--threads", "1", "--quiet", "--no-report",
            "--set", "run.plasticity=true", "--set", 'material.rail.yield_strength="350 MPa"', "--set",
            'layer.0.yield_strength="600 MPa"', "--set",
            'material.rail.kinematic_hardening=[{modulus = "20 GPa", recall = 50}]')
 railstrata("report", FOLDER / "yields", FOLDER / "fem", "--out", FOLDER / "yields.html", "--quiet")
-(FOLDER / "two.toml").write_text(TWO_PATCHES)
-railstrata("bem", FOLDER / "two.toml", "--out", FOLDER / "two", "--cell", "0.5 mm", "--threads", "1", "--quiet")
-(FOLDER / "wheel.toml").write_text(WHEEL_LAYER)
-railstrata("bem", FOLDER / "wheel.toml", "--out", FOLDER / "wheel", "--cell", "0.5 mm", "--threads", "1", "--quiet")
 railstrata("sweep", FOLDER / "layers.toml", "--out", FOLDER / "sweep", "--cell", "0.8 mm", "--vary",
            "layer.0.thickness=1 mm,0.5 mm,2 mm", "--vary", "drive.friction_coefficient=0.3,0.5", "--quiet")
 railstrata("creep-curve", FOLDER / "layers.toml", "--out", FOLDER / "creep", "--cell", "0.8 mm", "--points", "7",

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""CONTACT's set-ups through CONTACT's interface. usage: contact_test.py LIBRARY HEADER REFERENCE_FOLDER [unittest...]
+"""CONTACT's set-ups through CONTACT's interface. usage: contact_test.py LIBRARY HEADER REFERENCE_FOLDER [--slow]
 
 Numbers to compare with: REFERENCE_FOLDER, and the printed results of CONTACT's own examples (eve70a/CONTACT, commit
 d431cdb, examples/*.ref_out), four digits each.
@@ -15,6 +15,9 @@ import unittest
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tests"))
+from selected import main, slow
 
 import contact_library
 from contact_library import MM, SI, SIMPACK, Contact, c_int
@@ -78,6 +81,7 @@ def printed(test, value, text):
     test.assertLessEqual(abs(value - wanted), 0.5001 * last + 1e-4 * abs(wanted), f"{value} against {text}")
 
 
+@slow
 class Reference(unittest.TestCase):
     def test_forces_creepages_approach_pressure_and_every_count_are_those_of_contact(self):
         shapes = [r for r in table("half_space.csv") if number(r, "dx_mm") >= 0.5]
@@ -131,6 +135,7 @@ class Reference(unittest.TestCase):
                 self.assertAlmostEqual(sign * found[column, iz, 0, ix], number(row, key), delta=0.05, msg=(key, row))
 
 
+@slow
 class Examples(unittest.TestCase):
     def test_cattaneo(self):
         c = Contact(library, 2, 1)
@@ -259,7 +264,7 @@ class Examples(unittest.TestCase):
                 printed(self, row[column], word)
 
 
-class Interface(unittest.TestCase):
+class OfTheInterface(unittest.TestCase):
     def contact(self, icp=1, units=MM):
         """Creepage and spin on a small circular contact, in the units asked for."""
         mm, c = (1.0 if units == MM else 1e-3), Contact(library, 3, icp, units)
@@ -273,6 +278,8 @@ class Interface(unittest.TestCase):
         c.call("cntc_setcreepages", -0.0005, 0.0008, 0.0002 / mm)
         return c
 
+
+class Smoke(OfTheInterface):
     def test_exports_are_the_functions_of_the_header(self):
         listed = subprocess.run(["nm", "-D", "--defined-only", LIBRARY], capture_output=True, text=True, check=True)
         symbols = {line.split()[-1].split("@")[0] for line in listed.stdout.splitlines()}
@@ -294,6 +301,9 @@ class Interface(unittest.TestCase):
             self.assertAlmostEqual(other.p_max() / c.p_max() / 1e6, 1, delta=1e-12)
             self.assertAlmostEqual(other.approach() / c.approach() * 1e3, 1, delta=1e-12)
 
+
+@slow
+class Interface(OfTheInterface):
     def test_rolling_backwards_is_rolling_forwards_turned_by_half(self):
         ahead, back = self.contact(1), self.contact(2)
         back.call("cntc_setcreepages", 0.0005, -0.0008, 0.0002)
@@ -696,4 +706,4 @@ class Interface(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -29,7 +29,7 @@ TEST(SlowEngine, StepsAreThoseOfTheStepper) {
   expect_same_steps(device);
 }
 
-TEST(Engine, InSinglePrecisionDisplacementsAndPressuresAre) {
+TEST(SlowEngine, InSinglePrecisionDisplacementsAndPressuresAre) {
   EmulatedDevice device;
   expect_same_steps_in_single_precision(device);
 }
@@ -79,7 +79,7 @@ TEST(SlowEngine, StepsTakenTogetherHaveTheBitsOfSingleOnesAndOneCopy) {
   for (std::size_t k = 0; k < 2; ++k) EXPECT_TRUE(same_bits(single.state().bodies[k].u, ahead.state().bodies[k].u));
 }
 
-TEST(Engine, WhatIsToBeSeenBeforeTheStepsAreOverEndsTheRun) {
+TEST(SlowEngine, WhatIsToBeSeenBeforeTheStepsAreOverEndsTheRun) {
   const RollingSystem system = small_system(small_case());
   EmulatedDevice device(Protection::open);
   Stepper stepper(system, solve_preload(system, 1e-2));
@@ -89,7 +89,7 @@ TEST(Engine, WhatIsToBeSeenBeforeTheStepsAreOverEndsTheRun) {
   EXPECT_THROW(stepper.complete(), NumericalError);
 }
 
-TEST(Engine, TakesFilmsAndFrictionThatFalls) {
+TEST(SlowEngine, TakesFilmsAndFrictionThatFalls) {
   EmulatedDevice device(Protection::open);
   CaseSpec s = small_case();
   s.drive.friction_coefficient = 0.25;
@@ -104,7 +104,7 @@ TEST(Engine, TakesFilmsAndFrictionThatFalls) {
   expect_same_contact(device, s);
 }
 
-TEST(Engine, TakesThePenaltyMethodAndAYawedWheel) {
+TEST(SlowEngine, TakesThePenaltyMethodAndAYawedWheel) {
   EmulatedDevice device(Protection::open);
   CaseSpec s = small_case();
   s.drive.friction_coefficient = 0.05;
@@ -116,7 +116,7 @@ TEST(Engine, TakesThePenaltyMethodAndAYawedWheel) {
   expect_same_contact(device, s);
 }
 
-TEST(Engine, CheckpointsGoEitherWay) {
+TEST(SlowEngine, CheckpointsGoEitherWay) {
   EmulatedDevice device(Protection::open);
   expect_checkpoints_go_either_way(device);
 }
@@ -152,7 +152,7 @@ TEST(SlowEngine, AWholeRunHasTheHistoryAndSamplesOfTheProcessor) {
 }
 
 // The bytes that `check` reports are those that an engine allocates there, array for array.
-TEST(Engine, CountsWhatACardWouldNeed) {
+TEST(SlowEngine, CountsWhatACardWouldNeed) {
   for (const CaseSpec& spec : {small_case(), layered_case(ArithmeticPrecision::single_precision)}) {
     const RollingSystem system = small_system(spec);
     StepPlan plan(system);

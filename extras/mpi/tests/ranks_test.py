@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One run over MPI: the bits of one process, by any number of ranks. usage: ranks_test.py BINARY"""
+"""One run over MPI: the bits of one process, by any number of ranks. usage: ranks_test.py BINARY [--slow]"""
 import json
 import os
 import pathlib
@@ -50,6 +50,7 @@ def process_of(mpirun, rank):
     raise AssertionError(f"no process of rank {rank}")
 
 
+@slow
 class Ranks(FromOutside):
     @classmethod
     def setUpClass(cls):
@@ -81,13 +82,11 @@ class Ranks(FromOutside):
     def test_two_ranks_give_the_bits_of_one(self):
         self.expect_bits_of_one(2, 1)
 
-    @slow
     def test_any_number_of_ranks_and_threads_gives_the_bits_of_one(self):
         for count, threads in ((2, 2), (3, 1), (4, 1)):
             self.expect_bits_of_one(count, threads)
         fact("ranks give the bits of one", ranks="2, 3, 4", files=len(self.reference))
 
-    @slow
     def test_with_a_layer_and_a_yawed_wheel_too(self):
         case = self.case(LAYERED)
         rc, _, err = railstrata("run", case, *WORDS, *YAWED, "-j", 1, "--out", self.folder / "one")
@@ -101,7 +100,6 @@ class Ranks(FromOutside):
         os.kill(process_of(process, 0), signal.SIGTERM)
         return finished(process)
 
-    @slow
     def test_stopped_it_goes_on_with_another_number_of_ranks(self):
         words = [*WORDS, "-j", 1]
         rc, _, err = self.stop_at(ranked(2, "run", self.case(SMALL), *words, "--out", self.out), self.rows // 4)
@@ -113,7 +111,6 @@ class Ranks(FromOutside):
         self.assertEqual(rc, self.rc, err)
         self.expect_same(self.out)
 
-    @slow
     def test_where_a_rank_is_lost_the_others_end_and_the_checkpoint_stands(self):
         words = [*WORDS, "-j", 1]
         process = ranked(3, "run", self.case(SMALL), *words, "--out", self.out, "--checkpoint-every", "0.2 s")
@@ -131,7 +128,6 @@ class Ranks(FromOutside):
         self.assertEqual(rc, self.rc, err)
         self.expect_same(self.out)
 
-    @slow
     def test_where_a_rank_is_lost_before_the_rolling_the_others_end_too(self):
         process = ranked(3, "run", self.case(SMALL), *WORDS, "-j", 1, "--out", self.out)
         wait_for((self.out / "provenance.json").exists, process)  # all have joined by then
