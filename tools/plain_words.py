@@ -4,8 +4,8 @@
 usage: plain_words.py [FILE ...]
 
 Looks at comments and strings of C, C++, JavaScript, TypeScript and Python (INSTEAD) and at the text of Markdown without
-its code (also IN_PAGES; not the history and what the program writes, NOT_BY_HAND). A pattern is listed only if it is always wrong here.
-Without files: all that git knows. Exit code: 0 clean, 1 findings.
+its code (also IN_PAGES, but for the history and pages that the program writes: NOT_BY_HAND). A pattern is listed only
+if it is always wrong here. Without files: all that git knows. Exit code: 0 clean, 1 findings.
 """
 import io
 import pathlib
