@@ -42,7 +42,7 @@ LICENCES = {"{fmt}": f"{DOC}/libfmt-dev/copyright", "Eigen and kiss FFT": f"{DOC
             "toml++": f"{DOC}/libtomlplusplus-dev/copyright",
             "musl, the C library": "/usr/share/emscripten/system/lib/libc/musl/COPYRIGHT"}
 # Products of complex numbers without a look at every one for NaN; elsewhere the engine works with infinity.
-FAST_MATH = {"fft_kiss.cpp"}
+FAST_MATH = {"fft_kiss"}
 
 
 def placed(file):
@@ -76,15 +76,26 @@ def ninja_file(objects, compiled):
     lines = ["rule cc", f"  command = em++ {FLAGS} $more {wings} -I{HERE}/stand_in -I{objects}/headers "
              f"-I{objects}/headers/eigen3 -MMD -MF $out.d -c $in -o $out", "  depfile = $out.d", "  deps = gcc",
              "rule link", f"  command = em++ {LINK} $in -o $out", ""]
-    names = []
-    for file in compiled:
-        name = file.replace("/", "_") + ".o"
-        names.append(name)
-        lines.append(f"build {name}: cc {placed(file)}")
-        if pathlib.Path(file).name in FAST_MATH:
+    units = units_of(objects, compiled)
+    for unit, source in units.items():
+        lines.append(f"build {unit}.o: cc {source}")
+        if unit in FAST_MATH:
             lines.append("  more = -ffast-math")
-    lines += [f"build engine.js | engine.wasm: link {' '.join(names)}", ""]
+    lines += [f"build engine.js | engine.wasm: link {' '.join(f'{unit}.o' for unit in units)}", ""]
     return "\n".join(lines)
+
+
+def units_of(objects, compiled):
+    """{name: file}: the sources of a room compiled together, as in the program, those of FAST_MATH by themselves."""
+    rooms = {}
+    for file in compiled:
+        room, name = file.removesuffix(".cpp").split("/")
+        rooms.setdefault(name if name in FAST_MATH else room, []).append(f'#include "{placed(file)}"\n')
+    for unit, lines in rooms.items():
+        text, file = "".join(lines), objects / f"{unit}.cpp"
+        if not file.exists() or file.read_text() != text:
+            file.write_text(text)
+    return {unit: objects / f"{unit}.cpp" for unit in rooms}
 
 
 def version():
