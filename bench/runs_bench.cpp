@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "core/parallel.hpp"
 #include "fatigue/half_space_track.hpp"
 #include "fatigue/shakedown_summary.hpp"
@@ -105,11 +105,8 @@ void one_track(benchmark::State& state) {
 void whole_case(benchmark::State& state) {
   const CaseSpec spec = rail_case(state.range(0) != 0, state.range(1) > 0);
   const Placement placement = place(spec, {});
-  timed(state, state.range(1) == 1 ? 10 : 0, [&] {
-    HalfSpaceSolution solution = solve_half_space(spec, placement);
-    if (state.range(1) == 2) complete_shakedown(spec, solution);
-    benchmark::DoNotOptimize(solution);
-  });
+  timed(state, state.range(1) == 1 ? 10 : 0,
+        [&] { benchmark::DoNotOptimize(ask(spec, placement, {.single_track = state.range(1) == 2})); });
 }
 
 /// 200 passes over R260 as it hardens, contact and stresses included.
@@ -119,7 +116,7 @@ void passes(benchmark::State& state) {
   const Placement placement = place(spec, {});
   timed(state, 300, [&] {
     const RailPasses rail = rail_passes(spec, {solve_bem(spec, placement, {})});
-    const SteadyBody body = body_of(rail);
+    const SteadyBody body(rail.grid, rail.rows, rail.below, rail.initial_stress);
     const Field contact = contact_strain(rail, body, rail.contact_stress.front());
     PassState rolled = body.virgin();
     for (int n = 0; n < 200; ++n) benchmark::DoNotOptimize(body.run_pass(contact, rolled));

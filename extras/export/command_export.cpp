@@ -10,7 +10,7 @@
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/option_values.hpp"
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "export/abaqus_deck.hpp"
 #include "export/contact_files.hpp"
 #include "export/dyna_deck.hpp"
@@ -78,16 +78,14 @@ Files contact_result(const LoadedCase& loaded, const std::string& cell) {
   bem.cell = cell_size(cell);
   bem.apart = false;
   const CaseSpec spec = half_space_case(loaded.spec);
-  const HalfSpaceSolution solution = solve_half_space_contact(loaded.spec, placement, bem);
-  std::vector<const BemPatch*> patches{&solution.result};
-  for (const BemPatch& p : solution.result.further) patches.push_back(&p);
+  const BemResult result = solve_contact(loaded.spec, placement, {.bem = bem}).result;
+  const std::vector<const BemPatch*> patches = patches_of(result);
   Files out;
   out.comparison = contact_comparison();
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const std::string name = fmt::format("rail.{:04}", k + 1);
     out.add(name + ".mat", "the contact, for loadcase.m", contact_mat(spec, placement, *patches[k]));
-    out.add(name + ".subs", "stresses in the rail, for loadstrs.m",
-            contact_stresses(solution.result.rail, *patches[k]));
+    out.add(name + ".subs", "stresses in the rail, for loadstrs.m", contact_stresses(result.rail, *patches[k]));
     const std::string input = k == 0 ? "rail.inp" : fmt::format("rail_{}.inp", k + 1);
     if (spec.layers.empty() && spec.friction.law == FrictionForm::coulomb && !spec.third_body.thickness)
       out.add(input, "the case, module 3", contact_input(spec, placement, *patches[k]));

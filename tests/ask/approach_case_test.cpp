@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
 #include "reader/case_file.hpp"
@@ -16,11 +16,11 @@ const std::string kCircle =
     "[geometry]\nrail_profile = \"arc:R=840 mm\"\nwheel_profile = \"arc:R=840 mm\"\nwheel_radius = \"420 mm\"\n"
     "wheel_shape = \"disc\"\nbore_radius = \"20 mm\"\ncant = 0.0\n";
 
-HalfSpaceSolution solved(const std::string& text, double cell, const std::vector<std::string>& overrides = {}) {
+Answer solved(const std::string& text, double cell, const std::vector<std::string>& overrides = {}) {
   const LoadedCase loaded = parse_case(text, "a.toml", overrides);
   BemOptions options;
   options.cell = cell;
-  return solve_half_space_contact(loaded.spec, place(loaded.spec, {}), options);
+  return ask(loaded.spec, place(loaded.spec, {}), kContactAlone, {.bem = options});
 }
 
 // tests/data/reference/half_space.csv, circ: approach 0.08987738 mm under 84954.6 N by Hertz.
@@ -38,7 +38,7 @@ TEST(GivenApproach, AndLoadAreTwoWaysOfSayingOneState) {
         std::string("[drive]\ncreepage = -0.001\nlateral_creepage = 0.0005\n")})
     for (const std::string& geometry : {std::string("[geometry]\nlateral_shift = \"6 mm\"\n"), kCircle}) {
       const std::string layer = "[[layer]]\nyoung_ratio = 3\n";
-      const HalfSpaceSolution by_load = solved(geometry + driven + layer, 0.5e-3);
+      const Answer by_load = solved(geometry + driven + layer, 0.5e-3);
       const ContactSummary &a = by_load.summary.contact,
                            b = solved(geometry + driven + layer, 0.5e-3,
                                       {fmt::format("vehicle.approach={:.15g} m", a.approach)})
@@ -52,7 +52,7 @@ TEST(GivenApproach, AndLoadAreTwoWaysOfSayingOneState) {
 }
 
 TEST(GivenApproach, IsNotHeldAgainstAWeight) {
-  const HalfSpaceSolution s = solved(kCircle + "[vehicle]\napproach = \"0.05 mm\"\n", 0.5e-3);
+  const Answer s = solved(kCircle + "[vehicle]\napproach = \"0.05 mm\"\n", 0.5e-3);
   for (const Check& c : s.summary.checks) {
     EXPECT_NE(c.name, "F_z_relative_to_weight");
     EXPECT_TRUE(c.ok) << c.name;

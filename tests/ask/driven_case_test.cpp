@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "judge/bem_summary.hpp"
 #include "reader/case_file.hpp"
 #include "tests/bem/reference_table.hpp"
@@ -26,16 +26,11 @@ std::string quadratic_pair(double A, double B) {
       sideways, rolling);
 }
 
-/// As solve_half_space, without the stresses.
-HalfSpaceSolution solved(const std::string& text, double cell, const std::vector<std::string>& overrides = {}) {
+Answer solved(const std::string& text, double cell, const std::vector<std::string>& overrides = {}) {
   const LoadedCase loaded = parse_case(text, "a.toml", overrides);
   BemOptions options;
   options.cell = cell;
-  const CaseSpec spec = half_space_case(loaded.spec);
-  HalfSpaceSolution out;
-  out.result = solve_bem(spec, place(spec, {}), options);
-  out.summary = bem_contact_summary(spec, out.result);
-  return out;
+  return solve_contact(loaded.spec, place(loaded.spec, {}), {.bem = options});
 }
 
 std::string drive_of(const ReferenceRow& r) {
@@ -117,7 +112,7 @@ TEST(DrivenCase, ForcesAndCreepagesAreTwoWaysOfSayingOneState) {
   EXPECT_GT(both.F_x, 0);
   EXPECT_LT(both.lateral_force, 0) << "friction holds a wheel back that slips towards the field side";
   const auto same = [&](const std::string& drive) {
-    const HalfSpaceSolution s = solved(pair + drive, 0.5e-3);
+    const Answer s = solved(pair + drive, 0.5e-3);
     const ContactSummary& c = s.summary.contact;
     EXPECT_NEAR(c.creepage_x, -1e-3, 2e-7) << drive;
     EXPECT_NEAR(c.creepage_y, 5e-4, 2e-7) << drive;
@@ -145,7 +140,7 @@ TEST(DrivenCase, SmallCreepagesMeetKalkersCoefficientsWithinOnePercent) {
                              fmt::format("wheel_load = \"{} N\"\n[drive]\nfriction_coefficient = 2\n", kLoad);
     const auto coefficient = [&](const std::string& drive, double ContactSummary::*force, double divisor) {
       const auto on_cells = [&](double cell) {
-        const HalfSpaceSolution s = solved(text + drive, cell);
+        const Answer s = solved(text + drive, cell);
         double area = 0;
         for (double p : s.result.field.p) area += p > 0 ? cell * cell : 0;
         return -(s.summary.contact.*force) / (shear * std::pow(area / std::numbers::pi, divisor)) / kSmall;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "core/faults.hpp"
 #include "reader/case_file.hpp"
 
@@ -25,7 +25,7 @@ std::vector<TransientRow> roll(const std::string& more, double cell = 0.5e-3) {
       parse_case(crown("[transient]\nkind = \"rolling\"\ndistance = \"40 mm\"\n" + more), "a.toml").spec;
   BemOptions options;
   options.cell = cell;
-  return solve_half_space_contact(spec, place(spec, {}), options).history;
+  return solve_contact(spec, place(spec, {}), {.bem = options}).history;
 }
 
 const std::string kHollow = "[[irregularity]]\nat = \"20 mm\"\nlength = \"20 mm\"\ndepth = \"0.2 mm\"\n";
@@ -65,7 +65,7 @@ TEST(IrregularWay, OverItsMiddleThePatchIsTwo) {
                             .spec;
   BemOptions options;
   options.cell = 0.5e-3;
-  const HalfSpaceSolution s = solve_half_space_contact(spec, place(spec, {}), options);
+  const Answer s = solve_contact(spec, place(spec, {}), {.bem = options});
   const ContactField& f = s.result.field;
   int begins = 0, cells = 0;
   double before = 0;
@@ -117,7 +117,7 @@ TEST(IrregularWay, WhatCannotBeComputedIsRefused) {
       const CaseSpec spec = parse_case(crown(more), "a.toml").spec;
       BemOptions options;
       options.cell = cell;
-      solve_half_space_contact(spec, place(spec, {}), options);
+      solve_contact(spec, place(spec, {}), {.bem = options});
     } catch (const CaseError& e) {
       return e.what();
     }

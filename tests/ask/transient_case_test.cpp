@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "bem/film_capacity.hpp"
 #include "core/faults.hpp"
 #include "halfspace/classical_rolling.hpp"
@@ -30,7 +30,7 @@ std::string circle(double load = kLoad, double friction = kFriction, const std::
 struct Followed {
   CaseSpec spec;
   Placement placement;
-  HalfSpaceSolution solution;
+  Answer solution;
   std::vector<ContactField> fields;
   double shift = 0;  ///< m, at the start
   const std::vector<TransientRow>& rows() const { return solution.history; }
@@ -41,11 +41,11 @@ Followed follow(const std::string& text, double cell, const std::vector<std::str
   Followed out{loaded.spec, place(loaded.spec, {}), {}, {}, 0};
   BemOptions options;
   options.cell = cell;
-  out.solution = solve_half_space_contact(out.spec, out.placement, options, [&](const TransientState& state) {
+  const auto observer = [&](const TransientState& state) {
     out.fields.push_back(state.result.field);
     if (state.step == 0) out.shift = state.displacement_x;
-    return true;
-  });
+  };
+  out.solution = ask(out.spec, out.placement, kContactAlone, {.bem = options, .observer = observer});
   return out;
 }
 
@@ -262,12 +262,13 @@ TEST(TransientCase, LayersAreFollowedToo) {
   EXPECT_NEAR(rest.rows().back().p_max / steady.patch.p_max, 1, 1e-4);
 }
 
-TEST(TransientCase, AnObserverEndsIt) {
+TEST(TransientCase, AControlEndsIt) {
   const LoadedCase loaded = parse_case(circle() + "[transient]\nkind = \"rolling\"\ndistance = \"20 mm\"\n", "a.toml");
-  BemOptions options;
-  options.cell = 1e-3;
-  const HalfSpaceSolution s = solve_half_space_contact(loaded.spec, place(loaded.spec, {}), options,
-                                                       [](const TransientState& state) { return state.step < 3; });
+  Control control;
+  AskOptions how{.control = &control};
+  how.bem.cell = 1e-3;
+  how.observer = [&](const TransientState& state) { control.stop = state.step == 3; };
+  const Answer s = ask(loaded.spec, place(loaded.spec, {}), {}, how);
   EXPECT_TRUE(s.stopped);
   EXPECT_EQ(s.history.size(), 4u);
   EXPECT_EQ(s.summary.state, "after 3 mm of rolling from rest");

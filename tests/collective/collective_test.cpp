@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "collective/collective_files.hpp"
 #include "core/faults.hpp"
 #include "reader/case_file.hpp"
@@ -176,7 +176,7 @@ TEST(Collective, TheLifeOfOneLoadIsThatOfItsCollective) {
   const CaseSpec one = parse_case(text, "a.toml").spec,
                  many = parse_case(text + "[[load]]\npassages = 1\n", "a.toml").spec;
   const Placement placement = place(one, {});
-  const HalfSpaceSolution alone = solve_half_space(one, placement, coarse().bem);
+  const Answer alone = ask(one, placement, {}, {.bem = coarse().bem});
   const std::vector<CollectiveRow> rows = solved(many);
   const double cell = coarse().bem.cell;
   const Lives lives =

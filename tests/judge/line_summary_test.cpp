@@ -5,9 +5,9 @@
 
 #include "bem/transient.hpp"
 #include "core/faults.hpp"
-#include "judge/bem_summary.hpp"
 #include "result/patch.hpp"
 #include "result/transient_row.hpp"
+#include "tests/judge/whole_summary.hpp"
 
 namespace railstrata {
 namespace {
@@ -31,7 +31,7 @@ constexpr double kP0 = 576.9231e6;
 TEST(LineSummary, HasHertzAndCarterAndNoApproachNorWidth) {
   const CaseSpec spec = cylinder();
   const BemResult r = solve_bem(spec, place(spec, {}));
-  const Summary s = bem_summary(spec, r);
+  const Summary s = whole_summary(spec, r);
   const PatchMeasures& m = s.contact.patch;
   EXPECT_NEAR(m.p_max / kP0, 1, 1e-3);
   EXPECT_EQ(m.p_max_y, 0);
@@ -52,7 +52,7 @@ TEST(LineSummary, HasHertzAndCarterAndNoApproachNorWidth) {
 TEST(LineSummary, LargestVonMisesStressIsTheClosedForms) {
   CaseSpec spec = cylinder();
   spec.drive.friction_coefficient = spec.drive.traction_coefficient = 0;
-  const Summary s = bem_summary(spec, solve_bem(spec, place(spec, {})));
+  const Summary s = whole_summary(spec, solve_bem(spec, place(spec, {})));
   for (const StressSummary* body : {&s.rail, &s.wheel}) {
     EXPECT_NEAR(body->subsurface->von_mises.value / kP0, 0.5577, 2e-3);
     EXPECT_NEAR(body->subsurface->von_mises.depth / 5e-3, 0.704, 0.01);

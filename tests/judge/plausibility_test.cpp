@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "judge/bem_summary.hpp"
 #include "judge/check_limits.hpp"
+#include "tests/judge/whole_summary.hpp"
 #include "tests/result/crossed_cylinders.hpp"
 
 namespace railstrata {
@@ -20,7 +20,7 @@ CaseSpec sphere() { return post_checks::crossed_cylinders(); }
 Summary solved(const CaseSpec& spec, double cell = 0.5e-3) {
   BemOptions options;
   options.cell = cell;
-  return bem_summary(spec, solve_bem(spec, place(spec, {}), options));
+  return whole_summary(spec, solve_bem(spec, place(spec, {}), options));
 }
 
 /// Null where the summary does not warn of it.

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "judge/bem_summary.hpp"
+#include "tests/judge/whole_summary.hpp"
 #include "tests/result/crossed_cylinders.hpp"
 
 namespace railstrata {
@@ -14,7 +14,7 @@ DamageSummary damage_of(const CaseSpec& spec) {
   BemOptions options;
   options.cell = 0.5e-3;
   const BemResult r = solve_bem(spec, place(spec, {}), options);
-  return damage_summary(spec, bem_summary(spec, r), streamlines(spec, r.field));
+  return damage_summary(spec, whole_summary(spec, r), streamlines(spec, r.field));
 }
 
 CaseSpec sliding() {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "runs/solve_fem.hpp"
 #include "tests/places.hpp"
 #include "tests/runs/small_run.hpp"
@@ -46,7 +46,7 @@ TEST(NoTraces, SolvingLeavesNoFileNoLineAndNoSignalHandler) {
   const LoadedCase loaded = run_checks::small_case();
   const RollingSystem system = fem_system(loaded.spec, loaded.folder());
   const FemSolution fem = solve_fem(system);
-  const HalfSpaceSolution half_space = solve_half_space(loaded.spec, place(loaded.spec, loaded.folder()));
+  const Answer half_space = ask(loaded.spec, place(loaded.spec, loaded.folder()));
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_TRUE(folder.empty());

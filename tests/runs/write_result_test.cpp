@@ -59,17 +59,17 @@ Names with(Names names, const Names& more) {
 }
 
 /// A transient of the small case, with the files that it writes on its way and at its end.
-HalfSpaceSolution solve_and_write(const fs::path& folder, const std::vector<std::string>& overrides) {
+Answer solve_and_write(const fs::path& folder, const std::vector<std::string>& overrides) {
   const LoadedCase loaded = run_checks::small_case(overrides);
   const Placement placement = place(loaded.spec, ".");
   BemOptions options;
   options.cell = 0.5e-3;
   TransientWriter writer(loaded.spec, folder, {"a case"});
-  HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, options, [&](const TransientState& state) {
+  const auto observer = [&](const TransientState& state) {
     writer.add(state);
     EXPECT_EQ(read_csv(folder / "history.csv").rows(), static_cast<std::size_t>(state.step) + 1);
-    return true;
-  });
+  };
+  Answer solution = ask(loaded.spec, placement, {}, {.bem = options, .observer = observer});
   write_half_space_result(folder, {"a case"}, loaded.spec, placement, solution);
   return solution;
 }
@@ -126,17 +126,17 @@ TEST_F(SlowWriteResult, ACheckpointThatCannotBeWrittenIsAWarningUnlessTheRunStop
 }
 
 /// The half-space solution of a case, written into the folder.
-HalfSpaceSolution written(const LoadedCase& loaded, double cell, const fs::path& folder) {
+Answer written(const LoadedCase& loaded, double cell, const fs::path& folder) {
   const Placement placement = place(loaded.spec, ".");
   BemOptions options;
   options.cell = cell;
-  HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, options);
+  Answer solution = ask(loaded.spec, placement, {}, {.bem = options});
   write_half_space_result(folder, {"a case"}, loaded.spec, placement, solution);
   return solution;
 }
 
-TEST_F(WriteResult, AHalfSpaceSolutionHasTheFilesOfAPosition) {
-  const HalfSpaceSolution solution = written(run_checks::small_case(), 0.5e-3, folder);
+TEST_F(WriteResult, AAnswerHasTheFilesOfAPosition) {
+  const Answer solution = written(run_checks::small_case(), 0.5e-3, folder);
   EXPECT_EQ(names_in(folder), kPosition);
   EXPECT_EQ(read_result_folder(folder).number("/contact/p_max_Pa"), solution.summary.contact.patch.p_max);
   EXPECT_EQ(read_csv(folder / "patch.csv").columns[0].name, "x_mm") << "one patch needs no number";
@@ -148,7 +148,7 @@ TEST_F(WriteResult, SeveralPatchesAreWrittenAndReadOneAfterTheOther) {
       "back_to_back = \"1353 mm\"\nwheel_radius = \"430 mm\"\nlateral_shift = \"9.6 "
       "mm\"\n[drive]\ntraction_coefficient = 0.02\n",
       "two.toml");
-  const HalfSpaceSolution solution = written(loaded, 1e-3, folder);
+  const Answer solution = written(loaded, 1e-3, folder);
   EXPECT_EQ(names_in(folder), kPosition);
   const ResultFolder read = read_result_folder(folder);
   ASSERT_EQ(read.further.size(), 2U) << "two lobes on the tread and the flange's root";
@@ -177,9 +177,8 @@ TEST_F(WriteResult, PatchesOutOfOrderAreRefused) {
 }
 
 TEST_F(WriteResult, ATransientLeavesItsHistoryAndFramesAsItGoes) {
-  const HalfSpaceSolution solution =
-      solve_and_write(folder, {"transient.kind=rolling", "transient.distance=6 mm", "output.series_frames=3",
-                               "drive.traction_coefficient=0.1"});
+  const Answer solution = solve_and_write(folder, {"transient.kind=rolling", "transient.distance=6 mm",
+                                                   "output.series_frames=3", "drive.traction_coefficient=0.1"});
   EXPECT_EQ(names_in(folder / "patch_series"),
             (Names{"patch_0000.vtp", "patch_0001.vtp", "patch_0002.vtp", "patch_0003.vtp"}));
   EXPECT_EQ(names_in(folder), with(kPosition, {"history.csv", "patch.pvd", "patch_film.csv", "patch_series"}));
@@ -189,7 +188,7 @@ TEST_F(WriteResult, ATransientLeavesItsHistoryAndFramesAsItGoes) {
 }
 
 TEST_F(WriteResult, TheSlipOfAShiftIsReadBackAsADistance) {
-  const HalfSpaceSolution solution = solve_and_write(
+  const Answer solution = solve_and_write(
       folder, {"transient.kind=shift", "transient.displacement=[\"2 um\"]", "output.patch_series=false"});
   Names wanted = with(kPosition, {"history.csv"});
   wanted.erase("streamlines.csv");

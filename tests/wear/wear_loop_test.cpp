@@ -33,7 +33,7 @@ CaseSpec arcs(const std::string& loads) {
 WearStepOptions coarse(double max_wear) {
   WearStepOptions options;
   options.collective.bem.cell = kCell;
-  options.collective.shakedown = false;
+  options.collective.wanted = kContactAlone;
   options.max_wear = max_wear;
   return options;
 }

@@ -11,7 +11,6 @@
 #include "app/summary_text.hpp"
 #include "app/waiting.hpp"
 #include "ask/half_space_need.hpp"
-#include "bem/film_capacity.hpp"
 #include "core/faults.hpp"
 #include "io/folder_kind.hpp"
 #include "io/output_folder.hpp"
@@ -41,7 +40,7 @@ HalfSpaceJob job_of(const CommandOptions& options) {
   job.out = output_folder_of(options, job.loaded, "-bem");
   job.bem.cell = cell_size(options.cell);
   job.need = half_space_need(job.loaded.spec, job.placement, job.bem.cell);
-  require_memory(job.need, job.bem.cell);
+  with_places(job.loaded, [&] { require_solvable(job.loaded.spec, job.placement, job.bem); });
   return job;
 }
 
@@ -53,33 +52,31 @@ std::string track_text(const CaseSpec& spec) {
   return fmt::format("{}", fmt::join(facts, "; "));
 }
 
-HalfSpaceSolution solve_steady(const HalfSpaceJob& job, const ShakedownOptions& wanted) {
+Answer solve_steady(const HalfSpaceJob& job, const ShakedownOptions& shakedown) {
   answer_interrupt_with("\nstopped: nothing was written\n");
   const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)), shown());
-  HalfSpaceSolution solution = solve_half_space(job.loaded.spec, job.placement, job.bem);
-  if (wanted.single_track) complete_shakedown(job.loaded.spec, solution, wanted.maps);
-  return solution;
+  const Wanted wanted{.single_track = shakedown.single_track, .maps = shakedown.maps};
+  return ask(job.loaded.spec, job.placement, wanted, {.bem = job.bem});
 }
 
 /// Its history and pictures are there while it is followed, and after Ctrl-C up to there.
-HalfSpaceSolution solve_and_show(const HalfSpaceJob& job) {
+Answer solve_and_show(const HalfSpaceJob& job) {
   const Control& control = control_by_signals();
   TransientWriter writer(job.loaded.spec, job.out, table_origin(job.loaded));
   spdlog::info("{}: {} steps, {}; results go to {}", job.loaded.spec.title,
                transient_steps(job.loaded.spec, job.placement, job.bem.cell), need_text(job.need), job.out.string());
-  HalfSpaceSolution solution =
-      solve_half_space(job.loaded.spec, job.placement, job.bem, [&](const TransientState& state) {
-        writer.add(state);
-        control.progress("steps", static_cast<double>(state.step) / state.steps);
-        return !control.stop;
-      });
+  const auto observer = [&](const TransientState& state) {
+    writer.add(state);
+    control.progress("steps", static_cast<double>(state.step) / state.steps);
+  };
+  Answer answer = ask(job.loaded.spec, job.placement, {}, {.bem = job.bem, .control = &control, .observer = observer});
   control.progress("");
-  if (solution.stopped)
+  if (answer.stopped)
     throw Interrupted(
         fmt::format("stopped {}: history.csv and the patch on its way are in {} up to there\n    remedy: "
                     "start it again: {}",
-                    solution.summary.state, job.out.string(), command_again(job.out)));
-  return solution;
+                    answer.summary.state, job.out.string(), command_again(job.out)));
+  return answer;
 }
 
 constexpr const char* kHalfWritten =
@@ -90,13 +87,8 @@ constexpr const char* kHalfWritten =
 ExitCode command_bem(const CommandOptions& options) {
   const HalfSpaceJob job = job_of(options);
   const bool steady = job.loaded.spec.transient.kind == TransientKind::none;
-  HalfSpaceSolution solution;
-  with_places(job.loaded, [&] {
-    if (steady)
-      solution = solve_steady(job, options.shakedown);
-    else
-      require_film_carries(job.loaded.spec, job.placement, job.bem);
-  });
+  Answer answer;
+  if (steady) answer = with_places(job.loaded, [&] { return solve_steady(job, options.shakedown); });
 
   require_apart(job.out, job.loaded);
   const FolderHold hold = prepare_output_folder(job.out, options.force);
@@ -104,20 +96,19 @@ ExitCode command_bem(const CommandOptions& options) {
     if (steady) answer_interrupt_with(kHalfWritten);
     clear_old_results(job.out);
     write_origin(job.out, job.loaded, options.command_line, options.threads);
-    if (!steady) solution = with_places(job.loaded, [&] { return solve_and_show(job); });
+    if (!steady) answer = with_places(job.loaded, [&] { return solve_and_show(job); });
     answer_interrupt_with(kHalfWritten);
-    write_half_space_result(job.out, table_origin(job.loaded), job.loaded.spec, job.placement, solution);
+    write_half_space_result(job.out, table_origin(job.loaded), job.loaded.spec, job.placement, answer);
   } catch (EnvironmentError& e) {
     if (!e.remedy.empty()) e.remedy += ", then start it again with --force";
     throw;
   }
   if (const std::string track = track_text(job.loaded.spec); !track.empty()) spdlog::info("{}", track);
-  for (const auto& notes : {job.placement.notes, solution.result.notes})
+  for (const auto& notes : {job.placement.notes, answer.result.notes})
     for (const std::string& note : notes) spdlog::info("{}", note);
-  print_summary(solution.summary, options.json);
+  print_summary(answer.summary, options.json);
   spdlog::info("results are in {}", job.out.string());
-  const bool page_ok = !options.page || add_report(job.out, control()),
-             ok = page_ok && all_checks_hold(solution.summary);
+  const bool page_ok = !options.page || add_report(job.out, control()), ok = page_ok && all_checks_hold(answer.summary);
   if (!ok) spdlog::warn("a check failed: read the results with care");
   return ok ? ExitCode::ok : ExitCode::failed_checks;
 }

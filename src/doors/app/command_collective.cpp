@@ -33,7 +33,6 @@ void solve(const CommandOptions& options, const LoadedCase& loaded, InfluenceCac
   CollectiveOptions how;
   how.bem.cell = cell_size(options.cell);
   how.bem.cache = &cache;
-  how.shakedown = strength_to_judge(loaded.spec);
   how.control = &control_by_signals();
   solve_collective(rows, loaded.folder(), how);
   how.control->progress("");
@@ -60,11 +59,11 @@ void write_row(const CommandOptions& options, const LoadedCase& loaded, const st
   BemOptions bem;
   bem.cell = cell_size(options.cell);
   const Placement placement = place(one.spec, loaded.folder());
-  const HalfSpaceSolution solution = solve_half_space(one.spec, placement, bem);
+  const Answer answer = ask(one.spec, placement, {}, {.bem = bem});
   make_folder(folder);
   clear_old_results(folder);
   write_origin(folder, one, options.command_line, options.threads);
-  write_half_space_result(folder, table_origin(one), one.spec, placement, solution);
+  write_half_space_result(folder, table_origin(one), one.spec, placement, answer);
 }
 
 /// Columns of a load on the terminal.

@@ -10,8 +10,8 @@
 
 #include "core/printable.hpp"
 #include "io/summary_json.hpp"
-#include "judge/answer.hpp"
 #include "judge/check_limits.hpp"
+#include "judge/judgement.hpp"
 #include "judge/verdict.hpp"
 #include "result/result_table.hpp"
 
@@ -158,7 +158,7 @@ std::string shakedown_text(const Summary& s) {
 
 /// The answer in a line.
 std::string lasts_text(const Summary& s) {
-  const std::optional<Answer> answer = answer_of(s);
+  const std::optional<Judgement> answer = judgement_of(s);
   if (!answer) return {};
   return fmt::format("  {}{}: {}\n", padded("does it last?", 24), lasts_row(answer->lasts).word,
                      printable(answer->reason));

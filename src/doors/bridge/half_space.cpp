@@ -2,10 +2,7 @@
 #include <cmath>
 #include <memory>
 
-#include "ask/half_space_need.hpp"
-#include "ask/solve_half_space.hpp"
-#include "ask/solve_settings.hpp"
-#include "bem/bem_options.hpp"
+#include "ask/answer.hpp"
 #include "bridge/functions.hpp"
 #include "bridge/patches.hpp"
 #include "core/faults.hpp"
@@ -24,62 +21,39 @@ namespace {
 struct HalfSpaceRun {
   LoadedCase loaded;
   Placement placement;
-  HalfSpaceSolution solution;
+  Answer answer;
   const BemPatch& patch(std::size_t index) const {
-    return index == 0 ? solution.result : solution.result.further.at(index - 1);
+    return index == 0 ? answer.result : answer.result.further.at(index - 1);
   }
 };
-
-/// A caller's options for a solution.
-struct Wanted {
-  double cell = kDefaultCell;
-  int threads = 0;
-  bool stresses = true, single_track = false, maps = false;
-};
-
-BemOptions options_of(const Wanted& wanted) {
-  require_cell(wanted.cell);
-  if (wanted.threads < 0) throw CaseError("threads is negative", "give 0 for as many as OpenMP has");
-  BemOptions options;
-  options.cell = wanted.cell;
-  return options;
-}
-
-HalfSpaceSolution solved(const HalfSpaceRun& run, const Wanted& wanted, const TransientObserver& observer) {
-  const BemOptions options = options_of(wanted);
-  require_memory(half_space_need(run.loaded.spec, run.placement, wanted.cell), wanted.cell);
-  if (!wanted.stresses) return solve_half_space_contact(run.loaded.spec, run.placement, options, observer);
-  HalfSpaceSolution solution = solve_half_space(run.loaded.spec, run.placement, options, observer);
-  if (wanted.single_track || wanted.maps) complete_shakedown(run.loaded.spec, solution, wanted.maps);
-  return solution;
-}
 
 void answer_half_space(Call& call) {
   const auto loaded = call.made<LoadedCase>("case");
-  const Wanted wanted{call.number("cell"), call.whole("threads"), call.flag("stresses"), call.flag("single_track"),
-                      call.flag("maps")};
+  Wanted wanted = call.flag("stresses") ? Wanted{} : kContactAlone;
+  wanted.maps = call.flag("maps");
+  wanted.single_track = wanted.maps || call.flag("single_track");
   const auto run = std::make_shared<HalfSpaceRun>(HalfSpaceRun{*loaded, place(loaded->spec, loaded->folder()), {}});
-  const TransientObserver observer = [&](const TransientState& state) {
+  AskOptions how{.threads = call.whole("threads"), .control = &call.control};
+  how.bem.cell = call.number("cell");
+  how.observer = [&](const TransientState& state) {
     call.report(Json::array({static_cast<double>(state.step) / state.steps}));
-    return !call.control.stop.load();
   };
-  const ThreadsOfCaller threads(wanted.threads);
-  const StopRequest wish(&call.control.stop);
   try {
-    run->solution = solved(*run, wanted, observer);
+    run->answer = ask(loaded->spec, run->placement, wanted, how);
+    if (run->answer.stopped) throw Interrupted("stopped");
   } catch (const CaseError& e) {
     throw in_case_file(*loaded, e);
   }
-  call.answer["summary"] = summary_json(run->solution.summary);
-  call.answer["notes"] = run->solution.result.notes;
+  call.answer["summary"] = summary_json(run->answer.summary);
+  call.answer["notes"] = run->answer.result.notes;
   call.answer["patches"] = Json::array({patch_of(run->patch(0).field)});
-  for (const BemPatch& patch : run->solution.result.further) call.answer["patches"].push_back(patch_of(patch.field));
+  for (const BemPatch& patch : run->answer.result.further) call.answer["patches"].push_back(patch_of(patch.field));
   call.make(run);
 }
 
 Subsurface interior(const HalfSpaceRun& run, const std::string& body, std::size_t patch) {
-  if (body == "rail") return rail_interior(run.solution.result.rail, run.patch(patch));
-  return wheel_interior(run.solution.result.wheel, run.patch(patch));
+  if (body == "rail") return rail_interior(run.answer.result.rail, run.patch(patch));
+  return wheel_interior(run.answer.result.wheel, run.patch(patch));
 }
 
 void put(const Sym3& s, double* out) {
@@ -149,7 +123,7 @@ void write(Call& call) {
   const FolderHold hold = prepare_output_folder(folder, call.flag("force"));
   clear_old_results(folder);
   write_origin(folder, run->loaded, {"railstrata.bem (Python)"}, max_threads());
-  write_half_space_result(folder, table_origin(run->loaded), run->loaded.spec, run->placement, run->solution);
+  write_half_space_result(folder, table_origin(run->loaded), run->loaded.spec, run->placement, run->answer);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "ask/solve_settings.hpp"
 #include "capi/contact.hpp"
 #include "capi/guarded.hpp"

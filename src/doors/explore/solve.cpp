@@ -14,8 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ask/solve_half_space.hpp"
-#include "ask/solve_settings.hpp"
+#include "ask/judge.hpp"
 #include "core/faults.hpp"
 #include "explore/case_values.hpp"
 #include "io/summary_json.hpp"
@@ -167,8 +166,7 @@ struct Explorer::State {
   std::optional<Request> of;
   LoadedCase loaded;
   Placement placement;
-  HalfSpaceSolution solution;
-  bool has_stress = false, has_shakedown = false;
+  Answer asked;
   std::optional<StressSections> sections;
 
   /// Operators of other layers are not needed again after a slider has moved. A cache that is begun anew keeps the
@@ -185,63 +183,45 @@ struct Explorer::State {
 
   void solve(const Request& request) {
     of.reset();
-    has_stress = has_shakedown = false;
     sections.reset();
-    require_cell(request.cell);
     loaded = parse_case(request.text, request.file, request.overrides);
     require_steady(loaded.spec);
     placement = place(loaded.spec, loaded.folder());
     BemOptions options;
     options.cell = request.cell;
     options.cache = &cache_for(loaded.spec);
-    solution = solve_half_space_contact(loaded.spec, placement, options);
+    asked = solve_contact(loaded.spec, placement, {.bem = options});
     of = request;
-  }
-
-  void add_stress() {
-    if (has_stress) return;
-    Summary& s = solution.summary;
-    s.rail = bem_rail_stress(solution.result, s.contact);
-    s.wheel = bem_wheel_stress(solution.result, s.contact);
-    s.warnings = bem_warnings(s, loaded.spec, solution.result);
-    has_stress = true;
   }
 
   /// As the files of `railstrata bem`: below the pressure's largest value.
   void add_section() {
-    const BemResult& r = solution.result;
-    const double deepest = depths_of_interest(r.rail, solution.summary.contact).deepest;
-    if (!sections) sections = rail_sections(r, solution.summary.contact.patch.p_max_x, centre_line(r.field).y, deepest);
-  }
-
-  void add_shakedown() {
-    if (has_shakedown) return;
-    solution.shakedown = half_space_shakedown(loaded.spec, solution.result);
-    solution.summary.shakedown = shakedown_summary(loaded.spec, solution.shakedown);
-    solution.summary.fatigue.clear();
-    for (const SectionShakedown& section : solution.shakedown) solution.summary.fatigue.push_back(section.fatigue);
-    has_shakedown = true;
+    const BemResult& r = asked.result;
+    const double deepest = depths_of_interest(r.rail, asked.summary.contact).deepest;
+    if (!sections) sections = rail_sections(r, asked.summary.contact.patch.p_max_x, centre_line(r.field).y, deepest);
   }
 
   void complete(const Request& request) {
     if (!of || !of->same_contact(request)) solve(request);
-    if (request.wants("stress")) add_stress();
+    Wanted wanted = kContactAlone;
+    wanted.rail = wanted.wheel = request.wants("stress");
+    wanted.shakedown = request.wants("shakedown");
+    judge(loaded.spec, placement, wanted, asked);
     if (request.wants("section")) add_section();
-    if (request.wants("shakedown")) add_shakedown();
   }
 
   Json head(const Request& request, std::vector<float>& numbers) {
     Json out{{"ok", true}};
-    out["summary"] = summary_json(solution.summary);
+    out["summary"] = summary_json(asked.summary);
     out["values"] = case_values(loaded.spec, request.values);
     out["layers"] = layers_json(loaded.spec);
     out["strengths"] = strength_to_judge(loaded.spec);
-    out["doubts"] = doubts_json(solution.summary);
+    out["doubts"] = doubts_json(asked.summary);
     out["notes"] = loaded.notes;
-    for (const auto& further : {loaded.elastic_notes, loaded.static_notes, placement.notes, solution.result.notes})
+    for (const auto& further : {loaded.elastic_notes, loaded.static_notes, placement.notes, asked.result.notes})
       for (const std::string& note : further) out["notes"].push_back(note);
     if (request.wants("case")) out["case"] = loaded.resolved_toml;
-    if (request.wants("patch")) out["patch"] = patch_json(solution.result, numbers);
+    if (request.wants("patch")) out["patch"] = patch_json(asked.result, numbers);
     if (request.wants("section") && sections) {
       out["section"] = section_json(sections->longitudinal, numbers);
       out["cross"] = section_json(sections->cross, numbers);

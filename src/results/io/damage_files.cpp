@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "judge/answer.hpp"
+#include "judge/judgement.hpp"
 #include "judge/verdict.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
@@ -47,7 +47,7 @@ Json body_json(const BodyShakedown& b) {
   return out;
 }
 
-Json answer_json(const Answer& a) {
+Json answer_json(const Judgement& a) {
   const LastsRow& row = lasts_row(a.lasts);
   return {{"lasts", row.word},    {"title", row.title}, {"tone", row.tone},  {"zone", a.zone},
           {"decides", a.decides}, {"reason", a.reason}, {"doubts", a.doubts}};
@@ -169,7 +169,7 @@ Json shakedown_json(const Summary& summary) {
   out["verdict"] = verdict_text(verdict_of(summary.shakedown));
   out["fails_by"] = Json::array();
   for (const Verdict v : fails_by(summary)) out["fails_by"].push_back(verdict_text(v));
-  if (const std::optional<Answer> answer = answer_of(summary)) out["answer"] = answer_json(*answer);
+  if (const std::optional<Judgement> answer = judgement_of(summary)) out["answer"] = answer_json(*answer);
   out["governing"] = governing_json(*governing);
   for (const BodyShakedown& b : summary.shakedown.bodies) out["bodies"].push_back(body_json(b));
   return out;

@@ -187,14 +187,6 @@ StressSummary bem_wheel_stress(const BemResult& r, const ContactSummary& contact
   return out;
 }
 
-Summary bem_summary(const CaseSpec& spec, const BemResult& r) {
-  Summary s = bem_contact_summary(spec, r);
-  s.rail = bem_rail_stress(r, s.contact);
-  s.wheel = bem_wheel_stress(r, s.contact);
-  s.warnings = bem_warnings(s, spec, r);
-  return s;
-}
-
 DepthLine rail_depth_line(const BemResult& r, double x, double y, double deepest) {
   const Subsurface interior = rail_interior(r);
   const PatchGrid& g = r.grid;

@@ -10,16 +10,11 @@ namespace railstrata {
 /// patch (the largest von Mises stress of any Hertzian ellipse lies above 0.4 of it), deeper while they rise.
 SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact);
 
-/// Contact, stresses of both bodies and checks; commit, threads and peak memory are the program's to add. run.elements
-/// counts the cells of the grids. Of several patches: stresses are those below the first, F_x, F_y and F_z of all,
-/// warnings of the worse. Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface`
-/// starts at subsurface_begin (result/patch.hpp); `interface` takes either side. NaN: penetration and scatter; without
-/// friction also slip area and creepages. Steady rolling is the same everywhere: position is the case's last one, of a
-/// static case 0. Checks (limits: check_limits.hpp): F_z against G, F_x/G against the wanted traction coefficient, the
-/// patch inside the grid.
-Summary bem_summary(const CaseSpec& spec, const BemResult& result);
-
-/// Contact and checks alone, without the stresses, which cost more than the contact itself.
+/// Contact and checks; what else there is adds ask/judge.hpp. run.elements counts the cells of the grids. Of several
+/// patches: F_x, F_y and F_z of all, warnings of the worse. NaN: penetration and scatter; without friction also slip
+/// area and creepages. Steady rolling is the same everywhere: position is the case's last one, of a static case 0.
+/// Checks (limits: check_limits.hpp): F_z against G, F_x/G against the wanted traction coefficient, the patch inside
+/// the grid.
 Summary bem_contact_summary(const CaseSpec& spec, const BemResult& result);
 
 /// Warnings for implausible values of a summary and its stresses. coarsest: cell_of_patch of a transient's worst state.
@@ -32,7 +27,8 @@ double cell_of_patch(const BemResult& result);
 /// The check cell_of_patch of the worst state instead of the last.
 void judge_coarsest_state(double coarsest, Summary& summary);
 
-/// The stresses of one body.
+/// The largest stresses of one body, of several patches below the first: x, y in the contact plane from the rigid
+/// contact point; `subsurface` starts at subsurface_begin (result/patch.hpp); `interface` takes either side.
 StressSummary bem_rail_stress(const BemResult& result, const ContactSummary& contact);
 StressSummary bem_wheel_stress(const BemResult& result, const ContactSummary& contact);
 

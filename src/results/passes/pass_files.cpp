@@ -284,9 +284,7 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
                    {"largest_error", series.jump.error}};
   if (answer.ductility)
     out["ductility"] = ductility_json(*answer.ductility, largest_strain(result), series.cycles, series.cycle);
-  Summary summary;
-  summary.shakedown = answer.shakedown;
-  if (Json factors = shakedown_json(summary); !factors.is_null()) out["shakedown"] = std::move(factors);
+  if (Json factors = shakedown_json(answer.elastic); !factors.is_null()) out["shakedown"] = std::move(factors);
   out["points"] = points_json(series.points, verdict.kind);
   out["zones"] = zones_json(spec, zones_of(rail));
   out["loops"] = loops_json(loops_of(rail, way));
@@ -297,6 +295,7 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
                         "straight endless rail, layers without sideways ends on a half-space", "small strains",
                         "one patch, the same in every pass", "the wheel stays elastic"};
   out["notes"] = rail.notes;
+  for (const std::string& doubt : answer.doubts) out["notes"].push_back(doubt);
   write_whole_file(file, json_text(out, 2) + "\n");
 }
 

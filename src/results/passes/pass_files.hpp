@@ -59,7 +59,8 @@ void write_residual(const std::filesystem::path& folder, const std::vector<std::
 /// Contents of passes.json besides the series itself.
 struct PassAnswer {
   std::string verdict, law;         ///< sentences (passes/pass_text.hpp)
-  ShakedownSummary shakedown;       ///< of the elastic stress of the first of the tractions; empty: none
+  Summary elastic;                  ///< of the first of the tractions, with its shakedown where there are strengths
+  std::vector<std::string> doubts;  ///< failed checks and warnings of the contact that all passes use
   std::optional<double> ductility;  ///< equivalent strain that the material bears
 };
 void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec, const RailPasses& rail,

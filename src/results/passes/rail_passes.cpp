@@ -332,8 +332,6 @@ std::optional<double> longer_window(const PassesSpec& passes, const RailPasses& 
   return std::min(kGrowth * rail.window, longest);
 }
 
-SteadyBody body_of(const RailPasses& passes) { return {passes.grid, passes.rows, passes.below, passes.initial_stress}; }
-
 int columns_to(const SteadyGrid& g, double lateral) {
   return g.ny > 1 ? static_cast<int>(std::lround(lateral / g.dy)) : 0;
 }

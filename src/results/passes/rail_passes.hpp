@@ -40,8 +40,7 @@ std::optional<double> longer_window(const PassesSpec& passes, const RailPasses& 
 /// Stress in the rail under another contact of the same wheel, Pa, as contact_stress.
 Field contact_stress(const RailPasses& passes, const BemResult& contact);
 
-/// The body of it, and the strain of a stress of the contact, so many columns to the side.
-SteadyBody body_of(const RailPasses& passes);
+/// The strain of a stress of the contact, so many columns to the side.
 Field contact_strain(const RailPasses& passes, const SteadyBody& body, const Field& contact_stress, int columns = 0);
 /// The column nearest to a place across.
 int columns_to(const SteadyGrid& grid, double lateral);

@@ -14,7 +14,7 @@ namespace railstrata {
 /// differ are listed.
 std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs);
 
-/// Whether each run lasts (judge/answer.hpp), of those whose case gives a strength; named where there are several.
+/// Whether each run lasts (judge/judgement.hpp), of those whose case gives a strength; named where there are several.
 std::vector<ReportAnswer> run_answers(const std::vector<ReportRun>& runs);
 
 /// The verdict of the page in one line: "all 13 checks hold", "1 of 13 checks fails: Largest shear 9.52 %, limit 7 %".

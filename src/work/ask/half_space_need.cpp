@@ -8,7 +8,6 @@
 #include "bem/transient.hpp"
 #include "core/faults.hpp"
 #include "core/process_memory.hpp"
-#include "fem/memory_need.hpp"
 
 namespace railstrata {
 namespace {

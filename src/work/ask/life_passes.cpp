@@ -9,8 +9,7 @@
 #include "bem/contact_places.hpp"
 #include "core/faults.hpp"
 #include "material/strain_claim.hpp"
-#include "passes/following_contact.hpp"
-#include "passes/rail_passes.hpp"
+#include "passes/pass_runner.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {
@@ -30,71 +29,22 @@ BemResult alone(const BemResult& result, const BemPatch& patch) {
   return out;
 }
 
-/// A new rail under one patch, pass after pass.
-class PassesOfPatch {
- public:
-  PassesOfPatch(const CaseSpec& spec, const BemResult& patch, double strength, const Control* control,
-                FollowingContact* following)
-      : spec_(spec),
-        patch_(patch),
-        strength_(strength),
-        following_(following),
-        rail_(rail_passes(spec, {patch}, strength)) {
-    limits_.control = control;
-    stand();
-  }
-
-  PassResult next() {
-    PassResult out = one();
-    while (state_.passes == 1) {
-      const std::optional<double> window = longer_window(spec_.passes, rail_, out.late_flow);
-      if (!window) break;
-      CaseSpec longer = spec_;
-      longer.passes.window = window;
-      rail_ = rail_passes(longer, {patch_}, strength_);
-      stand();
-      out = one();
-    }
-    return out;
-  }
-  const RailPasses& rail() const { return rail_; }
-
- private:
-  void stand() {
-    body_.emplace(rail_.grid, rail_.rows, rail_.below, rail_.initial_stress);
-    strain_ = contact_strain(rail_, *body_, rail_.contact_stress.front());
-    state_ = body_->virgin();
-  }
-  PassResult one() {
-    if (following_) return following_->run_pass(rail_, *body_, 0, 0, state_, limits_).result;
-    return body_->run_pass(strain_, state_, limits_);
-  }
-
-  const CaseSpec& spec_;
-  const BemResult& patch_;
-  const double strength_;
-  FollowingContact* following_;
-  RailPasses rail_;
-  std::optional<SteadyBody> body_;  // of rail_
-  Field strain_;
-  PassState state_;
-  PassLimits limits_;
-};
-
-PassedSection passed_section(int wanted, const BemResult& patch, PassesOfPatch& passes) {
+PassedSection passed_section(int wanted, PassRunner& passes) {
   PassedSection out;
+  PassState state = passes.body().virgin();
   out.passes = wanted;
   const int quarter = wanted / 4, half = wanted / 2;
   std::array<std::vector<double>, 2> earlier;  // net strain of those passes
   PassResult last;
   for (int n = 1; n <= wanted; ++n) {
-    last = passes.next();
+    last = passes.next({}, state).result;
     if (n == 1) earlier.fill(std::vector<double>(last.net.size(), 0.0));
     if (*std::max_element(last.accumulated.begin(), last.accumulated.end()) == 0) break;  // nor do the passes after it
     if (n == quarter) earlier[0] = last.net;
     if (n == half) earlier[1] = last.net;
   }
   const RailPasses& rail = passes.rail();
+  const BemResult& patch = passes.contact();
   const double place = along_plane(patch.contact, patch.place.point);
   for (int j = 0; j < rail.grid.ny; ++j) out.y.push_back(rail.grid.y(j) - place);
   for (int r = 0; r < rail.grid.rows(); ++r) out.depth.push_back(rail.grid.depth(r));
@@ -127,9 +77,8 @@ PassedSections passed_sections(const CaseSpec& spec, const Placement& placement,
     const double strength = strength_factor(spec, v);
     if (v != 1 && strength == 1) continue;
     for (const BemPatch* one : patches_of(result)) {
-      const BemResult patch = alone(result, *one);
-      PassesOfPatch passes(spec, patch, strength, control, following ? &*following : nullptr);
-      out[v].push_back(passed_section(spec.life.passes, patch, passes));
+      PassRunner passes(spec, {alone(result, *one)}, following ? &*following : nullptr, control, strength);
+      out[v].push_back(passed_section(spec.life.passes, passes));
       out[v].back().patch = out[v].size() - 1;
     }
   }

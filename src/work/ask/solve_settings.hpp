@@ -12,6 +12,7 @@ namespace railstrata {
 class ThreadsOfCaller {
  public:
   explicit ThreadsOfCaller(int wanted) : before_(max_threads()) {
+    if (wanted < 0) throw CaseError(fmt::format("{} threads", wanted), "give 0 for as many as OpenMP has");
     if (wanted > 0) set_threads(wanted);
   }
   ~ThreadsOfCaller() { set_threads(before_); }

@@ -4,32 +4,16 @@
 #include <cmath>
 #include <exception>
 
-#include "ask/life_passes.hpp"
-#include "ask/load_life.hpp"
-#include "ask/solve_half_space.hpp"
 #include "core/faults.hpp"
 #include "core/root.hpp"
 #include "fatigue/traffic_damage.hpp"
 #include "io/summary_json.hpp"
-#include "judge/bem_summary.hpp"
 #include "many/each_case.hpp"
 #include "many/result_columns.hpp"
 #include "tables/load_rows.hpp"
 
 namespace railstrata {
 namespace {
-
-/// A rail that passes cannot be followed on keeps its wear, rolling contact fatigue and shakedown.
-void follow_passes(CollectiveRow& row, const Placement& placement, const BemResult& result,
-                   const CollectiveOptions& options) {
-  try {
-    row.passed = passed_sections(row.spec, placement, result, options.bem, options.control);
-  } catch (const CaseError& e) {
-    row.not_followed = fault_line(e);
-  } catch (const NumericalError& e) {
-    row.not_followed = fault_line(e);
-  }
-}
 
 /// Moves the shift until the wheel has the row's guiding force, within a twentieth of it or a hundredth of the load.
 void match_guiding_force(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
@@ -40,9 +24,10 @@ void match_guiding_force(CollectiveRow& row, const std::filesystem::path& folder
   const auto excess_at = [&](double moved) {
     row.moved = moved;
     row.spec.geometry.lateral_shift = shift + moved;
-    const Summary s = solve_half_space_contact(row.spec, place(row.spec, folder), options.bem).summary;
-    close = std::max(close, kOfLoad * s.contact.F_z);
-    return -s.contact.F_y - wanted;
+    const AskOptions how{.bem = options.bem, .control = options.control};
+    const ContactSummary c = solve_contact(row.spec, place(row.spec, folder), how).summary.contact;
+    close = std::max(close, kOfLoad * c.F_z);
+    return -c.F_y - wanted;
   };
   double a = 0, at_a = excess_at(a), b = a, at_b = at_a;
   if (std::abs(at_a) <= close) return;
@@ -62,18 +47,12 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
   if (row.spec.collective.match_guiding_force && row.given.guiding_force) match_guiding_force(row, folder, options);
   const Placement placement = place(row.spec, folder);
   row.track = placement.track;
-  HalfSpaceSolution solution = solve_half_space_contact(row.spec, placement, options.bem);
-  Summary& s = solution.summary;
-  if (options.shakedown) {
-    const std::vector<SectionShakedown> sections = half_space_shakedown(row.spec, solution.result);
-    s.shakedown = shakedown_summary(row.spec, sections);
-    for (const SectionShakedown& section : sections) s.fatigue.push_back(section.fatigue);
-    row.sections = sections;
-  }
-  if (row.spec.life.passes > 0) follow_passes(row, placement, solution.result, options);
-  s.warnings = bem_warnings(s, row.spec, solution.result);
-  row.patches = patch_damages(row.spec, solution);
-  row.summary = std::move(s);
+  Answer answer = ask(row.spec, placement, options.wanted, {.bem = options.bem, .control = options.control});
+  row.sections = std::move(answer.shakedown);
+  row.passed = std::move(answer.passed);
+  row.not_followed = std::move(answer.not_followed);
+  row.patches = std::move(answer.wear);
+  row.summary = std::move(answer.summary);
   row.summary_json = summary_json(row.summary);
   row.fault = failed_check(row.summary_json);
 }

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ask/answer.hpp"
 #include "bem/bem_options.hpp"
 #include "core/control.hpp"
 #include "fatigue/rail_damage.hpp"
@@ -46,7 +47,7 @@ std::vector<CollectiveRow> plan_collective(const CaseSpec& spec);
 
 struct CollectiveOptions {
   BemOptions bem;
-  bool shakedown = true;             ///< factors of each row where the case gives strengths (no single track)
+  Wanted wanted{.rail = false, .wheel = false, .life = false};  ///< of each row; the life is that of all rows
   const Control* control = nullptr;  ///< asked to stop, rows that have not begun are left out; progress: "loads"
 };
 

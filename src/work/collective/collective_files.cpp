@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "collective/life_files.hpp"
-#include "judge/answer.hpp"
+#include "judge/judgement.hpp"
 #include "many/result_columns.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
@@ -445,7 +445,7 @@ Json collective_json(const std::string& title, const std::vector<CollectiveRow>&
 std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
   std::vector<ReportAnswer> out;
   if (const CollectiveRow* worst = worst_row(rows))
-    if (const std::optional<Answer> answer = answer_of(worst->summary)) {
+    if (const std::optional<Judgement> answer = judgement_of(worst->summary)) {
       const LastsRow& words = lasts_row(answer->lasts);
       out.push_back({std::string(words.tone), std::string(words.title),
                      fmt::format("load \"{}\", {}", worst->name, answer->reason)});

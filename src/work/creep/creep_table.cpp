@@ -7,9 +7,8 @@
 #include <exception>
 #include <utility>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "core/faults.hpp"
-#include "judge/bem_summary.hpp"
 #include "many/each_case.hpp"
 #include "model/model.hpp"
 #include "result/result_table.hpp"
@@ -63,10 +62,10 @@ std::string si_text(const Unit& unit) {
 }
 
 CreepNumbers solved(const CaseSpec& spec, const Placement& placement, const BemOptions& bem) {
-  BemOptions whole = bem;
-  whole.apart = false;
-  const BemResult result = solve_bem(spec, placement, whole);
-  const Solved point{spec, result, bem_contact_summary(spec, result)};
+  AskOptions whole{.bem = bem};
+  whole.bem.apart = false;
+  Answer answer = solve_contact(spec, placement, whole);
+  const Solved point{spec, answer.result, std::move(answer.summary)};
   for (const Check& check : point.summary.checks)
     if (!check.ok)
       throw CaseError(fmt::format("check {} fails: {:.3g}, limit {:.3g}", check.name, check.value, check.limit));
@@ -187,7 +186,7 @@ CreepTable::Outer CreepTable::load(const std::vector<std::string>& values) const
     const LoadedCase loaded = parse_case(base_.source_text, base_.file, all);
     CaseSpec spec = loaded.spec;
     spec.run.rolling = true;  // also where the case has run.rolling = false
-    spec = half_space_case(std::move(spec));
+    spec.transient = {};
     Placement placement = place(spec, loaded.folder());
     return {std::move(spec), std::move(placement), {}};
   } catch (CaseError& e) {

@@ -5,10 +5,9 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
-#include <string>
 
 #include "core/control.hpp"
-#include "core/faults.hpp"
+#include "core/fault_line.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {
@@ -52,12 +51,5 @@ class NowAndThen {
  private:
   std::chrono::steady_clock::time_point next_{};
 };
-
-/// The message of a fault in one line, for a table's column.
-inline std::string fault_line(const std::exception& e) {
-  const auto* refused = dynamic_cast<const CaseError*>(&e);
-  const std::string text = refused && !refused->diagnostics.empty() ? refused->diagnostics.front().message : e.what();
-  return text.substr(0, text.find('\n'));
-}
 
 }  // namespace railstrata

@@ -4,12 +4,9 @@
 #include <exception>
 #include <utility>
 
-#include "ask/load_life.hpp"
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "core/faults.hpp"
-#include "fatigue/shakedown_summary.hpp"
 #include "io/summary_json.hpp"
-#include "judge/bem_summary.hpp"
 #include "many/each_case.hpp"
 #include "record/csv.hpp"
 
@@ -19,19 +16,9 @@ namespace {
 void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
   if (!c.loaded) return;
   try {
-    const CaseSpec spec = half_space_case(c.loaded->spec);
-    const Placement placement = place(spec, c.loaded->folder());
-    HalfSpaceSolution solution = solve_half_space_contact(spec, placement, bem);
-    const BemResult& result = solution.result;
-    Summary summary = solution.summary;
-    if (stresses) {
-      summary.rail = bem_rail_stress(result, summary.contact);
-      summary.warnings = bem_warnings(summary, spec, result);
-      solution.shakedown = half_space_shakedown(spec, result);
-      summary.shakedown = shakedown_summary(spec, solution.shakedown);
-      if (spec.life.passes > 0) summary.life = life_summary(spec, placement, solution, bem);
-    }
-    c.summary = summary_json(summary);
+    const CaseSpec& spec = c.loaded->spec;
+    const Wanted wanted = stresses ? Wanted{.wheel = false} : kContactAlone;
+    c.summary = summary_json(ask(spec, place(spec, c.loaded->folder()), wanted, {.bem = bem}).summary);
     c.fault = failed_check(c.summary);
   } catch (const std::exception& e) {
     c.fault = fault_line(e);

@@ -36,7 +36,7 @@ std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std:
 
 struct SweepOptions {
   BemOptions bem;
-  bool stresses = false;             ///< the rail's largest stresses too, and shakedown where it has a strength
+  bool stresses = false;             ///< the rail's largest stresses too, and what else `bem` judges but one track
   const Control* control = nullptr;  ///< asked to stop, cases that have not begun are left out
   std::function<void()> ended;       ///< after every case, from any thread, one at a time
 };

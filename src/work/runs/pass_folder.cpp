@@ -4,14 +4,13 @@
 #include <optional>
 #include <utility>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 #include "ask/solve_settings.hpp"
 #include "core/faults.hpp"
-#include "core/stop_request.hpp"
 #include "jobs/profile_table.hpp"
 #include "judge/check_limits.hpp"
-#include "passes/following_contact.hpp"
 #include "passes/pass_plan.hpp"
+#include "passes/pass_runner.hpp"
 #include "passes/pass_text.hpp"
 #include "passes/pass_way.hpp"
 #include "passes/pass_way_files.hpp"
@@ -45,81 +44,60 @@ class SteadyPasses : public PassJob {
   SteadyPasses(LoadedCase loaded, const PassOrder& order, Control& control)
       : PassJob("the case, the --set, the --cell, the grid and the version it began with", std::move(loaded), order,
                 control),
-        rail_(with_places(loaded_, [&] { return rail_of(); })) {
-    renew_body();
+        runner_(with_places(loaded_, [&] { return runner_of(); })) {
+    series_.state = runner_.body().virgin();
     series_.cycle = passes_per_cycle(loaded_.spec.passes);
     if (loaded_.spec.passes.jump != PassJump::off) series_.jump.length = kShortestJump;
-    limits_.control = &control_;
   }
   int passes() const { return series_.state.passes; }
 
  private:
-  RailPasses rail_of() {
+  PassRunner runner_of() {
     require_same_along(loaded_.spec, "a series of passes");
-    BemOptions bem;
-    bem.cell = wanted_.cell;
-    bem.apart = false;
-    const StopRequest wish(&control_.stop);
+    AskOptions how;
+    how.bem.cell = wanted_.cell;
+    how.bem.apart = false;
+    how.control = &control_;
     const std::vector<CaseSpec> specs = cases_of_tractions(loaded_.spec);
     std::vector<Placement> placements;
-    for (const CaseSpec& spec : specs) {
+    std::vector<BemResult> solutions;
+    // the verdict on the elastic stress stands beside the class of the rail
+    Wanted wanted = kContactAlone;
+    wanted.shakedown = wanted.single_track = true;
+    for (CaseSpec spec : specs) {
+      spec.run.judged = JudgedBodies::rail;
       placements.push_back(place(spec, loaded_.folder()));
-      HalfSpaceSolution solution = solve_half_space_contact(spec, placements.back(), bem);
-      doubt(solution.summary);
-      if (solutions_.empty()) judge_elastic(solution);
-      const ContactSummary& c = solution.summary.contact;
-      contacts_.push_back({c.F_x / c.F_z, solution.result.patch.largest_pressure, solution.result.rigid_slip.x});
-      solutions_.push_back(std::move(solution.result));
+      Answer answer = ask(spec, placements.back(), wanted, how);
+      wanted = kContactAlone;
+      doubt(answer.summary);
+      tractions_.push_back(answer.summary.contact.F_x / answer.summary.contact.F_z);
+      if (solutions.empty()) answer_.elastic = std::move(answer.summary);
+      solutions.push_back(std::move(answer.result));
     }
     placement_ = placements.front();
-    if (loaded_.spec.passes.pressure == PassPressure::following) following_.emplace(specs, placements, bem);
-    return rail_passes(loaded_.spec, solutions_);
-  }
-
-  /// Begins anew with a longer window behind the load.
-  void lengthen(double window) {
-    CaseSpec spec = loaded_.spec;
-    spec.passes.window = window;
-    std::vector<std::string> notes = std::move(rail_.notes);
-    rail_ = rail_passes(spec, solutions_);
-    rail_.notes = std::move(notes);
-    renew_body();
-    strain_.clear();
-  }
-
-  void renew_body() {
-    body_.emplace(rail_.grid, rail_.rows, rail_.below, rail_.initial_stress);
-    series_.state = body_->virgin();
+    if (loaded_.spec.passes.pressure == PassPressure::following) following_.emplace(specs, placements, how.bem);
+    return {loaded_.spec, std::move(solutions), following_ ? &*following_ : nullptr, &control_};
   }
 
   /// Collects failed checks and warnings of the contact that all passes use, each once.
   void doubt(const Summary& contact) {
-    const auto add = [&](std::string text) {
-      if (std::find(doubts_.begin(), doubts_.end(), text) == doubts_.end()) doubts_.push_back(std::move(text));
-    };
     for (const Check& c : contact.checks) {
       if (c.ok) continue;
       sound_ = false;
       const CheckRow* row = find_check(c.name);
       const Unit unit = row ? row->unit : unit::kNone;
-      add(fmt::format("a check of the contact fails: {} is {}, limit {}", c.name, with_unit(unit, c.value, 3),
-                      limit_text(unit, c.limit)));
+      add_doubt(fmt::format("a check of the contact fails: {} is {}, limit {}", c.name, with_unit(unit, c.value, 3),
+                            limit_text(unit, c.limit)));
     }
-    for (const Warning& w : contact.warnings) add(w.text);
+    for (const Warning& w : contact.warnings) add_doubt(w.text);
   }
-
-  /// Shakedown factors of the elastic stress, to stand beside the class; where no strength is given there are none.
-  void judge_elastic(HalfSpaceSolution& solution) {
-    if (!strength_given(loaded_.spec, BodyId::rail)) return;
-    CaseSpec of_rail = loaded_.spec;
-    of_rail.run.judged = JudgedBodies::rail;
-    solution.shakedown = half_space_shakedown(of_rail, solution.result);
-    complete_shakedown(loaded_.spec, solution);
-    answer_.shakedown = solution.summary.shakedown;
+  void add_doubt(std::string text) {
+    std::vector<std::string>& doubts = answer_.doubts;
+    if (std::find(doubts.begin(), doubts.end(), text) == doubts.end()) doubts.push_back(std::move(text));
   }
 
   std::string identity() const override {
-    return fmt::format("{} {} {} {}", PassJob::identity(), rail_.grid.nx, rail_.grid.ny, wanted_.cell);
+    return fmt::format("{} {} {} {}", PassJob::identity(), grid().nx, grid().ny, wanted_.cell);
   }
 
   void begin() override {
@@ -131,57 +109,22 @@ class SteadyPasses : public PassJob {
     report_contact();
     if (!std::filesystem::exists(folder() / kPassState)) return;
     const int stations = active_stations(folder() / kPassState);
-    while (rail_.grid.active_stations() < stations) {
-      const std::optional<double> window = longer_window(loaded_.spec.passes, rail_, 1);
-      if (!window) break;  // a state of another grid, which is refused below
-      lengthen(*window);
+    // where no window is long enough it is a state of another grid, which is refused below
+    while (grid().active_stations() < stations && runner_.lengthen(1, series_.state)) {
     }
-    series_ = read_pass_series(folder() / kPassState, folder() / kPassTable, rail_.grid, series_.cycle);
-    if (series_.state.passes > 0) stand(place_of(series_.state.passes));
+    series_ = read_pass_series(folder() / kPassState, folder() / kPassTable, grid(), series_.cycle);
+    if (passes() > 0) runner_.stand(place_of(passes()), series_.state);
   }
 
   void report_contact() {
-    for (const std::string& note : rail_.notes) control_.info("{}", note);
-    for (const std::string& doubt : doubts_) control_.warn("{}", doubt);
-    rail_.notes.insert(rail_.notes.end(), doubts_.begin(), doubts_.end());
+    for (const std::string& note : runner_.rail().notes) control_.info("{}", note);
+    for (const std::string& doubt : answer_.doubts) control_.warn("{}", doubt);
   }
 
-  /// Where a wheel runs, and with which of the tractions.
-  struct Place {
-    int column = 0;
-    std::size_t solution = 0;
-    bool operator==(const Place&) const = default;
-  };
-  Place place_of(int pass) const {
+  const SteadyGrid& grid() const { return runner_.rail().grid; }
+  PassRunner::Place place_of(int pass) const {
     const PassPlan plan = pass_plan(loaded_.spec.passes, pass);
-    return {columns_to(rail_.grid, plan.lateral), plan.traction};
-  }
-  void stand(Place place) {
-    strain_ = contact_strain(rail_, *body_, rail_.contact_stress.at(place.solution), place.column);
-    place_ = place;
-  }
-
-  /// The contact of the next pass in its place; computed anew only where it is another one.
-  void drive(int pass) {
-    const Place next = place_of(pass);
-    if (!strain_.empty() && next == place_) return;
-    if (!strain_.empty()) move_guess(rail_.grid, next.column - place_.column, series_.state);
-    stand(next);
-  }
-
-  /// The next pass, where drive() has put it.
-  FollowedPass roll() {
-    if (following_) {
-      FollowedPass pass = following_->run_pass(rail_, *body_, place_.solution, place_.column, series_.state, limits_);
-      strain_ = std::move(pass.contact_strain);
-      return pass;
-    }
-    const Contact& contact = contacts_[place_.solution];
-    FollowedPass pass;
-    pass.result = body_->run_pass(strain_, series_.state, limits_);
-    pass.largest_pressure = contact.largest_pressure;
-    pass.creepage = contact.creepage;
-    return pass;
+    return {columns_to(grid(), plan.lateral), plan.traction};
   }
 
   bool finished() const override { return series_.state.passes >= wanted_.passes; }
@@ -207,18 +150,17 @@ class SteadyPasses : public PassJob {
     PassSeries series;
     std::optional<PassResult> last;
     PassRow row;
-    Place place;
+    PassRunner::Place place;
     Field strain;
     bool sound;
   };
-  Kept keep_all() const { return {series_, last_, last_row_, place_, strain_, sound_}; }
+  Kept keep_all() const { return {series_, last_, last_row_, runner_.place(), runner_.strain(), sound_}; }
   void take_back(const Kept& kept) {
     series_ = kept.series;
     last_ = kept.last;
     last_row_ = kept.row;
     sound_ = kept.sound;
-    place_ = kept.place;
-    strain_ = kept.strain;
+    runner_.take_back(kept.place, kept.strain);
   }
 
   /// All passes of a round and their effect on the state; empty: given up.
@@ -236,8 +178,8 @@ class SteadyPasses : public PassJob {
     series_.state.history = history;
     try {
       for (int n = 1; n <= series_.cycle; ++n) {
-        drive(before.passes + n);
-        roll();
+        runner_.stand(place_of(before.passes + n), series_.state);
+        runner_.roll(series_.state);
       }
     } catch (const Interrupted&) {
       return {};
@@ -284,21 +226,16 @@ class SteadyPasses : public PassJob {
     const int pass = series_.state.passes + 1;
     Kept kept = keep_all();
     report(pass, 0);
-    drive(pass);
+    double window = runner_.rail().window;
     try {
-      FollowedPass rolled = roll();
-      while (pass == 1) {
-        const std::optional<double> window = longer_window(loaded_.spec.passes, rail_, rolled.result.late_flow);
-        if (!window) break;
-        control_.info("flow goes on behind the load: followed over {:.3g} half-lengths instead of {:.3g}", *window,
-                      rail_.window);
-        lengthen(*window);
+      FollowedPass rolled = runner_.next(place_of(pass), series_.state, [&] {
+        control_.info("flow goes on behind the load: followed over {:.3g} half-lengths instead of {:.3g}",
+                      runner_.rail().window, window);
+        window = runner_.rail().window;
         kept = keep_all();
-        drive(pass);
-        rolled = roll();
-      }
+      });
       last_ = std::move(rolled.result);
-      keep(pass_row(rail_.grid, pass, *last_), rolled);
+      keep(pass_row(grid(), pass, *last_), rolled);
     } catch (const Interrupted&) {
       take_back(kept);
       return false;
@@ -307,8 +244,8 @@ class SteadyPasses : public PassJob {
   }
 
   void keep(PassRow row, const FollowedPass& pass) {
-    row.place = place_.column * rail_.grid.dy;
-    row.traction = contacts_[place_.solution].traction;
+    row.place = runner_.place().column * grid().dy;
+    row.traction = tractions_[runner_.place().solution];
     row.largest_pressure = pass.largest_pressure;
     row.creepage = pass.creepage;
     row.rounds = pass.rounds;
@@ -326,7 +263,7 @@ class SteadyPasses : public PassJob {
       control_.warn(
           "pass {}: {:.2g} % of the largest flow comes in the last quarter of the window of {:.3g} half-lengths behind "
           "the load: give a longer passes.window",
-          row.pass, 100 * row.late_flow, rail_.window);
+          row.pass, 100 * row.late_flow, runner_.rail().window);
     }
     if (!row.converged) {
       sound_ = false;
@@ -338,7 +275,7 @@ class SteadyPasses : public PassJob {
   /// Table before state: a table that has gone on is cut when the state is read.
   void save() override {
     write_csv(folder() / kPassTable, origin(), series_.table.columns);
-    write_pass_state(folder() / kPassState, origin(), rail_.grid, series_);
+    write_pass_state(folder() / kPassState, origin(), grid(), series_);
   }
 
   void finish() override {
@@ -362,38 +299,30 @@ class SteadyPasses : public PassJob {
   std::string how_far() const override { return fmt::format("after pass {}", passes()); }
 
   void write_results() {
-    const PassWay way = pass_way(rail_, *body_, strain_, *last_, series_.state);
-    const std::size_t governing = way.points.front().point / static_cast<std::size_t>(rail_.grid.ny);
+    const RailPasses& rail = runner_.rail();
+    const PassWay way = pass_way(rail, runner_.body(), runner_.strain(), *last_, series_.state);
+    const std::size_t governing = way.points.front().point / static_cast<std::size_t>(rail.grid.ny);
     PassProgress progress = progress_of(verdict_of(series_), series_.strains, last_row_);
     progress.ductility = loaded_.spec.passes.ductility;
     progress.strain_life = strain_life_of(loaded_.spec.rail_material, "rail", "material.rail");
     answer_.verdict = verdict_ = describe(progress);
-    answer_.law = describe_law(rail_.rows[governing].law);
+    answer_.law = describe_law(rail.rows[governing].law);
     answer_.ductility = loaded_.spec.passes.ductility;
-    write_residual(folder(), origin(), rail_, series_, *last_);
+    write_residual(folder(), origin(), rail, series_, *last_);
     // one elastic contact for all passes would sink the rail deeper than the wheel reaches
-    if (rail_.grid.ny > 1 && loaded_.spec.passes.pressure == PassPressure::following)
-      write_profile_table(folder() / kPressedProfile, origin(), pressed_profile(*placement_, rail_.grid, *last_));
-    write_way(folder(), origin(), rail_, way);
-    write_section_vtk(folder() / "section.vtp", rail_, series_, *last_);
-    write_pass_summary(folder() / kPassSummary, loaded_.spec, rail_, series_, *last_, way, answer_);
+    if (rail.grid.ny > 1 && loaded_.spec.passes.pressure == PassPressure::following)
+      write_profile_table(folder() / kPressedProfile, origin(), pressed_profile(*placement_, rail.grid, *last_));
+    write_way(folder(), origin(), rail, way);
+    write_section_vtk(folder() / "section.vtp", rail, series_, *last_);
+    write_pass_summary(folder() / kPassSummary, loaded_.spec, rail, series_, *last_, way, answer_);
   }
 
   PassAnswer answer_;
-  struct Contact {
-    double traction = 0, largest_pressure = 0, creepage = 0;
-  };
-  std::vector<Contact> contacts_;    ///< of each solution, elastic
-  std::vector<std::string> doubts_;  ///< of the contact
+  std::vector<double> tractions_;  ///< of each solution
   std::optional<FollowingContact> following_;
-  std::vector<BemResult> solutions_;
   std::optional<Placement> placement_;  ///< of the first solution
-  RailPasses rail_;                     ///< fills those before
-  std::optional<SteadyBody> body_;      ///< of rail_
-  Field strain_;                        ///< of the contact at place_
-  Place place_;
+  PassRunner runner_;                   ///< fills those before
   PassSeries series_;
-  PassLimits limits_;
   std::optional<PassResult> last_;
   PassRow last_row_;
   bool late_ = false;  ///< flow goes on at the end of the window, and it has been said

@@ -3,12 +3,10 @@
 #include <chrono>
 #include <utility>
 
+#include "ask/judge.hpp"
 #include "core/faults.hpp"
-#include "core/parallel.hpp"
-#include "core/process_memory.hpp"
 #include "device/device_of.hpp"
 #include "fem/memory_need.hpp"
-#include "io/provenance.hpp"
 #include "judge/fem_summary.hpp"
 #include "passage/passage.hpp"
 #include "rules/irregularity_rules.hpp"
@@ -69,12 +67,9 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
   if (!model.spec.run.plasticity && varying_key(model.spec).empty())
     out.shakedown = fem_shakedown(model, out.contact.patch, {out.rail, rail_band_surface(system, out.contact)},
                                   {out.wheel, wheel_band_surface(system, out.contact)});
-  out.summary.shakedown = shakedown_summary(model.spec, out.shakedown);
-  for (const SectionShakedown& section : out.shakedown) out.summary.fatigue.push_back(section.fatigue);
+  judge_sections(model.spec, out.shakedown, out.summary);
   for (BodyFatigue& fatigue : passage_fatigue(system, run)) out.summary.fatigue.push_back(std::move(fatigue));
-  out.summary.run.commit = commit_text();
-  out.summary.run.threads = max_threads();
-  out.summary.run.peak_memory_bytes = peak_memory();
+  sign(out.summary);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ask/judge.hpp"
 #include "io/damage_files.hpp"
 #include "io/geometry_json.hpp"
 #include "io/placed_surfaces.hpp"
@@ -14,12 +15,12 @@
 namespace railstrata {
 
 void write_half_space_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
-                             const CaseSpec& spec, const Placement& placement, const HalfSpaceSolution& solution) {
-  const BemResult& result = solution.result;
-  const Summary& summary = solution.summary;
+                             const CaseSpec& spec, const Placement& placement, const Answer& answer) {
+  const BemResult& result = answer.result;
+  const Summary& summary = answer.summary;
   std::vector<LoadedContact> contacts{{result.place, result.force.normal}};
   for (const BemPatch& p : result.further) contacts.push_back({p.place, p.force.normal});
-  write_geometry(folder / "geometry.json", solution.moment ? case_of_moment(spec, *solution.moment) : spec, placement,
+  write_geometry(folder / "geometry.json", answer.moment ? case_of_moment(spec, *answer.moment) : spec, placement,
                  contacts);
   write_placed_surfaces(folder, placement, summary.position);
   write_view_script(folder);
@@ -35,9 +36,9 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
   write_sections(folder, "wheel", provenance,
                  wheel_sections(result, summary.wheel.subsurface->von_mises.x, centre_y, wheel_depth));
   write_vtp(folder / "patch.vtp", patch_mesh(fields, summary.position));
-  write_streamlines(folder / "streamlines.csv", provenance, solution.streamlines);
-  write_shakedown(folder, provenance, summary, solution.shakedown);
-  write_sliding_maps(folder, provenance, solution.sliding);
+  write_streamlines(folder / "streamlines.csv", provenance, streamlines_of(answer.wear));
+  write_shakedown(folder, provenance, summary, answer.shakedown);
+  write_sliding_maps(folder, provenance, answer.sliding);
   write_summary(folder / "summary.json", summary);
 }
 

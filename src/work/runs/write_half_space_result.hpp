@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ask/solve_half_space.hpp"
+#include "ask/answer.hpp"
 
 namespace railstrata {
 
@@ -12,6 +12,6 @@ namespace railstrata {
 /// and two sections a body; patch.vtp; summary.json as the last. provenance: "#" lines of the tables. Throws
 /// EnvironmentError for the disk.
 void write_half_space_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
-                             const CaseSpec& spec, const Placement& placement, const HalfSpaceSolution& solution);
+                             const CaseSpec& spec, const Placement& placement, const Answer& answer);
 
 }  // namespace railstrata

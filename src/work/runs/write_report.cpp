@@ -28,10 +28,10 @@ namespace fs = std::filesystem;
 void solve_reference(const fs::path& case_file, const fs::path& folder) {
   const LoadedCase loaded = load_case(case_file);
   const Placement placement = place(loaded.spec, loaded.folder());
-  const HalfSpaceSolution solution = solve_half_space(loaded.spec, placement);
+  const Answer answer = ask(loaded.spec, placement);
   fs::create_directories(folder);
   write_origin(folder, loaded, {"railstrata", "bem", case_file.string(), "--out", folder.string()}, max_threads());
-  write_half_space_result(folder, table_origin(loaded), loaded.spec, placement, solution);
+  write_half_space_result(folder, table_origin(loaded), loaded.spec, placement, answer);
 }
 
 bool same_text(const fs::path& a, const fs::path& b) {
@@ -60,11 +60,11 @@ double shear_on_elements(const fs::path& case_file) {
   constexpr double kFinest = 0.1e-3;  // m: below, the peak hardly changes any more, and a solution takes seconds
   try {
     const LoadedCase loaded = load_case(case_file);
-    CaseSpec spec = half_space_case(loaded.spec);
+    CaseSpec spec = loaded.spec;
     spec.bem.leading_edge = LeadingEdge::whole_cell;
-    BemOptions bem;
-    bem.cell = std::max(loaded.spec.mesh.element_size, kFinest);
-    return solve_bem(spec, place(spec, loaded.folder()), bem).patch.largest_traction;
+    AskOptions how;
+    how.bem.cell = std::max(spec.mesh.element_size, kFinest);
+    return solve_contact(spec, place(spec, loaded.folder()), how).result.patch.largest_traction;
   } catch (const CaseError&) {
     return std::numeric_limits<double>::quiet_NaN();
   } catch (const NumericalError&) {

@@ -5,13 +5,10 @@
 #include <exception>
 #include <thread>
 
-#include "ask/half_space_need.hpp"
-#include "bem/film_capacity.hpp"
-#include "core/faults.hpp"
+#include "ask/answer.hpp"
+#include "core/fault_line.hpp"
 #include "core/parallel.hpp"
-#include "core/stop_request.hpp"
 #include "io/output_folder.hpp"
-#include "many/each_case.hpp"
 #include "record/output_file.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "runs/write_transient.hpp"
@@ -30,12 +27,12 @@ class CaseThread : public RunningCase {
   CaseThread(const StudyCase& c, const CaseSettings& settings, fs::path folder)
       : case_(c), settings_(settings), folder_(std::move(folder)), thread_([this] { work(); }) {}
   ~CaseThread() override {
-    stop_ = true;
+    control_.stop = true;
     thread_.join();
   }
 
   std::optional<std::string> ended() override { return ended_ ? std::optional(fault_) : std::nullopt; }
-  void ask_to_stop() override { stop_ = true; }
+  void ask_to_stop() override { control_.stop = true; }
   double fraction() const override { return fraction_; }
 
  private:
@@ -57,41 +54,40 @@ class CaseThread : public RunningCase {
 
   void solve() {
     set_threads(settings_.threads);
-    const StopRequest wish(&stop_);
     const LoadedCase& loaded = case_.loaded;
     for (const auto* notes : {&loaded.notes, &loaded.elastic_notes, &loaded.static_notes})
       for (const std::string& note : *notes) log_ += fmt::format("warning: {}\n", note);
-    BemOptions bem;
-    if (!settings_.cell.empty()) bem.cell = parse_quantity(settings_.cell, dimension::kLength);
-    bem.cache = settings_.cache;
+    AskOptions how{.control = &control_};
+    if (!settings_.cell.empty()) how.bem.cell = parse_quantity(settings_.cell, dimension::kLength);
+    how.bem.cache = settings_.cache;
     const Placement placement = place(loaded.spec, loaded.folder());
-    require_memory(half_space_need(loaded.spec, placement, bem.cell), bem.cell);
+    require_solvable(loaded.spec, placement, how.bem);
     const FolderHold hold(folder_);
     write_origin(folder_, loaded, case_command(case_, settings_, folder_), settings_.threads);
-    const HalfSpaceSolution solution = solved(placement, bem);
-    for (const std::string& note : solution.result.notes) log_ += fmt::format("info: {}\n", note);
-    write_half_space_result(folder_, table_origin(loaded), loaded.spec, placement, solution);
+    const Answer answer = answered(placement, how);
+    for (const std::string& note : answer.result.notes) log_ += fmt::format("info: {}\n", note);
+    write_half_space_result(folder_, table_origin(loaded), loaded.spec, placement, answer);
   }
 
-  HalfSpaceSolution solved(const Placement& placement, const BemOptions& bem) {
-    const LoadedCase& loaded = case_.loaded;
-    if (loaded.spec.transient.kind == TransientKind::none) return solve_half_space(loaded.spec, placement, bem);
-    require_film_carries(loaded.spec, placement, bem);
-    TransientWriter writer(loaded.spec, folder_, table_origin(loaded));
-    HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, bem, [&](const TransientState& state) {
-      writer.add(state);
+  Answer answered(const Placement& placement, AskOptions& how) {
+    const CaseSpec& spec = case_.loaded.spec;
+    std::optional<TransientWriter> writer;
+    if (spec.transient.kind != TransientKind::none) writer.emplace(spec, folder_, table_origin(case_.loaded));
+    how.observer = [&](const TransientState& state) {
+      writer->add(state);
       fraction_ = static_cast<double>(state.step) / state.steps;
-      return !stop_;
-    });
-    if (solution.stopped) throw Interrupted("stopped");
-    return solution;
+    };
+    Answer answer = ask(spec, placement, {}, how);
+    if (answer.stopped) throw Interrupted("stopped");
+    return answer;
   }
 
   const StudyCase& case_;
   const CaseSettings& settings_;
   const fs::path folder_;
   std::string fault_, log_;
-  std::atomic<bool> stop_{false}, ended_{false};
+  Control control_;
+  std::atomic<bool> ended_{false};
   std::atomic<double> fraction_{0};
   std::thread thread_;  // last: it uses all of them
 };

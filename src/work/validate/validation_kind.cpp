@@ -19,10 +19,7 @@ namespace {
 // ---- contact: each row is a half-space solution of the case
 
 /// A number of the stresses below the patch.
-bool of_stress(const ComparedColumn& c) {
-  const ResultColumn* column = find_column(c.result);
-  return column->of_stress || column->path.starts_with("/shakedown/");
-}
+bool of_stress(const ComparedColumn& c) { return find_column(c.result)->of_stress; }
 
 Answers contact_answers(const ValidationSet& set, const ValidationSeries& series, const RowTexts& rows,
                         const AnswerOptions& options) {

@@ -87,7 +87,7 @@ class WearLoopJob : public CaseJob {
         original_(place(loaded_.spec, loaded_.folder())) {
     options_.collective.bem.cell = wanted_.cell;
     options_.collective.bem.cache = &cache_;
-    options_.collective.shakedown = false;
+    options_.collective.wanted = kContactAlone;
     options_.collective.control = &control;
     options_.max_wear = wanted_.max_wear;
     rail_ = unworn(original_, wanted_.cell);

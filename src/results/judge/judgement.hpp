@@ -20,15 +20,16 @@ struct LastsRow {
 };
 const LastsRow& lasts_row(Lasts lasts);
 
-struct Answer {
+struct Judgement {
   Lasts lasts = Lasts::yes;
-  std::string zone;                 ///< "rail: layer"; "wheel" where no layer decides; as tables name it
-  std::string decides;              ///< "layer of the rail, at the surface"
-  std::string reason;               ///< all of it in words, `decides` first
-  std::vector<std::string> doubts;  ///< keys of failed checks and of warnings beside which no "yes" can stand
+  std::string zone;     ///< "rail: layer"; "wheel" where no layer decides; as tables name it
+  std::string decides;  ///< "layer of the rail, at the surface"
+  std::string reason;   ///< all of it in words, `decides` first
+  /// Keys of failed checks and of warnings that rule a "yes" out; a body whose layers and fatigue were not looked at
+  std::vector<std::string> doubts;
 };
-/// Of a "yes" beside a doubt nothing is left: withheld. A "no" stays. None without a strength.
-std::optional<Answer> answer_of(const Summary& summary);
+/// A "yes" with doubts becomes "withheld", a "no" stays. Empty without a strength.
+std::optional<Judgement> judgement_of(const Summary& summary);
 
 /// "at the surface", "2.31 mm deep".
 std::string depth_in_words(double depth);

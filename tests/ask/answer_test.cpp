@@ -1,23 +1,24 @@
-#include "ask/solve_half_space.hpp"
+#include "ask/judge.hpp"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 #include <vector>
 
+#include "judge/judgement.hpp"
 #include "reader/case_file.hpp"
 
 namespace railstrata {
 namespace {
 
-HalfSpaceSolution solve(const std::vector<std::string>& overrides) {
+Answer solve(const std::vector<std::string>& overrides) {
   const LoadedCase loaded = parse_case("[case]\ntitle = \"from a text\"\n", "none.toml", overrides);
-  BemOptions options;
-  options.cell = 0.5e-3;
-  return solve_half_space(loaded.spec, place(loaded.spec, "."), options);
+  AskOptions how;
+  how.bem.cell = 0.5e-3;
+  return ask(loaded.spec, place(loaded.spec, "."), {}, how);
 }
 
-void expect_same_bits(const HalfSpaceSolution& a, const HalfSpaceSolution& b) {
+void expect_same_bits(const Answer& a, const Answer& b) {
   EXPECT_EQ(a.result.field.p, b.result.field.p);
   EXPECT_EQ(a.result.field.q_x, b.result.field.q_x);
   EXPECT_EQ(a.result.field.q_y, b.result.field.q_y);
@@ -28,13 +29,13 @@ void expect_same_bits(const HalfSpaceSolution& a, const HalfSpaceSolution& b) {
 
 }  // namespace
 
-TEST(SolveHalfSpace, TwoThreadsAtATimeGetTheBitsOfOneAfterTheOther) {
+TEST(Ask, TwoThreadsAtATimeGetTheBitsOfOneAfterTheOther) {
   const std::vector<std::vector<std::string>> cases{{"drive.traction_coefficient=0.1"},
                                                     {"drive.traction_coefficient=0.3", "geometry.lateral_shift=2 mm"}};
-  const HalfSpaceSolution first = solve(cases[0]), second = solve(cases[1]);
+  const Answer first = solve(cases[0]), second = solve(cases[1]);
   EXPECT_NE(first.result.rigid_slip.x, second.result.rigid_slip.x);
   for (int round = 0; round < 3; ++round) {
-    HalfSpaceSolution a, b;
+    Answer a, b;
     std::thread one([&] { a = solve(cases[0]); }), other([&] { b = solve(cases[1]); });
     one.join();
     other.join();
@@ -43,8 +44,8 @@ TEST(SolveHalfSpace, TwoThreadsAtATimeGetTheBitsOfOneAfterTheOther) {
   }
 }
 
-TEST(SolveHalfSpace, GivesPatchForcesStressesAndSummary) {
-  const HalfSpaceSolution s = solve({});
+TEST(Ask, GivesPatchForcesStressesAndSummary) {
+  const Answer s = solve({});
   EXPECT_EQ(s.summary.title, "from a text");
   EXPECT_EQ(s.summary.run.engine, Engine::bem);
   EXPECT_GT(s.summary.run.threads, 0);
@@ -56,8 +57,24 @@ TEST(SolveHalfSpace, GivesPatchForcesStressesAndSummary) {
   EXPECT_LT(below.stress.zz, -0.5 * s.result.patch.largest_pressure);  // a millimetre below the middle of the patch
 }
 
-TEST(SolveHalfSpace, AStaticCaseIsWithoutFriction) {
-  const HalfSpaceSolution s = solve({"run.rolling=false"});
+TEST(Ask, WhatIsWantedLaterIsAddedToTheSameBits) {
+  const std::vector<std::string> overrides{"material.rail.yield_strength=400 MPa",
+                                           "material.wheel.yield_strength=400 MPa"};
+  const LoadedCase loaded = parse_case("[case]\ntitle = \"from a text\"\n", "none.toml", overrides);
+  const Placement placement = place(loaded.spec, ".");
+  AskOptions how;
+  how.bem.cell = 0.5e-3;
+  Answer in_steps = ask(loaded.spec, placement, kContactAlone, how);
+  EXPECT_FALSE(judgement_of(in_steps.summary));
+  judge(loaded.spec, placement, {.rail = false, .wheel = false}, in_steps, how);
+  const Answer at_once = solve(overrides);
+  expect_same_bits(in_steps, at_once);
+  EXPECT_EQ(judgement_of(in_steps.summary)->reason, judgement_of(at_once.summary)->reason);
+  EXPECT_EQ(in_steps.summary.fatigue.size(), 2U);
+}
+
+TEST(Ask, AStaticCaseIsWithoutFriction) {
+  const Answer s = solve({"run.rolling=false"});
   EXPECT_EQ(s.result.force.x, 0);
   EXPECT_EQ(s.result.patch.largest_traction, 0);
 }

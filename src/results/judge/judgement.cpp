@@ -1,4 +1,4 @@
-#include "judge/answer.hpp"
+#include "judge/judgement.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -75,6 +75,9 @@ std::vector<LayerFailure> layer_failures(const Summary& s) {
 /// What takes a "yes" back: words of `doubts`, in their order.
 std::vector<std::string> doubts_of(const Summary& s) {
   std::vector<std::string> out;
+  for (const BodyShakedown& b : s.shakedown.bodies)
+    if (std::none_of(s.fatigue.begin(), s.fatigue.end(), [&](const BodyFatigue& f) { return f.body == b.body; }))
+      out.push_back(fmt::format("layers of the {} not judged", b.body));
   for (const Check& c : s.checks)
     if (!c.ok) out.push_back(c.name);
   for (const Warning& w : s.warnings)
@@ -102,12 +105,12 @@ std::string depth_in_words(double depth) {
   return depth == 0 ? "at the surface" : fmt::format("{:.2f} mm deep", 1e3 * depth);
 }
 
-std::optional<Answer> answer_of(const Summary& summary) {
+std::optional<Judgement> judgement_of(const Summary& summary) {
   const BodyShakedown* body = deciding_body(summary.shakedown);
   if (!body) return {};
   const Verdict verdict = verdict_of(body->factors);
   const std::vector<LayerFailure> layers = layer_failures(summary);
-  Answer out;
+  Judgement out;
   out.lasts = lasts_of(verdict, layers.empty());
   out.doubts = doubts_of(summary);
   std::vector<std::string> reasons;

@@ -1,4 +1,4 @@
-#include "judge/answer.hpp"
+#include "judge/judgement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,56 +16,64 @@ Summary clad_rail_and_wheel(double wheel) {
   s.shakedown.bodies.resize(2);
   s.shakedown.bodies[0] = {"rail", {0.7, 1.05, 1.1, 1.1, 1.2}, "layer", 2.5e-3, 0, {}, {}};
   s.shakedown.bodies[1] = {"wheel", {0.8, wheel, wheel, wheel, 1.3}, "wheel", 0, 0, {}, {}};
+  s.fatigue.resize(2);
+  s.fatigue[0].body = "rail";
+  s.fatigue[1].body = "wheel";
   return s;
 }
 
-TEST(Answer, NamesTheBodyAndTheZoneThatDecide) {
-  EXPECT_FALSE(answer_of(Summary()));
-  const Answer no = *answer_of(clad_rail_and_wheel(0.93));
+TEST(Judgement, NamesTheBodyAndTheZoneThatDecide) {
+  EXPECT_FALSE(judgement_of(Summary()));
+  const Judgement no = *judgement_of(clad_rail_and_wheel(0.93));
   EXPECT_EQ(no.lasts, Lasts::no);
   EXPECT_EQ(no.decides, "wheel, at the surface");
   EXPECT_EQ(no.reason, "wheel, at the surface: yields in every passage (load factor to shakedown 0.930)");
-  const Answer yes = *answer_of(clad_rail_and_wheel(1.2));
+  const Judgement yes = *judgement_of(clad_rail_and_wheel(1.2));
   EXPECT_EQ(yes.lasts, Lasts::yes);
   EXPECT_EQ(yes.decides, "layer of the rail, 2.50 mm deep");
   EXPECT_EQ(yes.zone, "rail: layer");
   EXPECT_EQ(no.zone, "wheel");
 }
 
-TEST(Answer, OneTrackIsNeitherYesNorNo) {
+TEST(Judgement, OneTrackIsNeitherYesNorNo) {
   Summary s = clad_rail_and_wheel(1.2);
   s.shakedown.bodies[1].factors = {0.8, 0.93, 1.02, 1.1, 1.3};
-  EXPECT_EQ(answer_of(s)->lasts, Lasts::one_track);
+  EXPECT_EQ(judgement_of(s)->lasts, Lasts::one_track);
   EXPECT_EQ(lasts_row(Lasts::one_track).tone, "open");
   s.shakedown.bodies[1].factors.single_track = kNotApplicable;
-  EXPECT_EQ(answer_of(s)->lasts, Lasts::perhaps_one_track);
+  EXPECT_EQ(judgement_of(s)->lasts, Lasts::perhaps_one_track);
 }
 
-TEST(Answer, ALayerThatCracksDecidesOverFactorsThatHold) {
+TEST(Judgement, ALayerThatCracksDecidesOverFactorsThatHold) {
   Summary s = clad_rail_and_wheel(1.2);
-  s.fatigue.resize(1);
-  s.fatigue[0].body = "rail";
   s.fatigue[0].brittle = {{"layer", 900e6, 0, 1.2, kNotApplicable, 1e-3}};
-  const Answer cracks = *answer_of(s);
+  const Judgement cracks = *judgement_of(s);
   EXPECT_EQ(cracks.lasts, Lasts::no);
   EXPECT_EQ(cracks.decides, "layer of the rail, at the surface");
   EXPECT_EQ(cracks.reason,
             "layer of the rail, at the surface: brittle layer cracks (σ₁ is 1.20 of its tensile strength)");
 }
 
-TEST(Answer, NoYesBesideAFailedCheckOrAWarningThatTakesItBack) {
+TEST(Judgement, NoYesBesideAFailedCheckOrAWarningThatTakesItBack) {
   Summary s = clad_rail_and_wheel(1.2);
   s.warnings = {{"von_mises_above_common_rail_yield", 600e6, 500e6, ""}};
-  EXPECT_EQ(answer_of(s)->lasts, Lasts::yes) << "a warning that leaves the stresses as they are";
+  EXPECT_EQ(judgement_of(s)->lasts, Lasts::yes) << "a warning that leaves the stresses as they are";
   s.warnings = {{"patch_wider_than_layer", 20e-3, 5e-3, ""}};
-  EXPECT_EQ(answer_of(s)->lasts, Lasts::withheld);
-  EXPECT_TRUE(answer_of(s)->reason.starts_with("Patch beyond the layer; ")) << answer_of(s)->reason;
+  EXPECT_EQ(judgement_of(s)->lasts, Lasts::withheld);
+  EXPECT_TRUE(judgement_of(s)->reason.starts_with("Patch beyond the layer; ")) << judgement_of(s)->reason;
   s.warnings.clear();
   s.checks = {at_most("F_z_relative_to_weight", 2, 1)};
-  EXPECT_EQ(answer_of(s)->lasts, Lasts::withheld);
+  EXPECT_EQ(judgement_of(s)->lasts, Lasts::withheld);
   Summary fails = clad_rail_and_wheel(0.93);
   fails.checks = s.checks;
-  EXPECT_EQ(answer_of(fails)->lasts, Lasts::no);
+  EXPECT_EQ(judgement_of(fails)->lasts, Lasts::no);
+}
+
+TEST(Judgement, NoYesWhereLayersAndFatigueWereNotLookedAt) {
+  Summary s = clad_rail_and_wheel(1.2);
+  s.fatigue.pop_back();
+  EXPECT_EQ(judgement_of(s)->lasts, Lasts::withheld);
+  EXPECT_NE(judgement_of(s)->reason.find("wheel"), std::string::npos);
 }
 
 TEST(ProcessStress, IsHeldAgainstTheStrengthWhereItIs) {

@@ -1,0 +1,114 @@
+#include "ask/judge.hpp"
+
+#include <algorithm>
+
+#include "ask/life_passes.hpp"
+#include "core/fault_line.hpp"
+#include "core/parallel.hpp"
+#include "core/process_memory.hpp"
+#include "core/stop_request.hpp"
+#include "damage/wear_indices.hpp"
+#include "fatigue/half_space_track.hpp"
+#include "fatigue/traffic_damage.hpp"
+#include "io/provenance.hpp"
+#include "judge/bem_summary.hpp"
+#include "record/unit.hpp"
+#include "spec/case_spec.hpp"
+
+namespace railstrata {
+namespace {
+
+void add_wear(const CaseSpec& spec, Answer& out) {
+  Summary& s = out.summary;
+  const std::vector<const BemPatch*> patches = patches_of(out.result);
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const ContactSummary& contact = s.patches.empty() ? s.contact : s.patches.at(k).contact;
+    out.wear.push_back({patches[k]->place, streamlines(spec, patches[k]->field),
+                        rcf_damage(rcf_damage_15(), t_gamma(contact).without_spin)});
+  }
+  s.damage = damage_summary(spec, s, streamlines_of(out.wear));
+}
+
+/// A stress that still rises at the rim of what was searched leaves open whether it lasts.
+void add_stresses(const Wanted& wanted, Answer& out) {
+  Summary& s = out.summary;
+  const auto judged = [&](BodyId body) {
+    return std::any_of(out.shakedown.begin(), out.shakedown.end(),
+                       [&](const SectionShakedown& section) { return section.body == body && section.strength.any(); });
+  };
+  if (!s.rail.subsurface && (wanted.rail || judged(BodyId::rail))) s.rail = bem_rail_stress(out.result, s.contact);
+  if (!s.wheel.subsurface && (wanted.wheel || judged(BodyId::wheel))) s.wheel = bem_wheel_stress(out.result, s.contact);
+}
+
+void add_passes(const CaseSpec& spec, const Placement& placement, const AskOptions& how, Answer& out) {
+  try {
+    out.passed = passed_sections(spec, placement, out.result, how.bem, how.control);
+  } catch (const CaseError& e) {
+    out.not_followed = fault_line(e);
+  } catch (const NumericalError& e) {
+    out.not_followed = fault_line(e);
+  }
+}
+
+/// By lives/zone_life.hpp; a unit of traffic is one wheel.
+LifeSummary life_of(const CaseSpec& spec, const Placement& placement, double cell, const Answer& answer) {
+  LifeSummary out;
+  if (!answer.not_followed.empty()) {
+    out.text = "not known: " + answer.not_followed;
+    return out;
+  }
+  const std::vector<WheelKind> kinds{{1, answer.wear}};
+  const Lives lives =
+      zone_lives(spec, {{1, answer.summary.contact.F_z, &answer.wear, &answer.shakedown, &answer.passed}},
+                 rail_damage(spec, kinds, placement, cell), wheel_damage(spec, kinds, placement, cell));
+  out.text = life_text(lives.rows);
+  if (const LifeRow* row = shortest(lives.rows)) {
+    constexpr double kOfKilogram = unit::kMGT.factor;
+    out.best = row->mgt.best / kOfKilogram;
+    out.low = row->mgt.low / kOfKilogram;
+    out.high = row->mgt.high / kOfKilogram;
+  }
+  return out;
+}
+
+}  // namespace
+
+void judge(const CaseSpec& given, const Placement& placement, const Wanted& wanted, Answer& out,
+           const AskOptions& how) {
+  const CaseSpec spec = half_space_case(given);
+  std::optional<StopRequest> stop;
+  if (how.control) stop.emplace(&how.control->stop);
+  Summary& s = out.summary;
+  const bool life = wanted.life && spec.life.passes > 0, shakedown = wanted.shakedown || life;
+  if (out.wear.empty()) add_wear(spec, out);
+  if (!out.stopped) {
+    if (shakedown && out.shakedown.empty()) out.shakedown = half_space_shakedown(spec, out.result);
+    add_stresses(wanted, out);
+    if (wanted.single_track) add_single_track(spec, out.result, out.shakedown);
+    if (wanted.maps) out.sliding = sliding_maps(out.result, out.shakedown);
+    judge_sections(spec, out.shakedown, s);
+    if (life || (wanted.passes && spec.life.passes > 0)) add_passes(spec, placement, how, out);
+    if (life) s.life = life_of(spec, placement, how.bem.cell, out);
+  }
+  s.warnings = bem_warnings(s, spec, out.result, out.coarsest);
+}
+
+void judge_sections(const CaseSpec& spec, const std::vector<SectionShakedown>& sections, Summary& summary) {
+  summary.shakedown = shakedown_summary(spec, sections);
+  summary.fatigue.clear();
+  for (const SectionShakedown& section : sections) summary.fatigue.push_back(section.fatigue);
+}
+
+void sign(Summary& summary) {
+  summary.run.commit = commit_text();
+  summary.run.threads = max_threads();
+  summary.run.peak_memory_bytes = peak_memory();
+}
+
+std::vector<StreamlineRow> streamlines_of(const std::vector<PatchDamage>& patches) {
+  std::vector<StreamlineRow> out;
+  for (const PatchDamage& patch : patches) out.insert(out.end(), patch.rows.begin(), patch.rows.end());
+  return out;
+}
+
+}  // namespace railstrata
