@@ -10,9 +10,11 @@ struct Absent {
 };
 
 constexpr std::string_view
-    kLoad = "vehicle.wheel_load and vehicle.axle_load give the load, or the masses do; `railstrata check` shows it",
+    kLoad =
+        "set vehicle.wheel_load or vehicle.axle_load, or the masses of [vehicle]; `railstrata check` shows the load",
     kCreepage =
-        "drive.creepage, lateral_creepage and spin give creepages, and `railstrata creep-curve` traction against them",
+        "set drive.creepage, drive.lateral_creepage or drive.spin; `railstrata creep-curve` computes traction against "
+        "creepage",
     kYaw = "geometry.yaw is the angle of attack", kCurve = "geometry.curve_radius is the radius of the track's curve",
     kRoll = "geometry.roll is the roll of the wheelset";
 

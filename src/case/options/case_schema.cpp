@@ -95,16 +95,13 @@ Json table_schema(const OptionTable& table, CaseSpec& spec) {
 }
 
 constexpr const char* kAboutTransient =
-    "\nEvery key from `at_distance` on is a column: a list with a value for each row, linear between the rows; two "
-    "rows at "
-    "one place\nare a jump. A row of what rolls stands at `at_distance` or `at_time`, the first at 0; what has no "
-    "column is "
-    "that of [drive].\nA shift begins at rest under the first row's load and goes from row to row; a direction without "
-    "a "
-    "column is held.\n`history_file` has the columns under their names with units, `distance [mm]` or `distance_mm`, a "
-    "line a row, commas,\nsemicolons or tabs between them, with the last two decimal commas too (`2,5; 102`). Results: "
-    "[docs/bem.md](bem.md#transients). Signs: "
-    "[conventions](conventions.md#axes-and-signs).\n";
+    "\nEvery key from `at_distance` on is a column: a list with one value per row, linear between rows; two rows at "
+    "the same\nplace make a jump. For kind = \"rolling\" a row is placed by `at_distance` or `at_time`, and the first "
+    "is at 0. A quantity\nwithout a column keeps its value from [drive]. A shift starts at rest under the first row's "
+    "load and goes from row to row;\na direction without a column does not move. `history_file` has these columns, "
+    "named with units (`distance [mm]` or\n`distance_mm`), one line per row, separated by commas, semicolons or tabs; "
+    "with semicolons or tabs, decimal commas are\nallowed (`2,5; 102`). Method and results: "
+    "[docs/bem.md](bem.md#transients). Signs:\n[conventions](conventions.md#axes-and-signs).\n";
 
 std::string about_conditions() {
   std::string out =
@@ -133,39 +130,34 @@ std::string about_conditions() {
 /// Text below a table, on how values of more than one number are written.
 std::string more_about(const OptionTable& table) {
   if (table.name == "geometry")
-    return "\n`rail_profile` and `wheel_profile` also take an arc, `\"arc:R=200 mm\"`: convex of this radius, hollow "
-           "with `R=-450 mm`;\n`\"flat\"` is a plane. Both are 60 mm wide, or have the width `W=`: `\"flat:W=10 mm\"`, "
-           "`\"arc:R=300 mm, W=10 mm\"`. "
-           "Profile files: "
+    return "\n`rail_profile` and `wheel_profile` also take an arc: `\"arc:R=200 mm\"` is convex with this radius, "
+           "`R=-450 mm` hollow.\n`\"flat\"` is a plane. Both are 60 mm wide unless `W=` gives another width: "
+           "`\"flat:W=10 mm\"`,\n`\"arc:R=300 mm, W=10 mm\"`. Profile files: "
            "[data/profiles](../data/profiles/README.md).\n";
   if (table.name == "vehicle")
     return "\nThe static load of the wheel on the rail is G = (wheel_mass + sprung_mass) gravity. `wheel_load` and "
-           "`axle_load` set\n`sprung_mass` so that G is the load; in a rolling finite element case that mass also "
-           "rides "
-           "on the suspension. Loads\nare written as forces (`\"110 kN\"`) or masses (`\"11.2 t\"`). Give at most one "
-           "of "
-           "`sprung_mass`, `wheel_load`,\n`axle_load` and `approach`. Under an `approach` the load is a result, and "
-           "the "
-           "traction coefficients of [drive] count over it.\n";
+           "`axle_load` set\n`sprung_mass` so that G equals the load; in a rolling finite element case that mass is "
+           "carried by the suspension.\nLoads are written as forces (`\"110 kN\"`) or masses (`\"11.2 t\"`). Give at "
+           "most one of `sprung_mass`, `wheel_load`,\n`axle_load` and `approach`. With `approach` the load is a "
+           "result, and the traction coefficients of [drive] refer to\nthat load.\n";
   if (table.name == "drive")
     return "\nAlong the rail give at most one of `traction_coefficient`, `tractive_force` and `creepage`; across it at "
            "most one of\n`lateral_traction_coefficient`, `lateral_force` and `lateral_creepage`. What is not given "
            "follows from the geometry:\nthe lateral creepage from the yaw, the spin from the contact angle and the "
-           "curve. With `--set`, a key takes the place of\nthe file's other keys of its kind. Finite elements "
-           "take creepages to ±0.1; a\ngiven spin is the half-space engine's (`railstrata bem`). Signs: "
+           "curve. A key given with `--set` replaces the\nfile's other keys of the same group. Finite elements accept "
+           "creepages up to ±0.1; a given spin needs the half-space\nengine (`railstrata bem`). Signs: "
            "[conventions](conventions.md#axes-and-signs).\n";
   if (table.name == "friction") return about_conditions();
   if (table.name == "transient") return kAboutTransient;
   if (table.name == "collective")
-    return "\nThe file has the keys of [[load]] under their names with units, `wheel_load [kN]` or `wheel_load_kN`, a "
-           "line a row; an empty\ncell means the value of the case. Results: "
+    return "\nThe columns of the file are the keys of [[load]], named with units (`wheel_load [kN]` or "
+           "`wheel_load_kN`), one line per\nrow; an empty cell means the value of the case. Results: "
            "[docs/damage.md](damage.md#load-collectives).\n";
   if (table.name == "layer")
-    return "\n`young_table` gives a modulus that varies with depth, row by row from the layer's top, linear between "
-           "the rows:\n\n"
-           "```toml\n[[layer]]\nname = \"graded\"\n"
-           "young_table = [[\"0 mm\", \"240 GPa\"], [\"1 mm\", \"225 GPa\"], [\"3 mm\", \"210 GPa\"]]\n```\n\n"
-           "The first depth is 0 mm, the last one the layer's thickness; for a jump of the modulus write two layers.\n";
+    return "\n`young_table` gives Young's modulus as a function of depth, row by row from the layer's top, linear "
+           "between rows:\n\n```toml\n[[layer]]\nname = \"graded\"\nyoung_table = [[\"0 mm\", \"240 GPa\"], [\"1 mm\", "
+           "\"225 GPa\"], [\"3 mm\", \"210 GPa\"]]\n```\n\nThe first depth is 0 mm, the last one the layer's "
+           "thickness; for a jump of the modulus write two layers.\n";
   return "";
 }
 

@@ -42,9 +42,9 @@ std::vector<Option> creepage_options() {
              "Longitudinal creepage (V - omega r) / V, instead of the traction; negative drives, 1 is a locked wheel",
              kNumber, {-10, 1}),
       option("wheel_rotation", at<&C::drive, &D::creepage>,
-             "Rotation of the wheel's spindle, instead of the creepage = 1 - rotation * wheel_radius / speed",
+             "Rotation of the wheel's spindle, instead of the creepage, which is 1 - rotation * wheel_radius / speed",
              kRotation, {0, 1e5})
-          .derived({creepage_of_rotation, "give another rotation, geometry.wheel_radius or speed"}),
+          .derived({creepage_of_rotation, "change the rotation, geometry.wheel_radius or the speed"}),
       option("lateral_force", at<&C::drive, &D::lateral_traction_coefficient>,
              "Friction force F_y on the wheel along the contact plane, positive towards the field side", kForce,
              {-1e7, 1e7})
@@ -52,19 +52,19 @@ std::vector<Option> creepage_options() {
       option("lateral_traction_coefficient", at<&C::drive, &D::lateral_traction_coefficient>, "The same force over G",
              kNumber, {-1, 1}),
       option("lateral_creepage", at<&C::drive, &D::lateral_creepage>,
-             "Along the contact plane, positive where the wheel slips towards the field side; finite elements: the "
-             "wheel moves sideways on its way",
+             "Lateral creepage along the contact plane, positive where the wheel slips towards the field side; finite "
+             "elements: the wheel moves sideways as it rolls",
              kNumber, {-10, 10}),
       choice_at<&C::drive, &D::creepage_of>(
           "creepage_of",
-          "Meaning of the creepages, here and in a collective: those of the contact that touches first, in its plane; "
-          "or of the wheel, (V - omega wheel_radius) / V at its tape circle and its horizontal lateral slip, from "
-          "which each contact's creepages follow by its radius and angle. For a wheel on tread and flange use "
-          "\"wheel\": a small shift changes which contact touches first",
+          "Where creepages are measured, here and in a collective. contact: in the plane of the contact that touches "
+          "first; wheel: (V - omega wheel_radius) / V at the tape circle and the horizontal lateral slip, from which "
+          "each contact's creepages follow by its radius and angle. Use \"wheel\" where tread and flange touch: there "
+          "a small shift changes which contact touches first",
           {{"contact", CreepageOf::contact}, {"wheel", CreepageOf::wheel}}),
       option("spin", at<&C::drive, &D::spin>,
-             "About the normal of the contact plane, over V, positive from the rolling direction towards the field "
-             "side; half-space engine",
+             "Rotation about the normal of the contact plane, divided by V; positive from the rolling direction "
+             "towards the field side; half-space engine",
              kSpin, {-1000, 1000})};
 }
 
@@ -100,7 +100,7 @@ OptionTable vehicle_table() {
            option("sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6})
                .where(load_given),
            option("wheel_load", at<&C::vehicle, &V::sprung_mass>,
-                  "Load of the wheel on the rail, a force or a mass, instead of the sprung mass: that is load / "
+                  "Load of the wheel on the rail, a force or a mass, instead of the sprung mass, which is load / "
                   "gravity - wheel_mass; at least the wheel's own weight",
                   kForce, above(0, 1e7))
                .derived({sprung_mass_under, kMoreLoad})
@@ -135,7 +135,7 @@ OptionTable drive_table() {
       {option("speed", at<&C::drive, &D::speed>, "Rolling speed; of a rotating rail the speed of its surface", kSpeed,
               above(0, 200)),
        option("rail_rotation", at<&C::drive, &D::speed>,
-              "Rotation of the roller's spindle, instead of the speed = rotation * rail_radius", kRotation,
+              "Rotation of the roller's spindle, instead of the speed, which is rotation * rail_radius", kRotation,
               above(0, 1e5))
            .derived({surface_speed, "give geometry.rail_radius, or another rotation"}),
        option("traction_coefficient", at<&C::drive, &D::traction_coefficient>,
@@ -163,7 +163,8 @@ OptionTable friction_table() {
       "friction",
       "How friction depends on slip; at rest it is drive.friction_coefficient",
       {option("condition", at<&C::friction, &F::condition>,
-              "A named set of drive.friction_coefficient, this table and third_body; keys that are given override it")
+              "Name of a set that supplies drive.friction_coefficient, this table and third_body; keys that are given "
+              "override it")
            .where(named_condition),
        choice_at<&C::friction, &F::law>("law",
                                         "Coulomb's constant coefficient, or one that falls with the slip velocity "
@@ -172,38 +173,40 @@ OptionTable friction_table() {
                                          {"falling_exponential", FrictionForm::falling_exponential},
                                          {"falling_rational", FrictionForm::falling_rational}}),
        option("kinetic_coefficient", at<&C::friction, &F::kinetic_coefficient>,
-              "Falling laws: the coefficient's limit for fast slip", kNumber, {0, 2})
+              "Falling laws: the coefficient at very fast slip", kNumber, {0, 2})
            .where(falls),
-       option("half_velocity", at<&C::friction, &F::half_velocity>, "Falling laws: slip velocity at half of the fall",
-              kSpeed, above(0, 100))
+       option("half_velocity", at<&C::friction, &F::half_velocity>,
+              "Falling laws: slip velocity at which the coefficient has fallen by half of its range", kSpeed,
+              above(0, 100))
            .where(falls),
        option("memory_distance", at<&C::friction, &F::memory_distance>,
-              "Falling laws: sliding distance over which the coefficient follows the slip velocity; 0: at once. "
-              "Finite elements need one, 10 to 50 um",
+              "Falling laws: sliding distance over which the coefficient follows the slip velocity; 0: immediately. "
+              "Finite elements need a value, 10 to 50 um",
               kLength, {0, 10 * kMilli})
            .where(falls),
        option("memory_velocity", at<&C::friction, &F::memory_velocity>,
-              "With memory_distance: smallest velocity with which the coefficient follows, so that it recovers at rest",
+              "With memory_distance: smallest slip velocity that the memory assumes, so that the coefficient recovers "
+              "at rest",
               kSpeed, {0, 10})
            .where(remembers),
        table_over(column("y", "", kLength, {-0.2, 0.2}), column("coefficient", "", kNumber, {0, 2}), "lateral_table",
                   at<&C::friction, &F::lateral_table>,
-                  "drive.friction_coefficient across the rail: rows of y of the rail's profile and coefficient, "
-                  "linear between and constant beyond (gauge corner and top)",
+                  "drive.friction_coefficient as a function of lateral position, e.g. gauge corner and top: rows of "
+                  "the rail profile's y and the coefficient, linear between rows and constant beyond them",
                   R"([["-25 mm", 0.15], ["-15 mm", 0.4]])"),
        option("lateral_coefficient", at<&C::friction, &F::lateral_coefficient>,
-              "Across rolling, where it differs from drive.friction_coefficient along it: tractions lie in an ellipse "
-              "of both, slip along its normal",
+              "Coefficient across the rolling direction, if it differs from drive.friction_coefficient along it; the "
+              "traction bound is then an ellipse, and slip is normal to it",
               kNumber, above(0, 2)),
        table_over(temperature_column(), column("factor", "", kNumber, {0, 10}), "temperature_table",
                   at<&C::friction, &F::temperature_table>,
-                  "Factor of the coefficient over the temperature of the contact: rail_temperature, "
-                  "wheel_temperature and flash temperature; rows of temperature, from any zero, and factor; "
-                  "half-space engine",
+                  "Factor on the coefficient as a function of the contact temperature, which follows from "
+                  "rail_temperature, wheel_temperature and the flash temperature: rows of temperature, with any zero "
+                  "point, and factor; half-space engine",
                   R"([["20 K", 1], ["400 K", 0.6]])"),
        option("rail_temperature", at<&C::friction, &F::rail_temperature>,
-              "Temperature of the rail before the contact, with the zero of the temperature tables", kTemperature,
-              {-300, 3000})
+              "Temperature of the rail before the contact, with the same zero point as the temperature tables",
+              kTemperature, {-300, 3000})
            .where(has_temperature),
        option("wheel_temperature", at<&C::friction, &F::wheel_temperature>, "The same for the wheel", kTemperature,
               {-300, 3000})
@@ -212,32 +215,33 @@ OptionTable friction_table() {
 
 OptionTable third_body_table() {
   using Film = ThirdBodySpec;
-  return {"third_body",
-          "A layer of wear debris, sand, … between the surfaces, an elastic-plastic film in shear; none without a "
-          "thickness",
-          {option("thickness", at<&C::third_body, &Film::thickness>, "Of the film", kLength, above(0, kMilli)),
-           option("shear_modulus", at<&C::third_body, &Film::shear_modulus>, "Of the film", kPressure, above(0, 1e12)),
-           option("yield_shear", at<&C::third_body, &Film::yield_shear>,
-                  "Shear stress at which the film yields; none: it is elastic", kPressure, above(0, 1e11)),
-           option("hardening", at<&C::third_body, &Film::hardening>,
-                  "Rise of yield_shear by plastic shear displacement; below 0 the film softens (half-spaces)",
-                  kPressureGradient, {-1e15, 1e15})
-               .where(has_film),
-           option("residual_shear", at<&C::third_body, &Film::residual_shear>,
-                  "Softening film: yield_shear after large shear", kPressure, above(0, 1e11))
-               .where(softens),
-           option("yield_by_pressure", at<&C::third_body, &Film::yield_by_pressure>,
-                  "Rise of yield_shear per local pressure; half-space engine", kNumber, {0, 10})
-               .where(has_film),
-           option("modulus_by_pressure", at<&C::third_body, &Film::modulus_by_pressure>, "The same of shear_modulus",
-                  kNumber, {0, 1000})
-               .where(has_film),
-           table_over(temperature_column(), column("factor", "", kNumber, above(0, 10)), "temperature_table",
-                      at<&C::third_body, &Film::temperature_table>,
-                      "Factor of shear_modulus and yield_shear over the temperature of the contact, as "
-                      "friction.temperature_table",
-                      R"([["20 K", 1], ["400 K", 0.6]])")
-               .where(has_film)}};
+  return {
+      "third_body",
+      "A film of wear debris, sand, … between the surfaces, elastic-plastic in shear; without a thickness there is no "
+      "film",
+      {option("thickness", at<&C::third_body, &Film::thickness>, "Of the film", kLength, above(0, kMilli)),
+       option("shear_modulus", at<&C::third_body, &Film::shear_modulus>, "Of the film", kPressure, above(0, 1e12)),
+       option("yield_shear", at<&C::third_body, &Film::yield_shear>,
+              "Shear stress at which the film yields; not given: the film stays elastic", kPressure, above(0, 1e11)),
+       option("hardening", at<&C::third_body, &Film::hardening>,
+              "Increase of yield_shear per plastic shear displacement; below 0 the film softens (half-space engine)",
+              kPressureGradient, {-1e15, 1e15})
+           .where(has_film),
+       option("residual_shear", at<&C::third_body, &Film::residual_shear>,
+              "Softening film: yield_shear after large shear", kPressure, above(0, 1e11))
+           .where(softens),
+       option("yield_by_pressure", at<&C::third_body, &Film::yield_by_pressure>,
+              "Increase of yield_shear per unit of local pressure; half-space engine", kNumber, {0, 10})
+           .where(has_film),
+       option("modulus_by_pressure", at<&C::third_body, &Film::modulus_by_pressure>,
+              "Increase of shear_modulus per unit of local pressure; half-space engine", kNumber, {0, 1000})
+           .where(has_film),
+       table_over(temperature_column(), column("factor", "", kNumber, above(0, 10)), "temperature_table",
+                  at<&C::third_body, &Film::temperature_table>,
+                  "Factor on shear_modulus and yield_shear as a function of contact temperature, as in "
+                  "friction.temperature_table",
+                  R"([["20 K", 1], ["400 K", 0.6]])")
+           .where(has_film)}};
 }
 
 }  // namespace railstrata

@@ -21,43 +21,46 @@ bool is(const CaseSpec& spec, std::size_t index) {
 const Range kHeightWay{-100, 100};  // m
 
 std::vector<Option> height_shape_options() {
-  return {option("length", irregularity<&I::length>, "indentation, step, flat: from end to end", kLength, above(0, 20)),
-          option("wavelength", irregularity<&I::wavelength>, "corrugation", kLength, above(0, 20)),
-          option("order", irregularity<&I::order>, "out_of_round: waves round the wheel", kNumber, {1, 1000})
-              .where(is<Kind::out_of_round>),
-          option("depth", irregularity<&I::depth>,
-                 "Peak to valley, of an indentation or a rounded flat; a fresh flat is a chord of its length", kLength,
-                 {0, 0.02}),
-          option("height", irregularity<&I::height>, "step: height of the following rail relative to the preceding one",
-                 kLength, {-0.02, 0.02}),
-          option("width", irregularity<&I::width>, "Lateral width, with a cosine shape; not given: uniform across",
-                 kLength, above(0, 0.2)),
-          option("offset", irregularity<&I::offset>,
-                 "Lateral position of the middle, from the first contact to the field side", kLength, {-0.1, 0.1}),
-          option("angle", irregularity<&I::angle>, "dip: between its two ramps", kSlope, {0, 0.2}),
-          option("ramp", irregularity<&I::ramp>, "dip: length of each", kLength, above(0, 20)).where(is<Kind::dip>),
-          choice<&I::shape>("shape", irregularity<&I::shape>, "dip: shape of the ramps",
-                            {{"parabola", RampShape::parabola}, {"line", RampShape::line}})
-              .where(is<Kind::dip>)};
+  return {
+      option("length", irregularity<&I::length>, "indentation, step, flat: length from end to end", kLength,
+             above(0, 20)),
+      option("wavelength", irregularity<&I::wavelength>, "corrugation: wavelength", kLength, above(0, 20)),
+      option("order", irregularity<&I::order>, "out_of_round: number of waves around the wheel", kNumber, {1, 1000})
+          .where(is<Kind::out_of_round>),
+      option("depth", irregularity<&I::depth>,
+             "Depth from peak to valley; for an indentation, and for a flat with worn, rounded edges. A fresh flat is "
+             "a chord and needs only its length",
+             kLength, {0, 0.02}),
+      option("height", irregularity<&I::height>, "step: height of the following rail relative to the preceding one",
+             kLength, {-0.02, 0.02}),
+      option("width", irregularity<&I::width>, "Lateral width, with a cosine shape; not given: uniform across", kLength,
+             above(0, 0.2)),
+      option("offset", irregularity<&I::offset>,
+             "Lateral position of the middle, from the first contact to the field side", kLength, {-0.1, 0.1}),
+      option("angle", irregularity<&I::angle>, "dip: angle between its two ramps", kSlope, {0, 0.2}),
+      option("ramp", irregularity<&I::ramp>, "dip: length of each ramp", kLength, above(0, 20)).where(is<Kind::dip>),
+      choice<&I::shape>("shape", irregularity<&I::shape>, "dip: shape of the ramps",
+                        {{"parabola", RampShape::parabola}, {"line", RampShape::line}})
+          .where(is<Kind::dip>)};
 }
 
 std::vector<Option> height_spectrum_options() {
-  return {
-      option("rms", irregularity<&I::rms>, "roughness: root mean square height", kLength, above(0, 1e-3)),
-      option("shortest", irregularity<&I::shortest>, "roughness: shortest wave", kLength, above(0, 20)),
-      option("longest", irregularity<&I::longest>, "roughness: longest wave", kLength, above(0, 20)),
-      option("exponent", irregularity<&I::exponent>,
-             "roughness: e of the spectral density, which falls with the wave number to the power -e", kNumber, {0, 10})
-          .where(is<Kind::roughness>),
-      option("seed", irregularity<&I::seed>, "roughness: of its random phases", kNumber, {0, 2147483647})
-          .where(is<Kind::roughness>)};
+  return {option("rms", irregularity<&I::rms>, "roughness: root mean square height", kLength, above(0, 1e-3)),
+          option("shortest", irregularity<&I::shortest>, "roughness: shortest wave", kLength, above(0, 20)),
+          option("longest", irregularity<&I::longest>, "roughness: longest wave", kLength, above(0, 20)),
+          option("exponent", irregularity<&I::exponent>,
+                 "roughness: exponent e; the spectral density is proportional to the wave number to the power -e",
+                 kNumber, {0, 10})
+              .where(is<Kind::roughness>),
+          option("seed", irregularity<&I::seed>, "roughness: seed of its random phases", kNumber, {0, 2147483647})
+              .where(is<Kind::roughness>)};
 }
 
 std::vector<Option> height_point_options() {
   return {
       option("file", irregularity<&I::file>,
-             "A CSV file with the columns x and z, or x, y and z of a grid, with units, relative to the case file; "
-             "the resolved case has its values")
+             "A CSV file with columns x and z, or x, y and z of a grid, with units, relative to the case file; the "
+             "resolved case contains its values")
           .where(never),
       option("smoothing", irregularity<&I::smoothing>,
              "file: length of the cosine-weighted mean that smooths its heights along x; 0: not smoothed", kLength,
@@ -74,7 +77,7 @@ std::vector<Option> height_point_options() {
 OptionTable irregularity_table() {
   OptionTable out{
       "irregularity",
-      "A height along the running surface of rail or wheel, positive out of the body; several are added up",
+      "A height along the running surface of rail or wheel, positive out of the body; several add up",
       {choice<&I::on>("on", irregularity<&I::on>, "Body; on the wheel x is the arc from the first contact",
                       {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
        choice<&I::kind>("kind", irregularity<&I::kind>, "Its shape",
@@ -89,8 +92,8 @@ OptionTable irregularity_table() {
        option("at", irregularity<&I::at>, "Distance of its middle (waves: a crest; file: x = 0) from the first contact",
               kLength, kHeightWay),
        option("from", irregularity<&I::from>,
-              "corrugation, roughness: beginning, with a smooth rise over the longest wave", kLength, kHeightWay),
-       option("to", irregularity<&I::to>, "corrugation, roughness: end, with a smooth fall likewise", kLength,
+              "corrugation, roughness: start; the height grows smoothly over the longest wave", kLength, kHeightWay),
+       option("to", irregularity<&I::to>, "corrugation, roughness: end; the height fades in the same way", kLength,
               kHeightWay)},
       list_of<&CaseSpec::irregularities>(),
       {{"file", "x"}, {"file", "y"}, {"file", "z"}}};

@@ -30,18 +30,19 @@ bool grinds(const CaseSpec& spec, std::size_t) { return spec.grinding.every.has_
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
 
 std::vector<Option> force_options() {
-  return {
-      option("traction_coefficient", load<&LoadSpec::traction_coefficient>, "Wanted F_T / G; positive drives", kNumber,
-             {-1, 1}),
-      option(
-          "creepage", load<&LoadSpec::creepage>,
-          "Longitudinal, instead of the traction; negative drives. Of the contact or of the wheel: drive.creepage_of",
-          kNumber, {-10, 1}),
-      option("lateral_traction_coefficient", load<&LoadSpec::lateral_traction_coefficient>,
-             "Friction force F_y on the wheel along the contact plane, over G", kNumber, {-1, 1}),
-      option("lateral_creepage", load<&LoadSpec::lateral_creepage>,
-             "Instead of the lateral force; else that of the yaw", kNumber, {-10, 10}),
-      option("friction_coefficient", load<&LoadSpec::friction_coefficient>, "Of friction at rest", kNumber, {0, 2})};
+  return {option("traction_coefficient", load<&LoadSpec::traction_coefficient>, "Wanted F_T / G; positive drives",
+                 kNumber, {-1, 1}),
+          option("creepage", load<&LoadSpec::creepage>,
+                 "Longitudinal creepage, instead of the traction; negative drives. Measured at the contact or the "
+                 "wheel: see drive.creepage_of",
+                 kNumber, {-10, 1}),
+          option("lateral_traction_coefficient", load<&LoadSpec::lateral_traction_coefficient>,
+                 "Friction force F_y on the wheel along the contact plane, over G", kNumber, {-1, 1}),
+          option("lateral_creepage", load<&LoadSpec::lateral_creepage>,
+                 "Lateral creepage, instead of the lateral force; if neither is given, it follows from the yaw",
+                 kNumber, {-10, 10}),
+          option("friction_coefficient", load<&LoadSpec::friction_coefficient>, "Friction coefficient at rest", kNumber,
+                 {0, 2})};
 }
 
 }  // namespace
@@ -49,8 +50,8 @@ std::vector<Option> force_options() {
 OptionTable load_table() {
   OptionTable out{
       "load",
-      "A row of a load collective, for `railstrata collective`: a wheel and how often it passes. What a row does not "
-      "give is the case's; signs and meanings are those of the keys of the same names",
+      "A row of a load collective for `railstrata collective`: one wheel and how often it passes. Keys that a row does "
+      "not give take the case's values, with the same signs and meanings",
       {option("name", load<&LoadSpec::name>, "Name of the row in results; default \"load 1\", \"load 2\", …")
            .where(has_name),
        option("passages", load<&LoadSpec::passages>, "Number of passages of such a wheel", kNumber, above(0, 1e12)),
@@ -61,29 +62,30 @@ OptionTable load_table() {
               "Load of both wheels on the track, a force or a mass; this wheel carries half", kForce, above(0, 2e7))
            .derived({half, "choose a load in this range"})
            .or_mass(),
-       option(
-           "mgt", load<&LoadSpec::passages>,
-           "Million gross tonnes of such axles, instead of passages: each brings two wheels of the row's load, one of "
-           "them over this rail, so passages = mgt / (2 wheel_load)",
-           kNumber, above(0, 1e6))
-           .derived({passages_of, "choose less, or give passages"}),
-       option("lateral_shift", load<&LoadSpec::lateral_shift>, "Of the wheel, positive to the field side", kLength,
-              {-0.05, 0.05}),
+       option("mgt", load<&LoadSpec::passages>,
+              "Traffic in million gross tonnes of such axles, instead of passages. Each axle has two wheels of the "
+              "row's load, one of them on this rail: passages = mgt / (2 wheel_load)",
+              kNumber, above(0, 1e6))
+           .derived({passages_of, "choose a smaller value, or give passages instead"}),
+       option("lateral_shift", load<&LoadSpec::lateral_shift>, "Lateral shift of the wheel, positive to the field side",
+              kLength, {-0.05, 0.05}),
        option("yaw", load<&LoadSpec::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}),
        option("roll", load<&LoadSpec::roll>,
-              "Of the wheelset, as geometry.roll: some tenths of a mrad move the load between tread and flange", kSlope,
-              {-0.05, 0.05}),
-       option("curve_radius", load<&LoadSpec::curve_radius>, "Positive with the centre on the field side", kLength,
-              {-1e6, 1e6}),
+              "Roll of the wheelset, as in geometry.roll; a few tenths of a mrad move load between tread and flange",
+              kSlope, {-0.05, 0.05}),
+       option("curve_radius", load<&LoadSpec::curve_radius>,
+              "Curve radius of the track, positive with the centre on the field side", kLength, {-1e6, 1e6}),
        option("speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200)),
        option("guiding_force", load<&LoadSpec::guiding_force>,
-              "Y of the vehicle code, of the wheel on the rail, positive to the field side; only for comparison with "
-              "the result",
+              "Guiding force Y of the vehicle code, from the wheel on the rail, positive to the field side; compared "
+              "with the result, not used as input",
               kForce, {-1e6, 1e6}),
        option("t_gamma", load<&LoadSpec::t_gamma>,
-              "T-gamma of the vehicle code, without spin; only for comparison with the result", kForce, {0, 1e6}),
+              "T-gamma of the vehicle code, without spin; compared with the result, not used as input", kForce,
+              {0, 1e6}),
        option("friction_energy", load<&LoadSpec::friction_energy>,
-              "Friction power of the vehicle code over the speed, with spin; only for comparison with the result",
+              "Friction power of the vehicle code divided by the speed, with spin; compared with the result, not used "
+              "as input",
               kForce, {0, 1e6})},
       list_of<&CaseSpec::loads>(),
       {{"wheel_load", "axle_load"},
@@ -98,15 +100,14 @@ OptionTable collective_table() {
   using C = CollectiveSpec;
   const Option file =
       option("file", at<&CaseSpec::collective, &C::file>,
-             "A CSV file with the rows, instead of [[load]]: keys of [[load]] with their units as names of columns")
+             "A CSV file with the rows, instead of [[load]]; its columns are the keys of [[load]] with units")
           .where(never);
-  const Option law =
-      choice_at<&CaseSpec::collective, &C::wear_law>(
-          "wear_law",
-          "Which wear `railstrata wear-loop` takes off the profile: University of Sheffield's of T-gamma, Archard with "
-          "Jendel's map, Archard with the rail's wear_coefficient",
-          {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}})
-          .where(has_loads);
+  const Option law = choice_at<&CaseSpec::collective, &C::wear_law>(
+                         "wear_law",
+                         "Wear law of `railstrata wear-loop`. usfd: University of Sheffield, from T-gamma; kth: "
+                         "Archard with Jendel's map; archard: Archard with the rail's wear_coefficient",
+                         {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}})
+                         .where(has_loads);
   const Option deviation =
       option("lateral_deviation", at<&CaseSpec::collective, &C::lateral_deviation>,
              "Standard deviation of the lateral positions of a row's wheels: wear, rolling contact fatigue and damage "
@@ -114,41 +115,43 @@ OptionTable collective_table() {
              kLength, {0, 0.03})
           .where(has_life);
   const Option factor = option("wear_factor", at<&CaseSpec::collective, &C::wear_factor>,
-                               "Wear of rail and wheel over that of the laws (dry laboratory surfaces), from a "
-                               "measured depth; 0.2 or less for a lubricated or wet rail",
+                               "Factor on the wear of rail and wheel. The wear laws describe dry laboratory surfaces; "
+                               "calibrate the factor with a measured depth. A lubricated or wet rail has 0.2 or less",
                                kNumber, above(0, 1000))
                             .where(has_life);
   const Option bins =
       option("bin_scale", at<&CaseSpec::collective, &C::bin_scale>,
-             "Scale of the widths of the bins of a series of samples: 0.5 halves them", kNumber, {0.02, 50})
+             "Factor on the bin widths used to sort a series of samples; 0.5 halves them", kNumber, {0.02, 50})
           .where(never);
   const Option match =
       option("match_guiding_force", at<&CaseSpec::collective, &C::match_guiding_force>,
              "Moves the shift of each row with a guiding_force, by at most 0.2 mm, until its wheel has that force: "
              "with contact on tread and flange, some µm of shift move the load between them")
           .where(has_loads);
-  return {"collective", "All rows of [[load]] together", {file, law, factor, deviation, bins, match}};
+  return {"collective", "Settings for all rows of [[load]]", {file, law, factor, deviation, bins, match}};
 }
 
 OptionTable life_table() {
-  return {"life",
-          "Settings for the lives of `railstrata collective`; they also need strengths",
-          {option("passes", at<&CaseSpec::life, &LifeSpec::passes>,
-                  "Passes of every load over a new rail by the stationary method (`railstrata passes`), for the lives "
-                  "of yielding zones; 0: none, else at least 8, typically 40",
-                  kNumber, {0, 10000})
-               .where(follows_passes),
-           option("strength_scatter", at<&CaseSpec::life, &LifeSpec::strength_scatter>,
-                  "Coefficient of variation of the strengths of rail, wheel and layers: the range of a life includes "
-                  "strengths two deviations lower and higher; computes three times the passes",
-                  kNumber, {0, 0.2})
-               .where(has_life)}};
+  return {
+      "life",
+      "Settings for the lives of `railstrata collective`; they also need strengths",
+      {option(
+           "passes", at<&CaseSpec::life, &LifeSpec::passes>,
+           "Number of passes of each load over a new rail, computed by the stationary method (`railstrata passes`); "
+           "the strain they leave gives the life of zones that yield. 0: no passes; otherwise at least 8, typically 40",
+           kNumber, {0, 10000})
+           .where(follows_passes),
+       option("strength_scatter", at<&CaseSpec::life, &LifeSpec::strength_scatter>,
+              "Coefficient of variation of the strengths of rail, wheel and layers. The range of a life covers "
+              "strengths two deviations lower and higher, so three times as many passes are computed",
+              kNumber, {0, 0.2})
+           .where(has_life)}};
 }
 
 OptionTable grinding_table() {
   using G = GrindingSpec;
   return {"grinding",
-          "Grinding of the rail, for the lives of `railstrata collective`",
+          "Grinding of the rail, for the life prediction of `railstrata collective`",
           {option("every", at<&CaseSpec::grinding, &G::every>,
                   "Gross traffic between grindings, a mass: \"15 Mt\" are 15 million tonnes", kMass, {1e6, 1e13}),
            option("depth", at<&CaseSpec::grinding, &G::depth>, "Depth removed by each grinding, everywhere", kLength,

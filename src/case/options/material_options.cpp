@@ -29,7 +29,8 @@ bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(ind
 const Range kYoung{1e9, 1e14}, kPoisson{0.0, 0.499}, kYoungRatio{0.01, 100}, kDensityRange{100, 30000},
     kLayerThickness{kThinnestLayer, kThickestLayer}, kLayerWay{-100, 100};
 constexpr std::string_view kBeyondPoisson = "0.5 is incompressible: take 0.499 for it",
-                           kBeyondRatio = "the engines are verified in this range: take its end nearest to your layer",
+                           kBeyondRatio =
+                               "the engines are verified in this range only; use the limit nearest to your layer",
                            kBeyondThickness =
                                "leave a thinner layer out; give a thicker one's modulus to the body that carries it";
 
@@ -54,7 +55,8 @@ std::vector<Option> layer_modulus_options() {
               .derived({of_matrix_modulus, "choose a multiple in this range"})
               .with_remedy(kBeyondRatio),
           option("young_table", layer<&L::young_table>,
-                 "A modulus that varies with depth: depths below the layer's top and moduli, linear between")
+                 "Young's modulus as a function of depth: rows of depth below the layer's top and modulus, linear "
+                 "between rows")
               .where(graded)
               .with_rows(RowForm::by_depth,
                          {depth_column("the layer's top", kLayerThickness.max),
@@ -70,15 +72,16 @@ std::vector<Option> layer_modulus_options() {
 OptionTable layer_table() {
   OptionTable out{
       "layer",
-      "A bonded layer; the first of a body is its surface, the next lies below it. Each needs one of young, "
-      "young_ratio and young_table",
+      "A bonded layer. The first layer of a body is its surface; each further layer lies below the one before. Each "
+      "needs one of young, young_ratio and young_table",
       {option("name", layer<&L::name>,
-              "What results call the layer; several of a body without one are \"layer 1\", \"layer 2\", … from the "
+              "Name of the layer in results; default, where a body has several: \"layer 1\", \"layer 2\", … from the "
               "surface down"),
        choice<&L::on>("on", layer<&L::on>, "The body that carries the layer",
                       {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
-       option("thickness", layer<&L::thickness>, "Along the normal of the surface; a young_table gives it itself",
-              kLength, kLayerThickness)
+       option("thickness", layer<&L::thickness>,
+              "Thickness along the surface normal; with young_table it is the table's last depth", kLength,
+              kLayerThickness)
            .where(uniform)
            .with_remedy(kBeyondThickness),
        option("width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength,
@@ -87,27 +90,26 @@ OptionTable layer_table() {
            .with_remedy(kBeyondPoisson),
        option("density", layer<&L::material, &M::density>, "Mass density", kDensity, kDensityRange),
        option("elements", layer<&L::elements>,
-              "Through the thickness; 0 chooses (height at most 1 mm, at least 2, at least 3 from 3 mm on). Of a "
-              "young_table each row of elements has the mean modulus over its height",
+              "Number of elements through the thickness; 0: automatic (height at most 1 mm, at least 2, at least 3 "
+              "from 3 mm thickness on). With young_table, each row of elements has the mean modulus over its height",
               kNumber, {0, 50}),
        option("from", layer<&L::from>,
-              "Where it begins along the rail, from the first contact on; of a wheel along its arc. Where it is not, "
-              "what lies below it reaches up to its place. Not given: endless to this side",
+              "Start of the layer along the rail, from the first contact; on a wheel along its arc. Outside [from, to] "
+              "the material below fills the space. Not given: unlimited on this side",
               kLength, kLayerWay),
-       option("to", layer<&L::to>, "Where it ends", kLength, kLayerWay),
+       option("to", layer<&L::to>, "End of the layer, measured as `from`", kLength, kLayerWay),
        option("taper_length", layer<&L::taper_length>,
-              "Over which the thickness runs out at from and to, within them; 0: a step. In steps of the rows of "
-              "elements through the layer",
+              "Length over which the thickness tapers to zero at from and to, inside the layer, in steps of one row of "
+              "elements; 0: a step",
               kLength, {0, 20})
            .where(ends),
-       option(
-           "unbonded", layer<&L::unbonded>,
-           "Finite elements, rail: stretches where the layer has come off its base. The interface bears pressure and "
-           "friction there and no tension, across the fine columns of the mesh (mesh.fine_width) that the layer has, "
-           "but for its edges")
+       option("unbonded", layer<&L::unbonded>,
+              "Finite elements, rail: stretches where the layer is detached from its base. The interface there "
+              "transmits pressure and friction but no tension, across the fine columns of the mesh (mesh.fine_width) "
+              "within the layer, except at its edges")
            .with_rows(RowForm::ranges, {column("from", "", kLength, kLayerWay), column("to", "", kLength, kLayerWay)},
                       R"([["180 mm", "192 mm"]])"),
-       option("unbonded_friction", layer<&L::unbonded_friction>, "Coulomb's coefficient on the interface there",
+       option("unbonded_friction", layer<&L::unbonded_friction>, "Friction coefficient on the unbonded interface",
               kNumber, {0, 2})
            .where(unbonded)},
       list_of<&C::layers>(),

@@ -34,7 +34,7 @@ std::string_view word_of(const Option& option, const ChoiceSlot& slot) {
 
 const std::vector<OptionTable>& case_tables() {
   static const std::vector<OptionTable> tables{
-      {"case", "What the case is", {option_slot::option("title", title, "One line for reports")}},
+      {"case", "Title of the case", {option_slot::option("title", title, "One line shown in reports")}},
       geometry_table(),
       rail_material_table(),
       wheel_material_table(),

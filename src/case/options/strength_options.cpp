@@ -47,29 +47,29 @@ std::vector<Option> yield_options(const Option& depth) {
   const Option strength = column("strength", "", kPressure, kStrength).with_remedy(kBeyondStrength),
                hardness = column("hardness", "", kHardness, kHardnessRange).with_remedy(kBeyondHardness);
   return {option("grade", Place::template slot<&S::grade>,
-                 "A steel grade (R260, R350HT, ER8, …; `railstrata info` lists them); supplies a strength that no "
+                 "A steel grade (R260, R350HT, ER8, …; `railstrata info` lists them); supplies the strengths that no "
                  "other key gives"),
           option("yield_strength", Place::template slot<&S::yield_strength>,
                  "Uniaxial yield strength (0.2 % proof stress); shakedown and fatigue are computed where it is known",
                  kPressure, kStrength)
               .with_remedy(kBeyondStrength),
           option("shear_yield_strength", Place::template slot<&S::yield_strength>,
-                 "The same in pure shear, k: yield_strength is √3 k", kPressure, kStrength)
+                 "Yield strength in pure shear, k; yield_strength is √3 k", kPressure, kStrength)
               .derived({of_pure_shear})
               .with_remedy(kBeyondStrength),
           option("strength_table", Place::template slot<&S::strength_table>,
-                 "yield_strength that varies with depth: rows of depth and strength, linear between")
+                 "yield_strength as a function of depth: rows of depth and strength, linear between rows")
               .with_rows(RowForm::by_depth, {depth, strength}, R"([["0 mm", "750 MPa"], ["10 mm", "500 MPa"]])"),
           option("hardness", Place::template slot<&S::hardness>,
                  "Vickers hardness, or Brinell hardness as \"300 HBW\"; a missing strength is estimated from it",
                  kHardness, kHardnessRange)
               .with_remedy(kBeyondHardness),
           option("hardness_table", Place::template slot<&S::hardness_table>,
-                 "hardness that varies with depth: rows of depth and hardness, linear between")
+                 "hardness as a function of depth: rows of depth and hardness, linear between rows")
               .with_rows(RowForm::by_depth, {depth, hardness}, R"([["0 mm", "380 HV"], ["10 mm", "300 HV"]])"),
           option("yield_to_tensile", Place::template slot<&S::yield_to_tensile>,
-                 "Yield over tensile strength where a yield strength is estimated from hardness, as yield_to_tensile "
-                 "times 3.2 MPa times HV: 0.53 to 0.57 is usual for R260, 0.65 to 0.70 for R350HT",
+                 "Ratio of yield to tensile strength, used to estimate the yield strength from hardness: "
+                 "yield_to_tensile * 3.2 MPa * HV. Usual values: 0.53 to 0.57 for R260, 0.65 to 0.70 for R350HT",
                  kNumber, {0.2, 1.0})};
 }
 
@@ -93,54 +93,57 @@ template <class Place>
 std::vector<Option> hardening_options() {
   return {
       option("hardening", Place::template slot<&S::hardening>,
-             "A ready set of cyclic hardening by name (docs/material.md lists them), or \"estimated\": from "
-             "tensile_strength or hardness. It begins to yield at its own stress; yield_strength then serves shakedown "
-             "and fatigue alone")
+             "Name of a set of cyclic hardening data (docs/material.md lists them), or \"estimated\" from "
+             "tensile_strength or hardness. The set contains its own yield stress; yield_strength is then used for "
+             "shakedown and fatigue only")
           .where(set_named<Place>),
       option("isotropic_hardening", Place::template slot<&S::isotropic_hardening>,
-             "The yield stress grows by saturation (1 - exp(-rate p)) with the accumulated plastic strain p; a "
+             "The yield stress increases by saturation * (1 - exp(-rate p)) with the accumulated plastic strain p; a "
              "negative saturation softens")
           .with_rows(RowForm::one_named,
                      {column("saturation", "", kPressure, kResidual).with_remedy(kBeyondStrength),
                       column("rate", "", kNumber, {0, 1e5})},
                      R"({ saturation = "80 MPa", rate = 12 })"),
       option("kinematic_hardening", Place::template slot<&S::kinematic_hardening>,
-             "Up to four backstresses of Armstrong and Frederick, each with modulus C and recall gamma; recall = 0 is "
-             "linear")
+             "Up to four Armstrong-Frederick backstresses, each with modulus C and recall gamma; recall = 0 is linear")
           .with_rows(RowForm::named,
                      {column("modulus", "", kPressure, {0, 1e13}), column("recall", "", kNumber, {0, 1e6})},
                      R"([{ modulus = "60 GPa", recall = 250 }, { modulus = "5 GPa", recall = 10 }])"),
-      option("elastic", Place::template slot<&S::elastic>, "Never yields, whatever its strength; for brittle layers")
+      option("elastic", Place::template slot<&S::elastic>,
+             "The material never yields, whatever its strength; for brittle layers")
           .where(elastic_on_purpose<Place>)};
 }
 
 template <class Place>
 std::vector<Option> residual_options(const Option& depth) {
-  return {option("initial_stress", Place::template slot<&S::initial_stress>,
-                 "Residual stress of manufacturing, longitudinal and lateral, tension positive", kPressure, kResidual)
-              .with_example(R"(["-344 MPa", "-200 MPa"])"),
-          option("initial_stress_table", Place::template slot<&S::initial_stress_table>,
-                 "The same by depth: rows of depth, longitudinal and lateral stress, linear between")
-              .with_rows(RowForm::by_depth,
-                         {depth, column("longitudinal stress", "", kPressure, kResidual),
-                          column("lateral stress", "", kPressure, kResidual)},
-                         R"([["0 mm", "-300 MPa", "-200 MPa"], ["5 mm", "0 MPa", "0 MPa"]])")};
+  return {
+      option("initial_stress", Place::template slot<&S::initial_stress>,
+             "Residual stress of manufacture, longitudinal and lateral, tension positive", kPressure, kResidual)
+          .with_example(R"(["-344 MPa", "-200 MPa"])"),
+      option(
+          "initial_stress_table", Place::template slot<&S::initial_stress_table>,
+          "initial_stress as a function of depth: rows of depth, longitudinal and lateral stress, linear between rows")
+          .with_rows(RowForm::by_depth,
+                     {depth, column("longitudinal stress", "", kPressure, kResidual),
+                      column("lateral stress", "", kPressure, kResidual)},
+                     R"([["0 mm", "-300 MPa", "-200 MPa"], ["5 mm", "0 MPa", "0 MPa"]])")};
 }
 
 template <class Place>
 std::vector<Option> fatigue_options() {
   return {
       option("tensile_strength", Place::template slot<&S::tensile_strength>,
-             "Of the tensile test; limit of the largest principal stress of a brittle layer", kPressure, kStrength),
+             "Tensile strength; for a brittle layer, the limit of its largest principal stress", kPressure, kStrength),
       option("fracture_toughness", Place::template slot<&S::fracture_toughness>,
-             "K_Ic of a brittle layer: gives the critical size of a surface flaw under its largest principal stress",
+             "K_Ic of a brittle layer; gives the size of the surface flaw that its largest principal stress opens",
              kToughness, {1e5, 1e9}),
       option("fatigue_limit", Place::template slot<&S::fatigue, &FatigueSpec::limit>,
-             "Limit of Dang Van's criterion: the endurable amplitude of alternating shear", kPressure,
-             {kMega, 1e4 * kMega}),
+             "Fatigue limit of Dang Van's criterion: the amplitude of alternating shear that the material endures "
+             "indefinitely",
+             kPressure, {kMega, 1e4 * kMega}),
       option("fatigue_exponent", Place::template slot<&S::fatigue, &FatigueSpec::exponent>,
-             "k of the sigma-N line through the limit, N = fatigue_cycles (fatigue_limit / stress)^k: life in elastic "
-             "stress",
+             "Exponent k of the sigma-N line through the limit, N = fatigue_cycles (fatigue_limit / stress)^k; gives a "
+             "life where the material stays elastic",
              kNumber, {1, 50}),
       option("fatigue_cycles", Place::template slot<&S::fatigue, &FatigueSpec::cycles>,
              "Cycles at the limit, the knee of the sigma-N line", kNumber, {1e3, 1e12})
@@ -148,13 +151,12 @@ std::vector<Option> fatigue_options() {
       option("dang_van_coefficient", Place::template slot<&S::fatigue, &FatigueSpec::dang_van>,
              "Weight of the hydrostatic stress in Dang Van's criterion", kNumber, {0, 3}),
       option("fatemi_socie_coefficient", Place::template slot<&S::fatigue, &FatigueSpec::fatemi_socie>,
-             "Weight of the normal stress in Fatemi and Socie's parameter; it is divided by yield_strength", kNumber,
-             {0, 10}),
+             "Weight of the normal stress in the Fatemi-Socie parameter, divided by yield_strength", kNumber, {0, 10}),
       option("jiang_sehitoglu_coefficient", Place::template slot<&S::fatigue, &FatigueSpec::jiang_sehitoglu>,
-             "Weight J of the shear term in Jiang and Sehitoglu's parameter", kNumber, {0, 10}),
+             "Weight J of the shear term in the Jiang-Sehitoglu parameter", kNumber, {0, 10}),
       option("fatigue_strength_coefficient", Place::template slot<&S::fatigue, &FatigueSpec::strength_coefficient>,
-             "σ_f' of the strain-life curve Δε/2 = σ_f'/E (2N)^b + ε_f' (2N)^c of alternating tension; where none is "
-             "given it is estimated from the tensile strength of the material or its grade",
+             "σ_f' of the strain-life curve Δε/2 = σ_f'/E (2N)^b + ε_f' (2N)^c in alternating tension; not given: "
+             "estimated from the tensile strength of the material or its grade",
              kPressure, {10 * kMega, 1e4 * kMega}),
       option("fatigue_strength_exponent", Place::template slot<&S::fatigue, &FatigueSpec::strength_exponent>,
              "b of the strain-life curve", kNumber, {-0.5, -0.01}),
@@ -163,14 +165,14 @@ std::vector<Option> fatigue_options() {
       option("fatigue_ductility_exponent", Place::template slot<&S::fatigue, &FatigueSpec::ductility_exponent>,
              "c of the strain-life curve", kNumber, {-1.5, -0.1}),
       option("wear_coefficient", Place::template slot<&S::wear_coefficient>,
-             "Archard's k: worn volume is k times force times distance over hardness", kNumber, above(0, 1)),
+             "Archard's k: worn volume = k * force * distance / hardness", kNumber, above(0, 1)),
       option("conductivity", Place::template slot<&S::heat, &HeatSpec::conductivity>, "Thermal conductivity",
              kConductivity, {0.01, 5000}),
       option("heat_capacity", Place::template slot<&S::heat, &HeatSpec::capacity>, "Specific heat capacity",
              kHeatCapacity, {10, 20000}),
       option("austenitisation_rise", Place::template slot<&S::heat, &HeatSpec::austenitisation_rise>,
-             "Temperature rise at which the surface becomes austenite (and martensite after cooling): about 700 K for "
-             "pearlitic steel at 20 °C without pressure; gives the share that the flash temperature reaches",
+             "Temperature rise at which the surface becomes austenite, and martensite after cooling: about 700 K for "
+             "pearlitic steel at 20 °C without pressure. Results give the flash temperature as a share of it",
              kTemperature, {50, 3000})};
 }
 
@@ -184,11 +186,10 @@ std::vector<Option> all_options(std::string_view top) {
 }
 
 std::vector<Option> bond_options() {
-  return {
-      option("bond_tension", OfLayer::slot<&S::bond_tension>,
-             "Strength of the layer's lower interface against normal tension", kPressure, {0.1 * kMega, 1e4 * kMega}),
-      option("bond_shear", OfLayer::slot<&S::bond_shear>, "Strength of the layer's lower interface against shear",
-             kPressure, {0.1 * kMega, 1e4 * kMega})};
+  return {option("bond_tension", OfLayer::slot<&S::bond_tension>, "Tensile strength of the layer's lower interface",
+                 kPressure, {0.1 * kMega, 1e4 * kMega}),
+          option("bond_shear", OfLayer::slot<&S::bond_shear>, "Shear strength of the layer's lower interface",
+                 kPressure, {0.1 * kMega, 1e4 * kMega})};
 }
 
 }  // namespace

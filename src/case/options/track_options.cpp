@@ -22,7 +22,7 @@ Option of_sleepers(std::string_view key, std::string_view doc, const Dimension& 
 OptionTable track_table() {
   return {
       "track",
-      "Pads, sleepers and ballast below the rail, of one rail; finite elements (docs/track.md)",
+      "Pads, sleepers and ballast below one rail; finite elements (docs/track.md)",
       {choice_at<&C::track, &TrackSpec::preset>(
            "preset",
            "Preset that supplies the defaults of the keys below; held: no track, the foot's base is fixed. "
@@ -45,12 +45,12 @@ OptionTable track_table() {
                                          "Lateral and longitudinal stiffness and damping of a pad over the vertical "
                                          "ones; the sleeper does not move laterally",
                                          kNumber, above(0, 10)),
-       of_sleepers<&Sleepers::sleeper_mass>("sleeper_mass", "Of half a sleeper, which moves vertically", kMass,
+       of_sleepers<&Sleepers::sleeper_mass>("sleeper_mass", "Mass of half a sleeper, which moves vertically", kMass,
                                             above(0, 1e4)),
        of_sleepers<&Sleepers::ballast_stiffness>("ballast_stiffness", "Below half a sleeper", kStiffness, {1e4, 1e11}),
        of_sleepers<&Sleepers::ballast_damping>("ballast_damping", "Below half a sleeper", kDamping, {0, 1e8}),
        of_sleepers<&Sleepers::bays>(
-           "bays", "Length of the rail over the spacing, centred below the wheel's path; replaces mesh.end_length",
+           "bays", "Length of the rail in sleeper spacings, centred on the wheel's path; replaces mesh.end_length",
            kNumber, {2, 400})}};
 }
 

@@ -106,11 +106,9 @@ std::string numbers_markdown(std::string_view group) {
 
 std::string stress_markdown() {
   std::string out =
-      "\n## stress\n\n"
-      "`stress.<body>.<zone>.<measure>` for the bodies `rail` and `wheel`; a zone that the case does not have is "
-      "null.\n"
-      "Maxima below the surface are refined by parabolas between the points where the engine has stresses.\n\n| zone | "
-      "meaning |\n|---|---|\n";
+      "\n## stress\n\n`stress.<body>.<zone>.<measure>` for the bodies `rail` and `wheel`; null for a zone that the "
+      "case does not have.\nMaxima below the surface are interpolated by parabolas between the points where the engine "
+      "computes stresses.\n\n| zone | meaning |\n|---|---|\n";
   for (const StressZone& zone : stress_zones()) out += fmt::format("| `{}` | {} |\n", zone.key, zone.doc);
   out += "\n| measure | meaning |\n|---|---|\n";
   for (const StressMeasure& m : stress_measures())
@@ -130,9 +128,9 @@ std::string stress_markdown() {
 
 std::string residual_markdown() {
   std::string out =
-      "\n## residual.json\n\n"
-      "What a run with `run.plasticity` leaves in the rail at rest; its section is `residual.csv`. `none` says in\n"
-      "words why there is none, and then stands alone; else it is null.\n\n| key | unit | meaning |\n|---|---|---|\n";
+      "\n## residual.json\n\nResidual state of the rail after a run with `run.plasticity`; its section is "
+      "`residual.csv`. `none` is null, or gives\nthe reason why there is no residual state and is then the only "
+      "key.\n\n| key | unit | meaning |\n|---|---|---|\n";
   for (const ResidualNumber& n : residual_numbers())
     out += fmt::format("| `{}` | {} | {} |\n", n.key(), n.unit.si(), cell(n.doc));
   return out;
@@ -152,64 +150,60 @@ std::string check_rows(CheckKind kind, std::string_view text, Cells&& cells) {
 }
 
 constexpr std::string_view kRoundOff =
-    "\nScreen and page show 0 for what solvers and round-off leave: forces below 1e-7 of the normal force, tractions,\n"
-    "moments, displacements and work likewise, creepages below 1e-10, a spin below 1e-8 1/m, the value of a check "
-    "below\n"
-    "1e-6 of its limit. Files keep every digit; `schema --results` has the rule of each number (`round_off`).\n";
+    "\nScreen and page show 0 for remainders of solvers and round-off: forces below 1e-7 of the normal force, "
+    "tractions,\nmoments, displacements and work likewise, creepages below 1e-10, spin below 1e-8 1/m, and the value "
+    "of a check below\n1e-6 of its limit. Files keep every digit; `schema --results` gives the rule of each number "
+    "(`round_off`).\n";
 
 constexpr std::string_view kSeveralPatches =
-    "\nWhere the wheel touches at several places (half-spaces), `contact` has the numbers of the patch with the\n"
-    "largest pressure, but `F_x_N`, `F_y_N` and `F_z_N` of all, and `patches` lists every patch, that one first: the\n"
-    "keys of `contact`, and `y_m`, `rail_y_m`, `wheel_y_m` of its rigid contact point in the model's and in each\n"
-    "profile's own frame. Stresses are those below the first. The same holds for the columns of tables; their column\n"
-    "`patches` gives their number.\n";
+    "\nWhere the wheel touches at several places (half-spaces), `contact` describes the patch with the largest "
+    "pressure, except\nthat `F_x_N`, `F_y_N` and `F_z_N` are totals. `patches` lists every patch, that one first: the "
+    "keys of `contact`, and\n`y_m`, `rail_y_m`, `wheel_y_m` of its rigid contact point in the model's and in each "
+    "profile's own frame. Stresses are\nthose below the first. The same holds for the columns of tables; their column "
+    "`patches` is the number of patches.\n";
 
 std::string checks_markdown() {
-  return check_rows(
-             CheckKind::run,
-             "\n## checks\n\nEach has `name`, `ok`, `value` and `limit`; it holds where the value is at most the "
-             "limit. When one fails, the exit code\nis 1 (and where one of the page fails, below). An empty limit: the "
-             "engine does not ask for it.\n\n"
-             "| name | finite elements | half-space | called | value |\n|---|---|---|---|---|\n",
-             [](const CheckRow& c) {
-               return fmt::format("{} | {} | {} | {}", limit_cell(c, c.fem_limit),
-                                  std::isfinite(c.bem_limit) ? limit_text(c.unit, c.bem_limit) : "", c.name, c.what);
-             }) +
+  return check_rows(CheckKind::run,
+                    "\n## checks\n\nEach has `name`, `ok`, `value` and `limit`; it passes where the value is at most "
+                    "the limit. If one fails, the exit code\nis 1 (also if one of the page fails, below). An empty "
+                    "limit: the engine does not make this check.\n\n| name | finite elements | half-space | called | "
+                    "value |\n|---|---|---|---|---|\n",
+                    [](const CheckRow& c) {
+                      return fmt::format("{} | {} | {} | {}", limit_cell(c, c.fem_limit),
+                                         std::isfinite(c.bem_limit) ? limit_text(c.unit, c.bem_limit) : "", c.name,
+                                         c.what);
+                    }) +
          check_rows(CheckKind::engines,
-                    "\n## Finite elements against half-space\n\nOn the page of `report` and of a study: |a/b - 1| of a "
-                    "finite element result a and the half-space result b of its case.\n\n"
-                    "| name | limit | called | value |\n|---|---|---|---|\n",
+                    "\n## Finite elements against half-space\n\nOn the page of `report` and of a study: |a/b - 1| for "
+                    "the finite element result a and the half-space result b of the\nsame case.\n\n| name | limit | "
+                    "called | value |\n|---|---|---|---|\n",
                     [](const CheckRow& c) {
                       return fmt::format("{} | {} | {}", limit_cell(c, c.fem_limit), c.name, c.what);
                     }) +
          check_rows(CheckKind::warning,
-                    "\n## warnings\n\nEach has `name`, `value`, `limit` and `text`: a sound result that is not "
-                    "plausible. The exit code does not depend on\nthem.\n\n"
-                    "| name | above | called | text |\n|---|---|---|---|\n",
+                    "\n## warnings\n\nEach has `name`, `value`, `limit` and `text`: the result is numerically sound "
+                    "but not plausible. Warnings do not change\nthe exit code.\n\n| name | above | called | text "
+                    "|\n|---|---|---|---|\n",
                     [](const CheckRow& c) {
                       return fmt::format("{} | {} | {}: {}", limit_cell(c, c.fem_limit), c.name, c.what, c.advice);
                     });
 }
 
 constexpr std::string_view kPlasticPlace =
-    "\nOf a run with `run.plasticity` alone. x, y and depth are those of the element with the largest accumulated "
-    "plastic\nstrain, `body` says in which body it lies and `zone` in which layer, or the body itself; null: nothing "
-    "has "
-    "yielded.\n";
+    "\nOnly for a run with `run.plasticity`. x, y and depth locate the element with the largest accumulated plastic "
+    "strain;\n`body` is its body, and `zone` its layer, or the body if it is in none; null: nothing has yielded.\n";
 
 }  // namespace
 
 std::string results_reference_markdown() {
   std::string out =
-      "# Results reference\n\n"
-      "<!-- Written by `railstrata schema --results --markdown` from src/results/result/result_table.cpp and "
-      "src/results/judge/check_limits.hpp; a test holds this page against the program. -->\n\n"
-      "`summary.json` of a result folder holds these numbers in SI units, the same keys from both engines; a number "
-      "that does\nnot apply is null. The key names the unit. Tables (`sweep.csv`, `study.csv`) hold those with a "
-      "column, "
-      "in the unit that\nits name ends with. Engine: `fem` or `bem` where only one of them has the number.\n\n"
-      "`title` is the case's; `state` says of a transient which of its states this is; of `run`, `engine` is `fem`\nor "
-      "`bem` and `commit` the program's.\n" +
+      "# Results reference\n\n<!-- Written by `railstrata schema --results --markdown` from "
+      "src/results/result/result_table.cpp and src/results/judge/check_limits.hpp; a test holds this page against the "
+      "program. -->\n\n`summary.json` of a result folder holds these numbers in SI units, with the same keys from both "
+      "engines; a number that\ndoes not apply is null. The key ends with the unit. Tables (`sweep.csv`, `study.csv`) "
+      "hold the numbers that have a\ncolumn, in the unit at the end of its name. Engine: `fem` or `bem` where only one "
+      "of them computes the number.\n\n`title` is the title of the case; `state` tells which state of a transient this "
+      "is; in `run`, `engine` is `fem` or `bem`\nand `commit` is the commit of the program.\n" +
       std::string(kRoundOff) + numbers_markdown("");
   for (const std::string_view group :
        {"contact", "damage", "shakedown/factors", "layers", "passage", "plastic", "energy", "run"}) {

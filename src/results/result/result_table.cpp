@@ -73,10 +73,10 @@ std::vector<ResultNumber> traction_numbers() {
   return {row("p_max", kMPa, patch<&P::p_max>, "p_max", "Largest pressure p",
               "Top of the parabola through the largest pressure and its neighbours", kMain),
           row("q_max", kMPa, patch<&P::q_max>, "q_max", "Largest shear |q|",
-              "Largest magnitude of the tangential traction: where the contact rolls, at the front of slip", kMain,
+              "Largest magnitude of the tangential traction; in rolling contact it is at the front of slip", kMain,
               kOfPressure),
           row("q_max_point", kMPa, patch<&P::q_max_point>, "q_max of a point", "Largest shear |q| of a point",
-              "Misses the cusp at the front of slip: to be compared between elements and cells of one size", kColumn,
+              "Misses the cusp at the front of slip; use it to compare elements and cells of the same size", kColumn,
               kOfPressure)};
 }
 
@@ -84,12 +84,12 @@ std::vector<ResultNumber> extent_numbers() {
   return {row("patch_length", kMillimetres, patch<&P::length>, "length", "Patch length (along x)",
               "Longest chord in the rolling direction, between the edges where p² extrapolates to zero", kMain),
           row("patch_width", kMillimetres, patch<&P::width>, "width", "Patch width (along y)",
-              "Longest chord across the rolling direction; a line contact has none", kMain),
+              "Longest chord across the rolling direction; null for a line contact", kMain),
           row("patch_area", kSquareMillimetres, patch<&P::area>, "area", "Patch area",
               "Area between the edges of the columns' chords", kMain),
           row("slip_area_fraction", kShare, patch<&P::slip_area_fraction>, "slip area", "Slip area / patch area",
-              "Area of the slipping points, of the points in contact; finite elements: mean over the window. Null "
-              "without friction (half-space)",
+              "Area of the slipping points over the area of the points in contact; finite elements: mean over the "
+              "window. Null without friction (half-space)",
               kMain)};
 }
 
@@ -103,17 +103,18 @@ std::vector<ResultNumber> force_numbers() {
 }
 
 std::vector<ResultNumber> contact_plane_numbers() {
-  return {row("contact_angle", kDegrees, contact<&C::contact_angle>, "contact angle", "Contact angle",
-              "Of the common tangent at the rigid contact point", kFile, kOfAngle),
-          row("normal_force", kKilonewtons, contact<&C::normal_force>, "normal force",
-              "Normal force in the contact plane", "(F_y, F_z) along the normal of the contact plane", kMain),
-          row("lateral_force", kKilonewtons, contact<&C::lateral_force>, "lateral force",
-              "Lateral force in the contact plane",
-              "Lateral friction: of half-spaces (F_y, F_z) along the lateral tangent of the contact plane, of finite "
-              "elements the sum over the nodes, each in its own plane",
-              kColumn | kShown, kOfForce),
-          row("spin_moment", kNewtonMetres, contact<&C::spin_moment>, "spin moment", "Moment about the contact normal",
-              "Of the friction on the wheel, about the normal at the rigid contact point", kShown, kOfMoment)};
+  return {
+      row("contact_angle", kDegrees, contact<&C::contact_angle>, "contact angle", "Contact angle",
+          "Angle of the common tangent at the rigid contact point", kFile, kOfAngle),
+      row("normal_force", kKilonewtons, contact<&C::normal_force>, "normal force", "Normal force in the contact plane",
+          "Component of (F_y, F_z) along the normal of the contact plane", kMain),
+      row("lateral_force", kKilonewtons, contact<&C::lateral_force>, "lateral force",
+          "Lateral force in the contact plane",
+          "Lateral friction. Half-spaces: component of (F_y, F_z) along the lateral tangent of the contact plane; "
+          "finite elements: sum over the nodes, each in its own plane",
+          kColumn | kShown, kOfForce),
+      row("spin_moment", kNewtonMetres, contact<&C::spin_moment>, "spin moment", "Moment about the contact normal",
+          "Moment of the friction on the wheel about the normal at the rigid contact point", kShown, kOfMoment)};
 }
 
 std::vector<ResultNumber> motion_numbers() {
@@ -123,30 +124,30 @@ std::vector<ResultNumber> motion_numbers() {
       row("creepage_y", kPerMille, contact<&C::creepage_y>, "lateral creepage", "Lateral creepage",
           "Along the contact plane, positive where the wheel slips to the field side", kColumn | kShown, kOfCreepage),
       row("spin", kPerMetre, contact<&C::spin_per_m>, "spin", "Spin",
-          "Spin of the wheel about the contact normal, over V", kMain, kOfSpin)};
+          "Rotation of the wheel about the contact normal, divided by V", kMain, kOfSpin)};
 }
 
 std::vector<ResultNumber> approach_numbers() {
   return {row("approach", kMicrometres, contact<&C::approach>, "approach",
               "Approach (finite elements: with the bending of rail and wheel)",
-              "Of the bodies under the load; finite elements: descent of the axle in the static preload, bending of "
-              "rail and wheel included. A line contact has none: its distant points come together without end",
+              "Approach of the bodies under the load; finite elements: descent of the axle in the static preload, "
+              "including bending of rail and wheel. Null for a line contact, whose approach has no finite value",
               kColumn | kShown),
           row("penetration_max", kNanometres, contact<&C::penetration_max>, "penetration", "Largest penetration",
               "Largest overlap of the surfaces during the run", kShown | kFem),
           row("p_max_scatter", kShare, contact<&C::p_max_scatter>, "scatter of p_max", "Scatter of p_max",
-              "Standard deviation over the window, of the mean", kFem)};
+              "Standard deviation over the window, divided by the mean", kFem)};
 }
 
 std::vector<ResultNumber> transient_numbers() {
   return {row("displacement_x", kMicrometres, contact<&C::displacement_x>, "displacement",
-              "Displacement of the wheel over the rail", "In the rolling direction, by a shift since its start",
+              "Displacement of the wheel over the rail", "In the rolling direction, since the start of the shift",
               kShown | kBem, kOfApproach),
           row("displacement_y", kMicrometres, contact<&C::displacement_y>, "lateral displ.",
-              "Lateral displacement of the wheel over the rail", "Along the contact plane, by a shift since its start",
-              kShown | kBem, kOfApproach),
+              "Lateral displacement of the wheel over the rail",
+              "Along the contact plane, since the start of the shift", kShown | kBem, kOfApproach),
           row("friction_work", kJoules, contact<&C::friction_work>, "friction work", "Friction work since the start",
-              "Of a transient: heat that friction has made on the way", kColumn | kShown | kBem, kOfWork)};
+              "Heat produced by friction in a transient", kColumn | kShown | kBem, kOfWork)};
 }
 
 template <auto Member>
@@ -157,21 +158,22 @@ std::vector<ResultNumber> error_numbers() {
   using E = ContactErrors;
   return {
       row("p_max_error", kMPa, error_of<&E::p_max>, "± p_max", "Error bar of the largest pressure",
-          "Half width: what the size of the cells leaves uncertain, 95 % of cases lie within. Null, as all bars, of "
-          "transients, lines, several patches, a given approach and whole cells at the leading edge",
+          "Half width of the error due to the cell size; 95 % of cases lie within. Like all error bars, null for "
+          "transients, line contacts, several patches, a given approach and whole cells at the leading edge",
           kColumn | kBem),
-      row("q_max_error", kMPa, error_of<&E::q_max>, "± q_max", "Error bar of the largest shear", "Likewise",
+      row("q_max_error", kMPa, error_of<&E::q_max>, "± q_max", "Error bar of the largest shear", "As for p_max",
           kColumn | kBem),
       row("slip_area_fraction_error", kShare, error_of<&E::slip_area_fraction>, "± slip area",
-          "Error bar of the slip area", "Likewise", kColumn | kBem),
+          "Error bar of the slip area", "As for p_max", kColumn | kBem),
       row("F_x_error", kKilonewtons, error_of<&E::F_x>, "± F_x", "Error bar of F_x",
-          "Likewise; null where the case gives the force", kColumn | kBem),
+          "As for p_max; null where the case gives the force", kColumn | kBem),
       row("F_y_error", kKilonewtons, error_of<&E::F_y>, "± F_y", "Error bar of F_y",
-          "Likewise; null where the case gives the lateral force", kColumn | kBem),
+          "As for p_max; null where the case gives the lateral force", kColumn | kBem),
       row("creepage_x_error", kPerMille, error_of<&E::creepage_x>, "± creepage",
-          "Error bar of the longitudinal creepage", "Likewise; null where the case gives the creepage", kColumn | kBem),
+          "Error bar of the longitudinal creepage", "As for p_max; null where the case gives the creepage",
+          kColumn | kBem),
       row("creepage_y_error", kPerMille, error_of<&E::creepage_y>, "± lateral creepage",
-          "Error bar of the lateral creepage", "Likewise; null where no lateral force is given", kColumn | kBem)};
+          "Error bar of the lateral creepage", "As for p_max; null where no lateral force is given", kColumn | kBem)};
 }
 
 std::vector<ResultNumber> plastic_numbers() {
@@ -181,20 +183,20 @@ std::vector<ResultNumber> plastic_numbers() {
               "Accumulated plastic strain",
               "Largest accumulated plastic strain of a point of either body at the end of the rolling", kFem),
           row("elements", kNone, plastic<&PlasticSummary::elements>, "yielded elements", "Elements that yielded",
-              "Of both bodies, with plastic strain at any of their points", kFem),
+              "Elements of both bodies with plastic strain at any of their points", kFem),
           row("work", kJoules, plastic<&PlasticSummary::work>, "plastic work", "Plastic work",
-              "Done on the plastic strains of both bodies", kFem),
+              "Work done on the plastic strains of both bodies", kFem),
           row("dissipated", kJoules, plastic<&PlasticSummary::dissipated>, "dissipated", "Dissipated plastic work",
-              "The plastic work less what the backstresses hold", kFem)};
+              "Plastic work minus the energy stored by the backstresses", kFem)};
 }
 
 std::vector<ResultNumber> plastic_place_numbers() {
   return {row("x", kMillimetres, plastic<&PlasticSummary::x>, "yielded at x", "Largest accumulated plastic strain, x",
-              "Along the rail from where the wheel was put on; none in the wheel", kFem),
+              "Along the rail, from the start of the wheel; null in the wheel", kFem),
           row("y", kMillimetres, plastic<&PlasticSummary::y>, "yielded at y", "Largest accumulated plastic strain, y",
               "From the rigid contact point to the field side", kFem),
           row("depth", kMillimetres, plastic<&PlasticSummary::depth>, "yielded at depth",
-              "Largest accumulated plastic strain, depth", "Of the element's centre below the surface", kFem)};
+              "Largest accumulated plastic strain, depth", "Depth of the element's centre below the surface", kFem)};
 }
 
 template <auto Member>
@@ -205,79 +207,82 @@ std::vector<ResultNumber> passage_numbers() {
   constexpr unsigned marks = kMain | kFem;
   return {
       row("F_z_max", kKilonewtons, on_way<&W::F_z_max>, "F_z, largest", "Largest wheel force on the way",
-          "From the end of run.run_up on, row by row of history.csv", marks),
+          "From the end of run.run_up, over all rows of history.csv", marks),
       row("F_z_max_position", kMillimetres, on_way<&W::F_z_max_position>, "at position",
           "Position of the wheel at its largest wheel force", "Of the axle along the rail", marks),
       row("F_z_min", kKilonewtons, on_way<&W::F_z_min>, "F_z, smallest", "Smallest wheel force on the way",
-          "Likewise; 0: the wheel left the rail", marks),
+          "From the end of run.run_up; 0: the wheel left the rail", marks),
       row("F_z_min_position", kMillimetres, on_way<&W::F_z_min_position>, "at position",
           "Position of the wheel at its smallest wheel force", "Of the axle along the rail", marks),
       row("p_max_on_way", kMPa, on_way<&W::p_max>, "p_max on the way", "Largest pressure on the way",
-          "Of the nodes, before the peak between them is interpolated", marks),
+          "At the nodes, without interpolating the peak between them", marks),
       row("p_max_position", kMillimetres, on_way<&W::p_max_position>, "at position",
           "Position of the wheel at the largest pressure", "Of the axle along the rail", marks),
       row("patch_parts", kCount, on_way<&W::parts>, "parts of the patch", "Most parts of the patch on the way",
-          "2: the wheel bridged a hollow; null on sleepers alone", marks),
+          "2: the wheel bridged a hollow; null if only the sleepers vary along the rail", marks),
       row("von_mises_on_way", kMPa, on_way<&W::von_mises>, "von Mises on the way",
           "Largest von Mises stress of the rail on the way", "At the centres of elements around the wheel", marks),
-      row("von_mises_x", kMillimetres, on_way<&W::von_mises_x>, "at x", "Its place along the rail",
-          "From where the wheel was put on", marks),
-      row("von_mises_depth", kMillimetres, on_way<&W::von_mises_depth>, "at depth", "Its depth",
-          "Below the running surface", marks),
+      row("von_mises_x", kMillimetres, on_way<&W::von_mises_x>, "at x",
+          "Position of the largest von Mises stress along the rail", "From the start of the wheel", marks),
+      row("von_mises_depth", kMillimetres, on_way<&W::von_mises_depth>, "at depth",
+          "Depth of the largest von Mises stress", "Below the running surface", marks),
       row("P1", kKilonewtons, on_way<&W::P1>, "P1", "Largest force within 2 ms of a dip's tip", "On a track", marks),
       row("P2", kKilonewtons, on_way<&W::P2>, "P2", "Largest mean of 2 ms, from 2.2 ms after the tip on",
-          "On a track; null where the way ends before", marks),
+          "On a track; null where the path ends before", marks),
       row("P1_jenkins_low", kKilonewtons, on_way<&W::P1_jenkins_low>, "P1 by Jenkins, low",
-          "P1 by Jenkins' formula with 0.4 m of rail", "A range to lie in: docs/track.md", kShown | kFem),
+          "P1 by Jenkins' formula with 0.4 m of rail", "Lower end of the expected range (docs/track.md)",
+          kShown | kFem),
       row("P1_jenkins_high", kKilonewtons, on_way<&W::P1_jenkins_high>, "P1 by Jenkins, high",
-          "P1 by Jenkins' formula with 1 m of rail", "Likewise", kShown | kFem),
+          "P1 by Jenkins' formula with 1 m of rail", "Upper end of the expected range", kShown | kFem),
       row("P2_jenkins_low", kKilonewtons, on_way<&W::P2_jenkins_low>, "P2 by Jenkins, low",
-          "P2 by Jenkins' formula less its errors", "Likewise", kShown | kFem),
+          "P2 by Jenkins' formula less its errors", "Lower end of the expected range", kShown | kFem),
       row("P2_jenkins_high", kKilonewtons, on_way<&W::P2_jenkins_high>, "P2 by Jenkins, high",
-          "P2 by Jenkins' formula with its errors", "Likewise", kShown | kFem),
+          "P2 by Jenkins' formula with its errors", "Upper end of the expected range", kShown | kFem),
       row("passing_frequency", kHertz, on_way<&W::passing_frequency>, "passing frequency",
-          "Speed over the length of waves of rail or wheel", "Corrugation, out of round; null without such waves",
-          marks),
+          "Speed divided by the wavelength of rail or wheel",
+          "For corrugation and out-of-round wheels; null without such waves", marks),
       row("F_z_passing", kKilonewtons, on_way<&W::F_z_passing>, "F_z at it",
           "Amplitude of the wheel force at the passing frequency",
-          "Of the last whole waves of one sleeper spacing, or of eight waves on a held foot", marks),
+          "Over the last whole waves of one sleeper spacing, or over eight waves on a fixed foot", marks),
       row("interface_opening_max", kMicrometres, on_way<&W::interface_opening>, "interface opening",
-          "Largest opening of an unbonded interface on the way", "Of its nodes; null where all layers are bonded",
+          "Largest opening of an unbonded interface on the way", "At its nodes; null where all layers are bonded",
           marks),
       row("interface_slip_max", kMicrometres, on_way<&W::interface_slip>, "interface slip",
-          "Largest shift along an unbonded interface on the way", "Likewise, of nodes that are apart too", marks)};
+          "Largest shift along an unbonded interface on the way",
+          "At its nodes, including open ones; null where all layers are bonded", marks)};
 }
 
 std::vector<ResultNumber> energy_numbers() {
   return {row("closure", kShare, energy<&EnergySummary::closure>, "energy closure", "Energy closure",
-              "Energy gained or lost by the time steps, of the largest energy turned over", kFem),
+              "Energy gained or lost by the time stepping, over the largest energy exchanged", kFem),
           row("hourglass_share", kShare, energy<&EnergySummary::hourglass_share>, "hourglass energy",
-              "Hourglass energy", "Largest hourglass energy, of the strain energy", kFem)};
+              "Hourglass energy", "Largest hourglass energy over the strain energy", kFem)};
 }
 
 std::vector<ResultNumber> time_numbers() {
-  return {row("wall", kSeconds, run<&R::wall_s>, "wall time", "Wall time", "Of the solution, with its output", kColumn),
-          row("preload_wall", kSeconds, run<&R::preload_wall_s>, "preload", "Wall time of the preload",
-              "Share of the static preload in the wall time", kFem),
-          row("output_wall", kSeconds, run<&R::output_wall_s>, "output", "Wall time of the output",
-              "Share of writing in the wall time", kFem),
-          row("elements", kCount, count<&R::elements>, "elements", "Elements",
-              "Finite elements, or cells of the half-space's grid"),
-          row("nodes", kCount, count<&R::nodes>, "nodes", "Nodes", "Of both bodies; half-space: 0"),
-          row("steps", kCount, count<&R::steps>, "steps", "Time steps",
-              "Half-space: of a transient, else 0; static cases: 0")};
+  return {
+      row("wall", kSeconds, run<&R::wall_s>, "wall time", "Wall time", "Time for the solution and its output", kColumn),
+      row("preload_wall", kSeconds, run<&R::preload_wall_s>, "preload", "Wall time of the preload",
+          "Part of the wall time spent on the static preload", kFem),
+      row("output_wall", kSeconds, run<&R::output_wall_s>, "output", "Wall time of the output",
+          "Part of the wall time spent on writing", kFem),
+      row("elements", kCount, count<&R::elements>, "elements", "Elements",
+          "Finite elements, or cells of the half-space's grid"),
+      row("nodes", kCount, count<&R::nodes>, "nodes", "Nodes", "Nodes of both bodies; half-space: 0"),
+      row("steps", kCount, count<&R::steps>, "steps", "Time steps",
+          "Half-space: steps of a transient, otherwise 0; static cases: 0")};
 }
 
 std::vector<ResultNumber> step_numbers() {
   return {row("dt", kNanoseconds, run<&R::dt_s>, "time step", "Time step", "Length of a step", kFem),
           row("stable_step", kNanoseconds, run<&R::stable_step>, "stable step", "Stable step",
-              "With selective mass scaling or local steps, if there are any", kFem),
+              "With selective mass scaling or local steps, where used", kFem),
           row("unscaled_step", kNanoseconds, run<&R::unscaled_step>, "unscaled step", "Stable step of the real masses",
               "Without mass scaling and local steps", kFem),
           row("added_mass", kKilograms, run<&R::added_mass>, "added mass", "Added mass",
-              "By selective mass scaling of thin rows; 0: real masses", kFem),
+              "Added by selective mass scaling of thin rows; 0: real masses", kFem),
           row("local_stages", kNone, run<&R::local_stages>, "stages", "Stages of local steps",
-              "The forces of the fine elements are evaluated so often a step; 1: one step for all", kFem),
+              "Evaluations of the fine elements' forces per step; 1: one step for all", kFem),
           row("fine_elements", kNone, run<&R::fine_elements>, "fine elements", "Elements in local steps",
               "0: one step for all", kFem)};
 }
@@ -285,8 +290,8 @@ std::vector<ResultNumber> step_numbers() {
 std::vector<ResultNumber> effort_numbers() {
   return {
       row("element_steps", kPerSecond, run<&R::element_steps_per_s>, "element steps", "Element steps per second",
-          "Elements times steps over the wall time without the preload", kFem),
-      row("threads", kCount, count<&R::threads>, "threads", "Threads", "That computed; results do not depend on them"),
+          "Elements times steps, divided by the wall time without the preload", kFem),
+      row("threads", kCount, count<&R::threads>, "threads", "Threads", "Threads used; results do not depend on them"),
       row("peak_memory", kMegabytes, run<&R::peak_memory_bytes>, "memory", "Largest memory",
           "Largest resident memory of the program")};
 }
@@ -301,21 +306,20 @@ std::vector<ResultNumber> shakedown_numbers() {
   using F = ShakedownFactors;
   return {
       row("first_yield", kNone, shakedown_number<&F::first_yield>, "first_yield", "Load factor to first yield",
-          "What the elastic stress may be multiplied by until the first point yields, residual stress of the process "
-          "included",
+          "Factor on the elastic stress at which the first point yields, with the residual stress of manufacture",
           kMain),
       row("wandering", kNone, shakedown_number<&F::wandering>, "wandering",
           "Load factor to shakedown, wandering traffic",
-          "Elastic shakedown with residual stresses of depth alone: safe for every traffic, the limit itself where "
-          "wheels wander sideways over more than the patch",
+          "Elastic shakedown with residual stresses that vary with depth only: safe for every traffic, and the exact "
+          "limit where wheels wander laterally over more than the patch",
           kMain),
       row("single_track", kNone, shakedown_number<&F::single_track>, "single_track",
           "Load factor to shakedown, one track",
-          "Elastic shakedown where every wheel runs in the same place; null where it was not asked for", kMain),
+          "Elastic shakedown where every wheel runs in the same place; null if not requested", kMain),
       row("upper", kNone, shakedown_number<&F::upper>, "upper", "Upper bound of shakedown",
-          "No load beyond it can shake down elastically, whatever the residual stress", kMain),
+          "No higher load can shake down elastically, whatever the residual stress", kMain),
       row("kinematic", kNone, shakedown_number<&F::kinematic>, "kinematic", "Load factor to ratchetting with hardening",
-          "Elastic shakedown of a material with unlimited linear kinematic hardening", kMain)};
+          "Elastic shakedown for unlimited linear kinematic hardening", kMain)};
 }
 
 template <auto Member>
@@ -328,21 +332,21 @@ std::vector<ResultNumber> layer_numbers() {
   using L = LayerWorst;
   return {
       row("sigma_1", kMPa, of_layers<&L::sigma_1>, "layer σ₁", "Largest principal stress of the layers",
-          "Residual stress of the process included", kMain),
+          "Including the residual stress of manufacture", kMain),
       row("share_of_tensile", kNone, of_layers<&L::share_of_tensile>, "layer σ₁/R_m", "Share of tensile strength",
-          "Largest principal stress over the layer's tensile strength; at 1 a brittle layer cracks", kMain),
+          "Largest principal stress divided by the layer's tensile strength; at 1 a brittle layer cracks", kMain),
       row("critical_flaw", kMillimetres, of_layers<&L::critical_flaw>, "critical flaw", "Critical flaw of the layers",
-          "Depth of the smallest edge crack that runs under that stress, of K_Ic; counts while it is small against the "
-          "layer's thickness",
+          "Depth of the smallest edge crack that grows under that stress, from K_Ic; valid while it is small compared "
+          "with the layer's thickness",
           kMain),
       row("interface_tension", kMPa, of_layers<&L::interface_tension>, "interface tension", "Tension at the interfaces",
           "Largest normal traction", kMain),
       row("interface_shear", kMPa, of_layers<&L::interface_shear>, "interface shear", "Shear at the interfaces",
           "Largest shear traction", kMain),
       row("interface_shear_range", kMPa, of_layers<&L::shear_range>, "interface Δτ", "Range of shear at the interfaces",
-          "Of tau_xz over a passage: what drives a crack along the interface", kMain),
+          "Range of tau_xz over a passage; it drives a crack along the interface", kMain),
       row("delamination", kNone, of_layers<&L::delamination>, "delamination", "Delamination index",
-          "(tension over bond_tension)² + (shear over bond_shear)²; at 1 the bond gives way", kMain)};
+          "(tension / bond_tension)² + (shear / bond_shear)²; at 1 the bond fails", kMain)};
 }
 
 template <auto Member>
@@ -350,49 +354,50 @@ constexpr auto damage = &at<&Summary::damage, Member>;
 
 std::vector<ResultNumber> damage_numbers() {
   using D = DamageSummary;
-  return {row("t_gamma", kNewtons, damage<&D::t_gamma>, "T-gamma", "T-gamma",
-              "|F_x creepage_x| + |F_y creepage_y|, of several patches their sum; J per m rolled", kMain, kOfTGamma),
-          row("t_gamma_with_spin", kNewtons, damage<&D::t_gamma_with_spin>, "with spin", "T-gamma with spin",
-              "And |M_z spin|", kShown | kCompared, kOfTGamma),
-          row("friction_energy", kJoulesPerMetre, damage<&D::friction_energy>, "friction energy",
-              "Friction energy per distance", "Sum over the points of traction times slip times area, over the speed",
-              kCompared),
-          row("motion_energy", kJoulesPerMetre, damage<&D::motion_energy>, "energy by motion",
-              "Energy of the rigid motion per distance",
-              "Tractions times the rigid slip of the cells, over the speed: T-gamma with spin and the rolling radii of "
-              "the rows, which a spin leaves out. In steady rolling it is the friction energy. Half-spaces",
-              kCompared),
-          row("rcf_damage", kNone, damage<&D::rcf_damage>, "RCF damage", "RCF damage of a passage",
-              "Burstow's function of a patch's T-gamma for R260, of several the largest; break points 15, 65 and 175 "
-              "N; 1 is a visible crack, below zero wear removes",
-              kCompared),
-          row("brr_wear", kWornArea, damage<&D::brr_wear>, "BRR wear", "BRR wear",
-              "Area worn off over distance, of T-gamma and the wheel's diameter", kCompared),
-          row("usfd_depth", kNanometres, damage<&D::usfd_depth>, "USFD wear", "Wear of a passage, USFD",
-              "Deepest, R8T wheel on 900A rail, dry, laboratory", kMain),
-          row("kth_depth", kNanometres, damage<&D::kth_depth>, "KTH wear", "Wear of a passage, KTH map",
-              "Deepest, Jendel's map for dry laboratory surfaces over the rail's hardness", kCompared),
-          row("archard_depth", kNanometres, damage<&D::archard_depth>, "Archard wear", "Wear of a passage, Archard",
-              "Deepest, with the rail's wear_coefficient over its hardness", kCompared),
-          row("temperature_rise", kKelvins, damage<&D::temperature_rise>, "flash temperature", "Flash temperature",
-              "Largest rise of the surfaces' temperature in the patch", kMain),
-          row("surface_fatigue", kNone, damage<&D::surface_fatigue>, "FI_surf", "Surface fatigue index",
-              "Utilised friction less k over p_max; above zero surface fatigue is to be expected", kCompared),
-          row("local_fatigue", kNone, damage<&D::local_fatigue>, "local FI", "Local fatigue index",
-              "Largest |q|/p - k/p of a point", kCompared)};
+  return {
+      row("t_gamma", kNewtons, damage<&D::t_gamma>, "T-gamma", "T-gamma",
+          "|F_x creepage_x| + |F_y creepage_y|, summed over the patches; J per m rolled", kMain, kOfTGamma),
+      row("t_gamma_with_spin", kNewtons, damage<&D::t_gamma_with_spin>, "with spin", "T-gamma with spin",
+          "T-gamma plus |M_z spin|", kShown | kCompared, kOfTGamma),
+      row("friction_energy", kJoulesPerMetre, damage<&D::friction_energy>, "friction energy",
+          "Friction energy per distance", "Sum over the points of traction times slip times area, divided by the speed",
+          kCompared),
+      row("motion_energy", kJoulesPerMetre, damage<&D::motion_energy>, "energy by motion",
+          "Energy of the rigid motion per distance",
+          "Tractions times the rigid slip of the cells, divided by the speed. It equals T-gamma with spin plus the "
+          "effect of the rolling radii of the rows. In steady rolling it equals the friction energy. Half-spaces only",
+          kCompared),
+      row("rcf_damage", kNone, damage<&D::rcf_damage>, "RCF damage", "RCF damage of a passage",
+          "Burstow's function of T-gamma for R260, the largest of the patches; break points 15, 65 and 175 N; 1: a "
+          "visible crack; below zero: wear removes the damage",
+          kCompared),
+      row("brr_wear", kWornArea, damage<&D::brr_wear>, "BRR wear", "BRR wear",
+          "Worn area over distance, from T-gamma and the wheel's diameter", kCompared),
+      row("usfd_depth", kNanometres, damage<&D::usfd_depth>, "USFD wear", "Wear of a passage, USFD",
+          "Largest depth, R8T wheel on 900A rail, dry laboratory surfaces", kMain),
+      row("kth_depth", kNanometres, damage<&D::kth_depth>, "KTH wear", "Wear of a passage, KTH map",
+          "Largest depth, Jendel's map for dry laboratory surfaces with the rail's hardness", kCompared),
+      row("archard_depth", kNanometres, damage<&D::archard_depth>, "Archard wear", "Wear of a passage, Archard",
+          "Largest depth, from the rail's wear_coefficient and hardness", kCompared),
+      row("temperature_rise", kKelvins, damage<&D::temperature_rise>, "flash temperature", "Flash temperature",
+          "Largest rise of the surfaces' temperature in the patch", kMain),
+      row("surface_fatigue", kNone, damage<&D::surface_fatigue>, "FI_surf", "Surface fatigue index",
+          "Utilised friction minus k / p_max; surface fatigue is expected above zero", kCompared),
+      row("local_fatigue", kNone, damage<&D::local_fatigue>, "local FI", "Local fatigue index",
+          "Largest |q|/p - k/p of all points", kCompared)};
 }
 
 /// Numbers on heat: the flash temperature.
 std::vector<ResultNumber> heat_numbers() {
   using D = DamageSummary;
   return {row("temperature_rise_lower", kKelvins, damage<&D::temperature_rise_lower>, "flash temperature, at least",
-              "Flash temperature, lower bound", "With the bodies as half-spaces of their most effusive material"),
+              "Flash temperature, lower bound", "Bodies taken as half-spaces of their most effusive material"),
           row("temperature_rise_upper", kKelvins, damage<&D::temperature_rise_upper>, "flash temperature, at most",
               "Flash temperature, upper bound",
-              "With the bodies as half-spaces of their least effusive material, whichever layer that is"),
+              "Bodies taken as half-spaces of their least effusive material, whichever layer that is"),
           row("austenitisation", kNone, damage<&D::austenitisation>, "austenitisation", "Share of austenitisation",
-              "Flash temperature over the austenitisation_rise of the rail's running surface; from 1 on martensite can "
-              "form; null where the case does not give it",
+              "Flash temperature divided by the austenitisation_rise of the rail's running surface; from 1 on "
+              "martensite can form; null where the case does not give it",
               kShown)};
 }
 
@@ -404,9 +409,11 @@ std::vector<ResultNumber> life_numbers() {
   using L = LifeSummary;
   return {
       row("best", kMGT, life<&L::best>, "life", "Life of the rail",
-          "Gross traffic of wheels like this one until the first zone of the rail ends, best value", kColumn),
-      row("low", kMGT, life<&L::low>, "life, low", "Life of the rail, low", "The lower end of its range", kColumn),
-      row("high", kMGT, life<&L::high>, "life, high", "Life of the rail, high", "The upper end of its range", kColumn)};
+          "Gross traffic of such wheels until the first zone of the rail reaches its end of life, best estimate",
+          kColumn),
+      row("low", kMGT, life<&L::low>, "life, low", "Life of the rail, low", "Lower end of the life's range", kColumn),
+      row("high", kMGT, life<&L::high>, "life, high", "Life of the rail, high", "Upper end of the life's range",
+          kColumn)};
 }
 
 }  // namespace
@@ -433,8 +440,8 @@ const std::vector<ResultNumber>& result_numbers() {
         }
     };
     add("", {{row("position", kMillimetres, at<&Summary::position>, "position", "Position of the wheel",
-                  "Of the axle along the rail; half-space: the case's last one, of a transient what it has rolled, "
-                  "static cases 0")}});
+                  "Position of the axle along the rail; half-space: the last of the case's positions, in a transient "
+                  "the rolled distance; static cases: 0")}});
     add("contact", {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
                     approach_numbers(), transient_numbers(), error_numbers()});
     add("damage", {damage_numbers(), heat_numbers()});
