@@ -65,16 +65,16 @@ TEST(CreepTable, ReadsAxesInThreeForms) {
 }
 
 TEST(CreepTable, SaysWhatIsWrongWithAnAxis) {
-  EXPECT_NE(refusal("creepage=0,1").find("there is no word or key creepage"), std::string::npos);
-  EXPECT_NE(refusal("load").find("there is no ="), std::string::npos);
+  EXPECT_NE(refusal("creepage=0,1").find("key creepage"), std::string::npos);
+  EXPECT_NE(refusal("load").find("KEY=VALUES"), std::string::npos);
   EXPECT_NE(refusal("load=50,100").find("50"), std::string::npos) << "a unit is missing";
-  EXPECT_NE(refusal("load=100 kN,50 kN").find("values do not ascend"), std::string::npos);
-  EXPECT_NE(refusal("load=100 kN").find("two values or more"), std::string::npos);
+  EXPECT_NE(refusal("load=100 kN,50 kN").find("ascending order"), std::string::npos);
+  EXPECT_NE(refusal("load=100 kN").find("at least two values"), std::string::npos);
   EXPECT_NE(refusal("creepage_x=+-0.01:4").find("give an odd number"), std::string::npos);
   EXPECT_NE(refusal("creepage_x=0:50:3").find("out of range"), std::string::npos);
   EXPECT_NE(refusal("case.title=1,2").find("is no number"), std::string::npos);
   EXPECT_NE(refusal("creepage_x=0:0.1:2000").find("give 2 to 1000"), std::string::npos);
-  EXPECT_NE(refusal("load=5 t,10 t").find("write the weight, \"49.05 kN\""), std::string::npos);
+  EXPECT_NE(refusal("load=5 t,10 t").find("\"49.05 kN\""), std::string::npos);
   EXPECT_NE(refusal("lateral_shift=0,,1 mm").find("a value is missing"), std::string::npos);
   EXPECT_NE(refusal("Load=1 kN,2 kN").find("did you mean load?"), std::string::npos);
   EXPECT_THROW(axes_of({"spin=0:1:3", "drive.spin=0:1:3"}), CaseError);

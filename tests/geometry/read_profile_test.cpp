@@ -305,7 +305,7 @@ TEST_F(ReadProfile, a_Simpack_file_is_shifted_cut_mirrored_reversed_in_this_orde
   expect_same_curve(read, builtin_profile(ProfileKind::wheel, "LMA"), 5e-3 * mm);
   for (const char* n :
        {"Simpack profile of", "shift.y = 2, shift.z = -1 were added.", "1 points were dropped by bound.y.",
-        "mirror.y turned the sign of y.", "inversion reversed", "approx.smooth was not applied.",
+        "mirror.y reversed the sign of y.", "inversion reversed", "approx.smooth was not applied.",
         "z was positive down; it was turned up.", "the profile was mirrored"})
     EXPECT_TRUE(mentions(notes, n)) << n;
   EXPECT_FALSE(mentions(notes, "bound.z"));
@@ -370,13 +370,13 @@ TEST_F(ReadProfile, a_Simpack_file_tells_its_unit) {
 TEST_F(ReadProfile, what_is_wrong_with_a_Simpack_file_is_told_with_its_line) {
   const std::string list = "point.begin\n" + crown() + "point.end\n";
   const std::pair<std::string, const char*> wrong[] = {
-      {"header.begin\ntype = 1\nheader.end\n" + list, "rail.prr:2: this Simpack profile is that of a wheel"},
+      {"header.begin\ntype = 1\nheader.end\n" + list, "rail.prr:2: this Simpack profile is for a wheel"},
       {"spline.begin\nrotate = 0.1\n" + list, "rail.prr:2: rotate turns the points"},
       {"spline.begin\nshift.y = a\n" + list, "rail.prr:2: spline.shift.y = a is not a finite number"},
       {"spline.begin\nunits.len.f = 0\n" + list, "rail.prr:2: units.len.f must be above 0"},
       {list + list, "rail.prr:84: there is a second list of points"},
       {"point.begin\n1 nan\n", "rail.prr:2: '1 nan' is not two finite numbers"},
-      {"1 2\n", "rail.prr:1: '1 2' is no setting"},
+      {"1 2\n", "rail.prr:1: '1 2' is not a setting"},
       {"spline.begin\n", "rail.prr: there is no point.begin"},
       {"point.begin\n" + crown(), "rail.prr: the list of points has no point.end: the file is cut off"},
   };

@@ -230,7 +230,7 @@ TEST(SlowShakedownSummary, SaysWhereAStripOfSlipIsTooShortForItsCells) {
     return half_space_shakedown(spec, solve_bem(spec, place(spec, {}), cells(cell))).at(0).notes;
   };
   ASSERT_EQ(notes(0.1, 0.25e-3).size(), 1u);
-  EXPECT_EQ(notes(0.1, 0.25e-3)[0].find("the surface decides where the strip of slip is "), 0u);
+  EXPECT_EQ(notes(0.1, 0.25e-3)[0].find("the surface decides where the slip zone is "), 0u);
   EXPECT_TRUE(notes(0.3, 0.25e-3).empty());
 }
 

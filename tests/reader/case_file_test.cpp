@@ -827,9 +827,10 @@ TEST(CaseFile, WhatNoCaseHasIsAnsweredByWhatToDoInstead) {
     const std::string error = error_of(text);
     return error.substr(error.find("remedy: ") + 8);
   };
-  EXPECT_TRUE(remedy("[run]\ncreepage = 0.01\n").starts_with("drive.creepage, lateral_creepage and spin give"));
+  EXPECT_TRUE(
+      remedy("[run]\ncreepage = 0.01\n").starts_with("set drive.creepage, drive.lateral_creepage or drive.spin"));
   EXPECT_TRUE(remedy("[drive]\nangle_of_attack = \"5 mrad\"\n").starts_with("geometry.yaw is the angle of attack"));
-  EXPECT_TRUE(remedy("[drive]\naxle_load = \"22.5 t\"\n").starts_with("vehicle.wheel_load and vehicle.axle_load"));
+  EXPECT_TRUE(remedy("[drive]\naxle_load = \"22.5 t\"\n").starts_with("set vehicle.wheel_load or vehicle.axle_load"));
   EXPECT_TRUE(
       remedy("[track]\ngauge = \"1435 mm\"\n").starts_with("gauge, cant and lateral_shift are keys of [geometry]"));
   EXPECT_EQ(remedy("[drive]\nspeed = \"0 km/h\"\n"), "choose a value in this range");

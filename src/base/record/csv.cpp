@@ -38,7 +38,7 @@ std::string row_text(std::span<const double> row) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& what) {
-  throw CaseError(what, "write the results anew with `railstrata run` or `railstrata bem`",
+  throw CaseError(what, "write the results again with `railstrata run` or `railstrata bem`",
                   line > 0 ? fmt::format("{}:{}", file.string(), line) : file.string());
 }
 
@@ -132,7 +132,8 @@ void write_csv(const std::filesystem::path& file, const std::vector<std::string>
   std::string text = heading(provenance, names);
   const std::size_t rows = columns.empty() ? 0 : columns.front().values.size();
   for (const CsvColumn& c : columns)
-    if (c.values.size() != rows) throw std::invalid_argument("CSV column '" + c.name + "' is not as long as the first");
+    if (c.values.size() != rows)
+      throw std::invalid_argument("CSV column '" + c.name + "' does not have the length of the first");
   std::vector<double> row(columns.size());
   for (std::size_t i = 0; i < rows; ++i) {
     std::transform(columns.begin(), columns.end(), row.begin(), [i](const CsvColumn& c) { return c.values[i]; });
@@ -149,7 +150,7 @@ CsvLog::CsvLog(const std::filesystem::path& file, const std::vector<std::string>
 
 void CsvLog::add(std::span<const double> row) {
   if (row.size() != columns_)
-    throw std::invalid_argument("a CSV row has another number of values than there are columns");
+    throw std::invalid_argument("a CSV row has a different number of values than there are columns");
   file_.write(row_text(row));
 }
 

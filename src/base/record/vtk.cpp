@@ -114,7 +114,7 @@ void add_fields(Document& document, const char* section, const std::vector<VtkFi
       throw std::invalid_argument("VTK array name '" + field.name +
                                   "': letters, digits and _ - . only, in its components' names too");
     if (!labels.empty() && labels.size() != static_cast<std::size_t>(field.components))
-      throw std::invalid_argument("VTK array '" + field.name + "' names another number of components than it has");
+      throw std::invalid_argument("VTK array '" + field.name + "' names a different number of components than it has");
     std::visit(
         [&](const auto& values) {
           using T = typename std::decay_t<decltype(values)>::value_type;
@@ -141,7 +141,7 @@ void add_cells(Document& document, const VtkMesh<Corners>& mesh) {
   for (const auto& cell : mesh.cells) {
     for (const long long node : cell) {
       if (node < 0 || node >= static_cast<long long>(mesh.points.size()))
-        throw std::invalid_argument("a VTK cell names a point that does not exist");
+        throw std::invalid_argument("a VTK cell refers to a point that does not exist");
       connectivity.push_back(node);
     }
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));

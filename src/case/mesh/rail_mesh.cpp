@@ -130,8 +130,8 @@ HeadBoundary head_boundary(const Profile& profile, const RailBand& band) {
   out.right_flank = profile.at(band.right.back()).position;
   if (out.under_band[out.right_corner].z - out.under_band.back().z < 2e-3 ||
       out.under_band[out.left_corner].z - out.under_band.front().z < 2e-3)
-    throw CaseError(fmt::format("the rail profile '{}' ends too high on its flanks", profile.name()),
-                    "give it down to 20 mm below the crown, or use rail_shape = \"block\"");
+    throw CaseError(fmt::format("the rail profile '{}' does not reach far enough down its flanks", profile.name()),
+                    "give a profile down to 20 mm below the crown, or use rail_shape = \"block\"");
   return out;
 }
 

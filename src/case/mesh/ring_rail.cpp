@@ -16,10 +16,10 @@ void check_ring(double radius, const RailMeshSpec& spec) {
                                 1e3 * spec.block_height),
                     "make geometry.block_height smaller than geometry.rail_radius: it is the ring's thickness");
   if (spec.x_end - spec.x_begin > 2 * std::numbers::pi * radius)
-    throw CaseError(fmt::format("the way, with the patch at both ends, is {:.1f} mm: more than one turn of the ring of "
-                                "{:.1f} mm",
-                                1e3 * (spec.x_end - spec.x_begin), 2e3 * std::numbers::pi * radius),
-                    "give nearer run.positions");
+    throw CaseError(
+        fmt::format("the path, with the patch at both ends, is {:.1f} mm: more than one turn of the ring of {:.1f} mm",
+                    1e3 * (spec.x_end - spec.x_begin), 2e3 * std::numbers::pi * radius),
+        "bring run.positions closer together");
 }
 
 }  // namespace

@@ -46,15 +46,15 @@ void split_below(SweptBody& body, const LayerMesh& layer, double bottom) {
   SplitInterface out;
   out.row = row_at(band, bottom);
   if (out.row >= band.rows)
-    throw CaseError(fmt::format("below layer \"{}\" the mesh has no fine row of elements on which it could be unbonded",
-                                layer.name),
-                    "give more mesh.fine_depth, or a thinner layer", "mesh.fine_depth");
+    throw CaseError(
+        fmt::format("below layer \"{}\" the mesh has no fine row of elements that could be unbonded", layer.name),
+        "increase mesh.fine_depth, or use a thinner layer", "mesh.fine_depth");
   const Columns columns = columns_of(section, band, out.row - 1, layer.width);
   if (columns.end - columns.begin < 2)
-    throw CaseError(fmt::format("layer \"{}\" has fewer than two of the mesh's fine columns: its edges are bonded, and "
-                                "nothing is left that could be unbonded",
+    throw CaseError(fmt::format("layer \"{}\" has fewer than two of the mesh's fine columns; its edges are bonded, so "
+                                "nothing is left to unbond",
                                 layer.name),
-                    "give more mesh.fine_width, or a smaller mesh.element_size", "mesh.fine_width");
+                    "increase mesh.fine_width, or use a smaller mesh.element_size", "mesh.fine_width");
   out.first_column = columns.begin + 1;
   out.open = layer.unbonded;
   out.friction = layer.unbonded_friction;

@@ -207,8 +207,8 @@ void fill_heat(const CaseSpec& spec, CasePatch& patch, const HertzContact& estim
                peclet = spec.drive.speed * estimate.a / (2 * diffusivity);
   if (peclet < kLeastPeclet)
     patch.notes.push_back(
-        fmt::format("the contact moves so slowly that heat spreads beside it (Péclet number {:.2g}, "
-                    "of at least {:g}): temperatures, and friction by them, are too high",
+        fmt::format("the contact moves so slowly that heat spreads sideways (Péclet number {:.2g}; at least {:g} is "
+                    "needed): temperatures, and friction that depends on them, are too high",
                     peclet, kLeastPeclet));
 }
 

@@ -30,8 +30,8 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
     throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero",
                     "drive.friction_coefficient");
   if (spec.geometry.in_line())
-    throw CaseError("the fast theories of a creep curve are those of ellipses, not of a line contact",
-                    "take `railstrata sweep` over drive.creepage, or geometry.contact = \"point\"", "geometry.contact");
+    throw CaseError("the fast theories of a creep curve apply to elliptic contacts, not to a line contact",
+                    "use `railstrata sweep` over drive.creepage, or geometry.contact = \"point\"", "geometry.contact");
   const std::optional<double>& approach = spec.vehicle.approach;
   CasePatch patch = make_case_patch(
       spec, placement, options,
@@ -43,11 +43,9 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
   const bool along_x = varied == VariedCreepage::longitudinal;
   const auto share = [&](const CreepForce& force) { return (along_x ? force.x : force.y) / hertz_bound; };
   drive_contact(with_drive_at_contact(spec, placement.contact), placement.contact, weight, patch.contact);
-  require_one_plane(
-      placement, patch.frictionless.approach, "geometry.lateral_shift",
-      "a creep curve is that of one patch: move the wheel (geometry.lateral_shift), or lower the load, until it "
-      "touches "
-      "at one place; `railstrata bem` solves several patches together");
+  require_one_plane(placement, patch.frictionless.approach, "geometry.lateral_shift",
+                    "a creep curve needs a single contact patch: move the wheel (geometry.lateral_shift) or lower the "
+                    "load until it touches at one place; `railstrata bem` solves several patches together");
   std::vector<CreepCurvePoint> curve;
   for (double creepage : creepages) {
     vary(varied, creepage, patch.contact);

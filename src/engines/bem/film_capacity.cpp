@@ -50,8 +50,8 @@ void require_film_carries(const CaseSpec& spec, const Placement& placement, cons
     throw CaseError(fmt::format("row {} of the transient wants {:.4g} kN of friction; a film that yields at {:.4g} MPa "
                                 "carries at most {:.4g} kN under its load",
                                 row + 1, 1e-3 * wanted, 1e-6 * film.yield_shear, 1e-3 * available),
-                    "lower the force, raise third_body.yield_shear, or give creepages or displacements: full sliding "
-                    "is one",
+                    "lower the force, raise third_body.yield_shear, or give creepages or displacements, which also "
+                    "allow full sliding",
                     "third_body.yield_shear");
   }
 }

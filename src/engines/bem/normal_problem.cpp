@@ -56,7 +56,7 @@ class ActiveSetSolver {
       reduce = changed == 0 ? 1e-4 : changed < 8 ? 1e-3 : 1e-2;
     }
     throw NumericalError(
-        "the normal contact problem did not converge; the gap may be flat or wildly rough on the scale of a cell");
+        "the normal contact problem did not converge; the gap may be flat, or very rough on the scale of a cell");
   }
 
  private:

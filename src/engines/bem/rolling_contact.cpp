@@ -182,7 +182,7 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
     change = std::max(kSharper * change, largest_change(next.pressure, s.normal.pressure));
     replace(s.normal, std::move(next));
   }
-  throw NumericalError("normal and tangential contact did not settle against each other");
+  throw NumericalError("the iteration between normal and tangential contact did not converge");
 }
 
 /// At the temperature of `contact`.
@@ -244,8 +244,8 @@ RollingSolution settle_temperature(const InfluenceOperator& influence, const Pat
     anderson.step(y, residual);
     std::copy(y.begin(), y.end(), now.begin());
   }
-  throw CaseError("friction by temperature does not settle: heat and friction feed each other",
-                  "give creepages instead of forces, a less steep temperature_table, or a smaller slip",
+  throw CaseError("temperature-dependent friction did not converge: friction and heat amplify each other",
+                  "give creepages instead of forces, a flatter temperature_table, or a smaller slip",
                   "friction.temperature_table");
 }
 
@@ -304,7 +304,7 @@ RollingDerivative RollingDerivatives::by(const RollingContact& more, const Rolli
     d.tangential = tangential_.by(beside(more, d.normal, step), beside(less, d.normal, -step), step);
     if (!influence_.couples() || settled) return d;
   }
-  throw NumericalError("the derivatives of normal and tangential contact did not settle against each other");
+  throw NumericalError("the iteration between the derivatives of normal and tangential contact did not converge");
 }
 
 void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,

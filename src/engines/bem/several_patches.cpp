@@ -123,10 +123,10 @@ class WheelOnPatches {
       if (moved <= close && (pressed || std::abs(vertical() - weight_) <= kClosure * close)) return;
       descent += step(descent, bent);
     }
-    if (pressed) throw NumericalError("the forces of a wheel on several contacts under an approach were not found");
-    throw CaseError("no descent of the wheel balances the weight on its contacts: friction wedges the wheel",
-                    "lower drive.friction_coefficient, or check lateral_shift and the profiles",
-                    "drive.friction_coefficient");
+    if (pressed) throw NumericalError("no forces were found for a wheel with several contacts and a given approach");
+    throw CaseError(
+        "no vertical position of the wheel balances the weight on its contacts: the wheel is wedged by friction",
+        "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
   }
 
   /// m, of the wheel below the place where it touches first.
@@ -379,7 +379,7 @@ class WheelOnPatches {
     }
     sought.compliance = (b - a) / (at_b - at_a);
     if (!narrow_root(a, at_a, b, at_b, close, kNoWidth, 100, excess_at))
-      throw NumericalError("the creepage of a wheel on several contacts was not found");
+      throw NumericalError("no creepage was found for a wheel with several contacts");
   }
 
   [[noreturn]] void refuse_traction() const {
@@ -389,9 +389,8 @@ class WheelOnPatches {
     for (const Member& m : members_)
       if (m.loaded()) available += drive.friction_coefficient * m.solution.normal.load;
     const char* key = across == 0 ? "drive.traction_coefficient" : "drive.lateral_traction_coefficient";
-    throw CaseError(fmt::format("a traction coefficient of {:g}{} needs {:.0f} N of friction, the {} contacts of the "
-                                "wheel, rolling on different radii and turning about their normals, give less than "
-                                "{:.0f} N together",
+    throw CaseError(fmt::format("a traction coefficient of {:g}{} needs {:.0f} N of friction; the {} contacts of the "
+                                "wheel, which roll on different radii and spin, provide less than {:.0f} N together",
                                 along, across == 0 ? "" : fmt::format(" along and {:g} across the rail", across),
                                 std::hypot(along, across) * weight_, members_.size(), available),
                     fmt::format("lower {} or raise drive.friction_coefficient", key), key);

@@ -26,8 +26,8 @@ void check_friction(const CaseSpec& spec, double load, double normal) {
                available = spec.drive.friction_coefficient * normal;
   if (wanted == 0 || wanted < available) return;
   const std::string sideways = across == 0 ? "" : fmt::format(" along and {:g} across the rail", across);
-  throw CaseError(fmt::format("a traction coefficient of {:g}{} needs {:.0f} N of friction, a friction coefficient of "
-                              "{:g} gives at most {:.0f} N",
+  throw CaseError(fmt::format("a traction coefficient of {:g}{} needs {:.0f} N of friction; a friction coefficient of "
+                              "{:g} provides at most {:.0f} N",
                               along, sideways, wanted, spec.drive.friction_coefficient, available),
                   "lower drive.traction_coefficient or raise drive.friction_coefficient",
                   across == 0 ? "drive.traction_coefficient" : "drive.lateral_traction_coefficient");
@@ -280,8 +280,9 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const OnePatch& one, con
 
 [[noreturn]] void refuse_wedged(const RigidContact& contact) {
   throw CaseError(
-      fmt::format("no normal force balances the weight at a contact angle of {:.1f} degrees: friction wedges the wheel",
-                  std::abs(contact.angle) * 180 / std::numbers::pi),
+      fmt::format(
+          "no normal force balances the weight at a contact angle of {:.1f} degrees: the wheel is wedged by friction",
+          std::abs(contact.angle) * 180 / std::numbers::pi),
       "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
 }
 
@@ -325,7 +326,7 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
   } else {
     require_one_plane(
         placement, *spec.vehicle.approach, "vehicle.approach",
-        "give creepages in place of forces, or a load instead of vehicle.approach: the contacts share it");
+        "give creepages instead of forces, or a load instead of vehicle.approach: the contacts share the force");
   }
   const RigidContact& contact = out.patches.front().contact = one.placement.contact;
   const NormalTarget target{{}, one.approach(*spec.vehicle.approach)};
@@ -349,7 +350,7 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
     const bool driven = patch.contact.x.force.value_or(0) != 0 || patch.contact.y.force.value_or(0) != 0;
     if (!driven || std::abs(vertical - before) <= options.balance * std::abs(vertical)) return out;
     if (out.load_iterations == kMostIterations)
-      throw CaseError("the forces over the load that comes out do not settle under this approach",
+      throw CaseError("the ratio of forces to the resulting load does not converge with a given approach",
                       "lower the traction coefficients, or give a load instead of vehicle.approach",
                       "vehicle.approach");
   }

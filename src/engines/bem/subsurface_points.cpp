@@ -55,9 +55,9 @@ double length_of(const PatchGrid& grid) { return std::max(grid.nx * grid.dx, gri
 
 [[noreturn]] void refuse_far(const PatchGrid& grid, const Vec3& p, double reach) {
   throw std::out_of_range(fmt::format(
-      "a point too far away, at x = {:.4g} m, y = {:.4g} m: points reach {:.3g} m beyond the grid of "
-      "x = {:.4g} to {:.4g} m, y = {:.4g} to {:.4g} m ({:.3g} of its lengths, for time and memory); they "
-      "are in metres, farther off the contact acts as a point load",
+      "a point is too far away, at x = {:.4g} m, y = {:.4g} m: points may reach {:.3g} m beyond the grid of x = {:.4g} "
+      "to {:.4g} m, y = {:.4g} to {:.4g} m ({:.3g} of its lengths, to limit time and memory); coordinates are in "
+      "metres; farther away the contact acts as a point load",
       p.x, p.y, reach, grid.x0, grid.x(grid.nx - 1), grid.y0, grid.y(grid.ny - 1), reach / length_of(grid)));
 }
 

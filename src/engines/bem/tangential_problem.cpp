@@ -62,7 +62,7 @@ class Solver {
       throw CaseError(
           fmt::format("no steady state was found under the given force: {} may not carry it",
                       s_.problem.falling.falls() ? "friction that falls with slip" : "a third-body layer that yields"),
-          "give drive.creepage instead, which has an answer beyond the largest force too",
+          "give drive.creepage instead, which has a solution beyond the largest force too",
           s_.problem.falling.falls() ? "friction.law" : "third_body.yield_shear");
     throw NumericalError("the tangential contact problem did not converge");
   }

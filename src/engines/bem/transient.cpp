@@ -55,7 +55,7 @@ class Course {
         rolling_(patch_.contact) {
     if (!patch_.grid.line)
       require_one_plane(placement, patch_.frictionless.approach, "transient.kind",
-                        "transient.kind is followed in one plane: take it out");
+                        "a transient is solved in one contact plane only: remove transient.kind");
     state_.steps = step_count(history_, spec, options.cell);
     require_a_cell();
     if (!rough()) return;
@@ -83,10 +83,9 @@ class Course {
   void require_a_cell() const {
     const double cell = patch_.grid.dx;
     if (!history_.rolls() || history_.end() >= 0.5 * cell) return;
-    throw CaseError(
-        fmt::format("{:.3g} mm of rolling are less than half a cell of {:.3g} mm, and steps are whole cells",
-                    1e3 * history_.end(), 1e3 * cell),
-        "give a longer transient.distance, or smaller cells with --cell");
+    throw CaseError(fmt::format("{:.3g} mm of rolling are less than half a cell of {:.3g} mm; steps are whole cells",
+                                1e3 * history_.end(), 1e3 * cell),
+                    "give a longer transient.distance, or smaller cells with --cell");
   }
 
   bool rough() const { return !(patch_.rail_heights.none() && patch_.wheel_heights.none()); }
@@ -97,7 +96,7 @@ class Course {
     const Plane smooth = patch_.profile.gap, gap = gap_after(patch_, 0);
     if (gap != smooth)
       throw CaseError("start = \"steady\" on an [[irregularity]]: nothing rolls steadily there",
-                      "begin before it, or give start = \"rest\"", "transient.start");
+                      "start before it, or give start = \"rest\"", "transient.start");
   }
 
   /// Whether the frictionless patch stays inside the grid all along the way.
@@ -119,10 +118,11 @@ class Course {
     const auto more = [&](int cells) { return static_cast<int>(kGrowth * (cells / 2)) + 1; };
     const int half_x = more(g.nx), half_y = more(g.ny);
     if (2 * half_x * g.dx > options.largest_patch || (!g.line && 2 * half_y * g.dy > options.largest_patch))
-      throw CaseError(fmt::format("on its way over the [[irregularity]] the load flattens the whole potential contact "
-                                  "area of {:.0f} mm",
-                                  1e3 * options.largest_patch),
-                      "check the load and the heights; half-space theory no longer applies", "irregularity");
+      throw CaseError(
+          fmt::format(
+              "while rolling over the [[irregularity]] the load flattens the whole potential contact area of {:.0f} mm",
+              1e3 * options.largest_patch),
+          "check the load and the heights; half-space theory no longer applies", "irregularity");
     patch_ = case_patch_on(g.line ? line_grid(half_x, g.dx, g.dy) : centred_grid(half_x, half_y, g.dx, g.dy), spec_,
                            placement_, options, patch_.contact.target);
   }
@@ -233,16 +233,16 @@ class Course {
       c.target.load = normal_load(load, lateral, rigid);
       solution_ = solve_rolling(*patch_.influence, patch_.grid, c, options_, last);
       if (solution_.normal.touches_edge)
-        throw NumericalError("the patch has left its grid: friction changes it more than was foreseen");
+        throw NumericalError("the patch has grown beyond its grid: friction changes it more than expected");
       lateral = solution_.tangential.force_y;
       if (std::abs(normal_load(load, lateral, rigid) - *c.target.load) * std::cos(rigid.angle) <= kTolerance * load)
         return;
     }
-    throw CaseError(fmt::format("no normal force balances the load at a contact angle of {:.1f} degrees: friction "
-                                "wedges the wheel",
-                                std::abs(rigid.angle) * 180 / std::numbers::pi),
-                    "lower drive.friction_coefficient, or check lateral_shift and the profiles",
-                    "drive.friction_coefficient");
+    throw CaseError(
+        fmt::format(
+            "no normal force balances the load at a contact angle of {:.1f} degrees: the wheel is wedged by friction",
+            std::abs(rigid.angle) * 180 / std::numbers::pi),
+        "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
   }
 
   /// Line contact: the displacement of distant points under a changing force, and the creepage of such a step, are not

@@ -18,13 +18,12 @@ const char* several_answers(const TangentialProblem& problem) {
 
 [[noreturn]] void refuse_fall(const TangentialProblem& problem, double steepness) {
   const bool steady = problem.kind == RollingKind::steady;
-  throw CaseError(
-      fmt::format("friction falls too steeply with slip: below a half-value velocity of {:.3g} m/s {} here",
-                  problem.falling.half_velocity * steepness, several_answers(problem)),
-      steady ? "raise friction.half_velocity or friction.kinetic_coefficient, or lower drive.speed"
-             : "raise friction.half_velocity or friction.kinetic_coefficient, lower drive.speed, take larger cells, "
-               "or ask for steady rolling, which bears a steeper fall",
-      "friction.half_velocity");
+  throw CaseError(fmt::format("friction falls too steeply with slip: below a half-value velocity of {:.3g} m/s {} here",
+                              problem.falling.half_velocity * steepness, several_answers(problem)),
+                  steady ? "raise friction.half_velocity or friction.kinetic_coefficient, or lower drive.speed"
+                         : "raise friction.half_velocity or friction.kinetic_coefficient, lower drive.speed, use "
+                           "larger cells, or compute steady rolling, which allows a steeper fall",
+                  "friction.half_velocity");
 }
 
 /// Names the memory distance that would do.
@@ -36,9 +35,9 @@ template <class Steepness>
   const bool film = problem.third_body.thickness > 0;
   throw CaseError(fmt::format("friction falls too soon with slip: below a memory distance of {:.3g} um {} here{}",
                               1e6 * law.memory_distance, several_answers(problem),
-                              film ? ", since the film springs back as friction falls" : ""),
+                              film ? ", because the film springs back as friction falls" : ""),
                   film ? "raise friction.memory_distance, friction.half_velocity or friction.kinetic_coefficient, or "
-                         "take a stiffer film"
+                         "use a stiffer film"
                        : "raise friction.memory_distance, friction.half_velocity or friction.kinetic_coefficient",
                   "friction.memory_distance");
 }
@@ -48,7 +47,7 @@ void require_unique_film(const TangentialProblem& problem, double step, double l
   if (!problem.third_body.yields() || softening * step * largest < 1) return;
   throw CaseError(fmt::format("the film softens too fast: beyond {:.3g} MPa/mm {} here", -1e-9 / (step * largest),
                               several_answers(problem)),
-                  "take a slower softening, a stiffer film or smaller cells", "third_body.hardening");
+                  "use slower softening, a stiffer film or smaller cells", "third_body.hardening");
 }
 
 /// The part of a first cell's step that lies inside the patch: the edge is S ahead of the empty cell, with lambda =
@@ -84,7 +83,7 @@ void VaryingBound::require_unique_slip(const TangentialProblem& problem, double 
   if (!problem.falling.falls() || problem.traction_bound.empty()) return;
   if (problem.kind == RollingKind::shift)
     throw CaseError("friction that falls with slip velocity has no meaning in a shift, whose slip has no velocity",
-                    "let it roll, or take friction.law = \"coulomb\"", "friction.law");
+                    "use transient.kind = \"rolling\", or friction.law = \"coulomb\"", "friction.law");
   const double bound = *std::max_element(problem.traction_bound.begin(), problem.traction_bound.end()),
                reach = bound * problem.speed * largest;
   const auto steepness = [&](const FallingFriction& law) { return reach * steepest_fall(law, step / problem.speed); };

@@ -36,7 +36,7 @@ PlasticElements::PlasticElements(const Body& body, const MaterialOf& material_of
   add_quads(body, material_of);
   if (quads_.empty()) return;
   if (body.options.element != ElementKind::full)
-    throw CaseError("elements with one point cannot yield: their hourglass stiffness stays elastic",
+    throw CaseError("elements with one integration point cannot yield: their hourglass stiffness stays elastic",
                     "mesh.element = \"full\"");
   for (const Quad& q : quads_) terms_ = std::max(terms_, terms_of(q.material.law));
   for (const BlockElements& elements : body.elements) scales_.push_back(class_scales(body.mesh.kind, elements));

@@ -103,8 +103,8 @@ std::map<QuadKey, std::size_t> places_of(const PlasticSection& section) {
 }
 
 [[noreturn]] void refuse() {
-  throw CaseError("what earlier passes have left lies where this one's elements cannot yield",
-                  "go on with the strengths and the mesh of the first pass");
+  throw CaseError("earlier passes left plastic strain where the elements of this one cannot yield",
+                  "continue with the strengths and the mesh of the first pass");
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ StepSpectrum lanczos(const Body& body, int iterations, Stiffness&& stiffness, So
     beta[k] = norm = std::sqrt(std::max(0.0, dot(r, z)));
   }
   if (k == 0 || !std::isfinite(norm))
-    throw NumericalError("the stable time step cannot be found: the stiffness of the mesh is not a number");
+    throw NumericalError("the stable time step cannot be computed: the stiffness of the mesh is not a number");
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(alpha.head(k), beta.head(k - 1), Eigen::EigenvaluesOnly);
   return {solver.eigenvalues().minCoeff(), solver.eigenvalues().maxCoeff()};

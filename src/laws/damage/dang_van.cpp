@@ -35,8 +35,8 @@ void check(const StressHistory& history, ResidualRows residual, std::span<const 
 DangVanLimit dang_van_limit(double torsion, double tension) {
   const double share = torsion / tension;
   if (!(torsion > 0 && tension > 0 && share >= 0.5 && share <= 1))
-    throw CaseError("the fatigue limit in torsion is not 0.5 to 1 of that in tension",
-                    "give both as amplitudes of alternating stress, in Pa; steel has some 0.58");
+    throw CaseError("the fatigue limit in torsion must be 0.5 to 1 times the limit in tension",
+                    "give both as amplitudes of alternating stress, in Pa; the ratio for steel is about 0.58");
   return {3 * (share - 0.5), torsion};
 }
 

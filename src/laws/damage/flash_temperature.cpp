@@ -128,8 +128,9 @@ FlashBounds flash_bounds(const HeatedLine& line, const ThermalBody& rail, const 
 
 double austenitisation_share(double rise, double austenitisation, double entry) {
   if (!(austenitisation > entry))
-    throw CaseError("the temperature of austenitisation is not above that at which the surface comes",
-                    "give it in °C; some 720 °C for pearlitic steel");
+    throw CaseError(
+        "the austenitisation temperature must be above the temperature at which the surface enters the contact",
+        "give it in °C; about 720 °C for pearlitic steel");
   return rise / (austenitisation - entry);
 }
 

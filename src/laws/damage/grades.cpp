@@ -88,7 +88,7 @@ const Grade& grade(std::string_view name) {
   for (const std::string& n : names) list += (list.empty() ? "" : ", ") + n;
   throw CaseError("no grade \"" + std::string(name) + "\"",
                   (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "Known are " + list +
-                      "; of any other steel give yield_strength and hardness");
+                      "; for any other steel give yield_strength and hardness");
 }
 
 double shear_yield(double yield) { return yield / std::sqrt(3.0); }

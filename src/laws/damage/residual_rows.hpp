@@ -18,7 +18,7 @@ using ResidualRows = std::span<const Sym3>;
 /// From stresses along x and y by row, as shakedown takes them; either may be empty.
 inline std::vector<Sym3> residual_rows(std::span<const double> xx, std::span<const double> yy) {
   if (!xx.empty() && !yy.empty() && xx.size() != yy.size())
-    throw std::invalid_argument("residual stresses along x and y differ in their number of rows");
+    throw std::invalid_argument("residual stresses along x and y have different numbers of rows");
   std::vector<Sym3> rows(std::max(xx.size(), yy.size()));
   for (std::size_t i = 0; i < xx.size(); ++i) rows[i].xx = xx[i];
   for (std::size_t i = 0; i < yy.size(); ++i) rows[i].yy = yy[i];

@@ -71,11 +71,12 @@ ArchardMap laboratory_dry_archard() {
 
 void check(const ArchardMap& map) {
   for (const double k : {map.slow, map.middle, map.fast, map.seizure})
-    if (!(k >= 0)) throw CaseError("a wear coefficient is negative", "coefficients are 0 or more, some 1e-4 to 4e-2");
+    if (!(k >= 0)) throw CaseError("a wear coefficient is negative", "give 0 or more; usual values are 1e-4 to 4e-2");
   if (!(map.middle_from >= 0 && map.fast_from >= map.middle_from))
-    throw CaseError("the slip velocities of the wear map do not ascend", "give them in ascending order, m/s");
+    throw CaseError("the slip velocities of the wear map must be in ascending order", "sort them, in m/s");
   if (!(map.seizure_pressure > 0))
-    throw CaseError("the wear map's pressure of seizure is not positive", "give its share of the hardness, some 0.8");
+    throw CaseError("the wear map's seizure pressure must be positive",
+                    "give it as a share of the hardness, about 0.8");
 }
 
 double archard_coefficient(const ArchardMap& map, double p, double slip_velocity, double hardness) {

@@ -35,14 +35,15 @@ RcfDamageFunction rcf_damage_20() { return {{{20, 0}, {65, 1e-5}, {175, 0}}, fal
 void check(const RcfDamageFunction& function) {
   const auto& points = function.points;
   if (points.size() < 2)
-    throw CaseError("a damage function needs two break points or more", "give rows of T-gamma [N] and damage");
+    throw CaseError("a damage function needs at least two break points", "give rows of T-gamma [N] and damage");
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::string row = "row " + std::to_string(i + 1) + " of the damage function: ";
     if (!std::isfinite(points[i].t_gamma) || !std::isfinite(points[i].damage))
       throw CaseError(row + "not a number", "give T-gamma in N and the damage of one axle passage");
-    if (points[i].t_gamma < 0) throw CaseError(row + "T-gamma is negative", "T-gamma is an energy: 0 or more");
+    if (points[i].t_gamma < 0)
+      throw CaseError(row + "T-gamma is negative", "T-gamma is an energy and must be 0 or more");
     if (i > 0 && !(points[i].t_gamma > points[i - 1].t_gamma))
-      throw CaseError(row + "T-gamma does not ascend", "sort the rows by T-gamma, each value once");
+      throw CaseError(row + "T-gamma must be in ascending order", "sort the rows by T-gamma, each value once");
   }
 }
 

@@ -15,11 +15,10 @@ namespace railstrata {
 namespace {
 
 constexpr std::string_view kPolach =
-    "parameters that Polach's law is usually given [Polach2005]; the lower first slope "
-    "of a wet rail is a film's";
+    "usual parameters of Polach's law [Polach2005]; the lower first slope of a wet rail is modelled by a film";
 constexpr std::string_view kHou =
-    "film measured in shear [HouKalousekMagel1997], as CONTACT's examples have it up to a "
-    "shear of some 0.55 mm; the coefficient above it is no measurement";
+    "film measured in shear [HouKalousekMagel1997], as in CONTACT's examples, up to a shear of about 0.55 mm; the "
+    "coefficient above it is not measured";
 
 /// mu_0 (A + (1 - A) exp(-B v)), B in s/m.
 FallingFriction polach(double limit_share, double rate) {
@@ -74,7 +73,7 @@ const FrictionCondition& friction_condition(std::string_view name) {
     names.emplace_back(c.name);
   }
   const std::string near = nearest_word(std::string(name), names);
-  throw CaseError(fmt::format("there is no condition of friction called \"{}\"", name),
+  throw CaseError(fmt::format("there is no friction condition called \"{}\"", name),
                   fmt::format("{}Known: {}", near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near),
                               fmt::join(names, ", ")));
 }

@@ -76,7 +76,7 @@ class Simpack {
       line = trimmed(line.substr(0, line.find_first_of("!%")));
       if (line.empty()) return;
       if (line == "point.begin") {
-        if (listed) refuse("there is a second list of points", "keep one spline a file", name_, number);
+        if (listed) refuse("there is a second list of points", "keep one spline per file", name_, number);
         listing = listed = true;
       } else if (line == "point.end") {
         listing = false;
@@ -90,17 +90,17 @@ class Simpack {
       } else if (line.ends_with(".end")) {
         section.clear();
       } else {
-        refuse(fmt::format("'{}' is no setting of a Simpack profile", line),
-               "settings are key = value, points stand between point.begin and point.end", name_, number);
+        refuse(fmt::format("'{}' is not a setting of a Simpack profile", line),
+               "write settings as key = value and points between point.begin and point.end", name_, number);
       }
     });
     if (listing)
       refuse("the list of points has no point.end: the file is cut off", "put a whole copy of the file back", name_, 0);
     if (!listed)
       refuse("there is no point.begin in this Simpack profile",
-             "export it from Simpack anew, or give a file of two columns as .csv", name_, 0);
+             "export it from Simpack again, or give a file of two columns as .csv", name_, 0);
     if (const double type = value("header.type", kind == ProfileKind::wheel); type != (kind == ProfileKind::wheel))
-      refuse(fmt::format("this Simpack profile is that of a {}", type == 0 ? "rail" : "wheel"),
+      refuse(fmt::format("this Simpack profile is for a {}", type == 0 ? "rail" : "wheel"),
              "give rail_profile a .prr file, wheel_profile a .prw file", name_, settings_["header.type"].line);
   }
 
@@ -114,8 +114,8 @@ class Simpack {
       note(fmt::format("shift.y = {}, shift.z = {} were added.", shift.y, shift.z));
     }
     if (value("spline.rotate", 0) != 0)
-      refuse("rotate turns the points of this Simpack profile", "turn the points themselves and set rotate = 0", name_,
-             settings_["spline.rotate"].line);
+      refuse("rotate turns the points of this Simpack profile", "rotate the points in the file and set rotate = 0",
+             name_, settings_["spline.rotate"].line);
     bound("y", [](Vec2 p) { return p.y; });
     bound("z", [](Vec2 p) { return p.z; });
     const double y = mirror("y"), z = mirror("z");
@@ -161,7 +161,7 @@ class Simpack {
   }
   double mirror(const std::string& axis) {
     if (value("spline.mirror." + axis, 0) == 0) return 1;
-    note(fmt::format("mirror.{} turned the sign of {}.", axis, axis));
+    note(fmt::format("mirror.{} reversed the sign of {}.", axis, axis));
     return -1;
   }
   void note(std::string text) { table_.notes.push_back(std::move(text)); }

@@ -40,7 +40,7 @@ bool is_outlier(std::vector<Vec2> p, std::size_t i) {
 std::optional<PointDefect> bad_neighbours(const std::vector<Vec2>& p) {
   for (std::size_t i = 1; i < p.size(); ++i) {
     if (norm(p[i] - p[i - 1]) < kCloseness)
-      return PointDefect{i, fmt::format("point {} repeats the one before", i + 1), "remove one of them"};
+      return PointDefect{i, fmt::format("point {} is the same as the point before it", i + 1), "remove one of them"};
     if (i < 2) continue;
     if (turns_back(p[i - 2], p[i - 1], p[i]))
       return PointDefect{

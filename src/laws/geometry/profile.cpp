@@ -45,19 +45,18 @@ void require_following(const std::string& name, const SmoothingSpline& spline, c
   if (!(spline.s.back() - spline.s.front() < kLongestDetour * chords))
     throw CaseError(name + ": the smooth curve through the points swings far out between them",
                     "remove stray points, or give more of them where the curve bends");
-  const std::string remedy =
-      "remove points that nearly repeat their neighbours, or give more of them where they are far apart";
+  const std::string remedy = "remove points that are almost identical, or add points where they are far apart";
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double miss = std::max(spline.miss[i - 1], spline.miss[i]);
     if (!(miss < std::max(2 * spline.tolerance, norm(points[i] - points[i - 1]))))
       throw CaseError(
-          fmt::format("{}: the smooth curve misses points {} and {} by more than they lie apart ({:.3g} mm)", name, i,
+          fmt::format("{}: the smooth curve misses points {} and {} by more than their distance ({:.3g} mm)", name, i,
                       i + 1, 1e3 * miss),
           remedy);
   }
   if (std::adjacent_find(spline.s.begin(), spline.s.end(), [](double a, double b) { return !(b - a > kJoin); }) !=
       spline.s.end())
-    throw CaseError(name + ": the smooth curve through the points has a piece of no length", remedy);
+    throw CaseError(name + ": the smooth curve through the points has a segment of zero length", remedy);
 }
 
 }  // namespace
@@ -215,7 +214,7 @@ void Profile::set_origin() {
   graph_y_end_ = at(graph_end_).position.y;
   if (!(graph_y_begin_ <= 0 && graph_y_end_ >= 0 && graph_y_begin_ < graph_y_end_))
     throw CaseError(name_ + ": the profile turns back at y = 0",
-                    "mend the points near y = 0, or smooth them; y must increase towards the field side there");
+                    "correct or smooth the points near y = 0; y must increase towards the field side there");
 }
 
 }  // namespace railstrata

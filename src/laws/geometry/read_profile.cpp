@@ -117,12 +117,12 @@ class Reading {
       points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(i));
       table_.lines.erase(table_.lines.begin() + static_cast<std::ptrdiff_t>(i));
     }
-    if (points_.size() < before) note(fmt::format("{} repeated points were dropped.", before - points_.size()));
+    if (points_.size() < before) note(fmt::format("{} repeated points were removed.", before - points_.size()));
   }
 
   void to_frame() {
-    if (frame_.mirror) note("y was turned round, as the case asks.");
-    if (frame_.offset != 0) note(fmt::format("{:.3f} mm were added to y, as the case asks.", 1e3 * frame_.offset));
+    if (frame_.mirror) note("The sign of y was reversed, as the case requests.");
+    if (frame_.offset != 0) note(fmt::format("{:.3f} mm were added to y, as the case requests.", 1e3 * frame_.offset));
     for (Vec2& p : points_) p.y = (frame_.mirror ? -p.y : p.y) + frame_.offset;
   }
 
@@ -131,7 +131,7 @@ class Reading {
     static const std::regex says_inch(R"([\[\(]in[\]\)]|\binch(es)?\b)", std::regex::icase);
     if (!std::regex_search(table_.heading, says_inch)) return;
     for (Vec2& p : points_) p = 25.4 * p;
-    note("The heading gives inches; the numbers were taken as such.");
+    note("The heading gives inches; the numbers were read as inches.");
   }
 
   void to_metres() {
@@ -219,8 +219,8 @@ class Reading {
       for (Vec2& p : points_) p.z -= height;
       out = curve();
       if (!(std::abs(out.height(0)) < kSameHeight))
-        fail("the curve passes y = 0 more than once, at different heights",
-             "list the points in the order along the curve, and only its running surface");
+        fail("the curve crosses y = 0 more than once, at different heights",
+             "list the points in order along the curve, only for the running surface");
     }
     if (std::abs(height) > 1e-6)
       note(fmt::format("z was shifted by {:.3f} mm so that it is zero at y = 0.", -1e3 * height));
@@ -248,8 +248,8 @@ class Reading {
     steps = apart[apart.size() / 2];
     if (largest > kSmallestMovement)
       note(
-          fmt::format("The points were smoothed: a spline of {} knots over {:.0f} mm passes them by {:.1f} um rms, "
-                      "{:.1f} um at most.",
+          fmt::format("The points were smoothed: a spline of {} knots over {:.0f} mm deviates from them by {:.1f} um "
+                      "rms, {:.1f} um at most.",
                       fit.s.size(), 1e3 * (fit.s.back() - fit.s.front()),
                       1e6 * std::sqrt(squares / static_cast<double>(fit.miss.size())), 1e6 * largest));
     if (hole > kHole && hole > 4 * steps)

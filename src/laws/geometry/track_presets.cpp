@@ -33,7 +33,7 @@ constexpr std::array kOfProfiles{ProfileTrack{"LMA", TrackKind::CN}, ProfileTrac
 const TrackPreset& track_preset(TrackKind kind) {
   for (const TrackPreset& p : kPresets)
     if (p.kind == kind) return p;
-  throw std::logic_error("no preset of a track by its profile");
+  throw std::logic_error("no track preset belongs to this profile");
 }
 
 TrackKind track_kind_named(std::string_view name) {

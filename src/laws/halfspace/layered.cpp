@@ -140,7 +140,7 @@ SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double toler
       out.push_back({depth[j], {coefficient(j, 0), coefficient(j, 1), coefficient(j, 2), coefficient(j, 3)}});
     return out;
   }
-  throw NumericalError("the compliance of the layer stack could be represented only to a relative deviation of " +
+  throw NumericalError("the compliance of the layer stack is represented only to a relative deviation of " +
                        std::to_string(best));
 }
 
@@ -163,7 +163,7 @@ std::vector<LayerExtent> layer_extents(const LayeredHalfSpace& body) {
 std::vector<HalfSpaceLayer> cut_into_layers(const std::vector<GradedPoint>& table, double tolerance) {
   assert(tolerance > 0);
   if (table.size() < 2 || table.front().depth != 0)
-    throw CaseError("a graded modulus needs at least two depths, the first 0", "add rows to the table");
+    throw CaseError("a graded modulus needs at least two depths, and the first must be 0", "add rows to the table");
   std::vector<HalfSpaceLayer> layers;
   for (std::size_t i = 0; i + 1 < table.size(); ++i) {
     const GradedPoint &a = table[i], &b = table[i + 1];

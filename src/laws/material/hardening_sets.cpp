@@ -104,8 +104,8 @@ const HardeningSet& hardening_set(std::string_view name) {
   const std::string near = nearest_word(name, names);
   throw CaseError("no hardening set \"" + std::string(name) + "\"",
                   (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "Known are " + list +
-                      "; of any other steel give isotropic_hardening and kinematic_hardening, or tensile_strength with "
-                      "hardening = \"estimated\"");
+                      "; for any other steel give isotropic_hardening and kinematic_hardening, or tensile_strength "
+                      "with hardening = \"estimated\"");
 }
 
 }  // namespace railstrata

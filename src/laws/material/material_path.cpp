@@ -52,7 +52,7 @@ class Driver {
       if (solve == kMostSolves || !improve(state, target, strain, next)) return false;
     if (next.history[6] > state.history[6] &&
         !(std::abs(yield_excess(m_.plastic, next.strain, next.history)) < kLawTolerance))
-      throw NumericalError("the material law did not converge within an increment: take more increments");
+      throw NumericalError("the material law did not converge within an increment; use more increments");
     state = next;
     return true;
   }

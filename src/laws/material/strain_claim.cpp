@@ -13,11 +13,12 @@ double equivalent_strain(const double* plastic) { return std::sqrt(2.0 / 3 * dou
 
 std::string strain_warning(double largest) {
   if (largest > kNoClaimStrain)
-    return fmt::format("No claim of accuracy: plastic strain reaches {:.1f} %, and the law is one of small strains.",
-                       kToPercent * largest);
+    return fmt::format(
+        "No claim of accuracy: plastic strain reaches {:.1f} %, but the material law is valid for small strains only.",
+        kToPercent * largest);
   if (largest > kLargeStrain)
     return fmt::format(
-        "Plastic strain reaches {:.1f} %: the law is one of small strains, numbers are some percent off.",
+        "Plastic strain reaches {:.1f} %: the material law assumes small strains, so the numbers are some percent off.",
         kToPercent * largest);
   return {};
 }

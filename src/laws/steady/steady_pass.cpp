@@ -216,7 +216,7 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
     out.error = compare(work);
     ++out.iterations;
     if (!std::isfinite(out.error))
-      throw NumericalError("a pass of the stationary solution met a strain that is no number");
+      throw NumericalError("a pass of the stationary solution gave a strain that is not a number");
     out.converged = out.error <= limits.tolerance;
     if (out.converged || out.iterations >= limits.iterations) break;
     anderson.step(work.guess, work.residual);

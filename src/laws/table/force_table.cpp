@@ -33,13 +33,14 @@ bool ascends(const std::vector<double>& at) {
 
 void check_axis(const TableAxis& axis) {
   if (axis.at.size() < 2 || !ascends(axis.at))
-    throw CaseError(fmt::format("the axis {} does not ascend", axis.name), "give two values or more, each once");
+    throw CaseError(fmt::format("the axis {} must be in ascending order", axis.name),
+                    "give at least two values, each once");
 }
 
 void check_number(const TableNumber& number, std::size_t points) {
   if (number.values.size() != points)
-    throw CaseError(fmt::format("{} has {} values for {} points", number.name, number.values.size(), points),
-                    "give one for each point");
+    throw CaseError(fmt::format("{} has {} values, but there are {} points", number.name, number.values.size(), points),
+                    "give one value for each point");
 }
 
 template <class Part>
@@ -50,16 +51,16 @@ std::optional<std::size_t> index_of(const std::vector<Part>& parts, const char* 
 }
 
 void check_scaling(const ForceTable& table, const TableScaling& scaling) {
-  const std::string remedy = "make the table anew by railstrata creep-table --scaled";
+  const std::string remedy = "compute the table again with railstrata creep-table --scaled";
   if (table.axes.size() < kScaledAxes)
-    throw CaseError(fmt::format("a scaled table of {} axes", table.axes.size()), remedy);
+    throw CaseError(fmt::format("a scaled table with {} axes", table.axes.size()), remedy);
   const auto count = [&](std::size_t k) { return static_cast<int>(table.axes[k].at.size()); };
   const std::vector<TableAxis> own = scaled_axes(count(0), count(1), count(2));
   std::size_t others = table.points();
   for (std::size_t k = 0; k < kScaledAxes; ++k) {
     const auto same = [](double a, double b) { return std::abs(a - b) < 1e-12; };
     if (count(k) < 4 || !std::equal(own[k].at.begin(), own[k].at.end(), table.axes[k].at.begin(), same))
-      throw CaseError(fmt::format("the axis {} of a scaled table has other values than its own", own[k].name), remedy);
+      throw CaseError(fmt::format("the axis {} of a scaled table does not have its fixed values", own[k].name), remedy);
     check_axis(scaling.asked[k]);
     others /= table.axes[k].at.size();
   }
@@ -67,7 +68,7 @@ void check_scaling(const ForceTable& table, const TableScaling& scaling) {
   const bool load = index_of(table.axes, "load") || scaling.load > 0,
              friction = index_of(table.axes, "friction") || scaling.friction > 0;
   if (!load || !friction || !(scaling.largest_size > 0 && scaling.largest_size < 1))
-    throw CaseError("a scaled table without load, friction or largest size", remedy);
+    throw CaseError("a scaled table needs load, friction and largest size", remedy);
 }
 
 /// A stiffness at a point of the axes after the third.
