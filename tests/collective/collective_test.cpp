@@ -254,7 +254,7 @@ TEST(Collective, PutsTheVehicleCodesForcesBesideItsOwn) {
     return std::pair{all.back(), rows[0].summary};
   };
   const auto [far, own] = answer("t_gamma = \"1 kN\"\n");
-  EXPECT_EQ(far.title, "Beside the vehicle code");
+  EXPECT_EQ(far.title, "Comparison with the vehicle code");
   EXPECT_EQ(far.tone, "open");
   EXPECT_EQ(far.text, fmt::format("mean of the wheels: T-gamma {:.3g} N here, 1000 N there", own.damage.t_gamma));
   const std::string same = fmt::format("guiding_force = \"{} N\"\n", -own.contact.F_y);

@@ -223,7 +223,7 @@ TEST_F(Checkpoints, TheOneBeforeIsKeptAndTakenWhenTheNewestIsDamaged) {
   const FoundCheckpoint found = read_checkpoint(folder, "a case");
   EXPECT_EQ(found.checkpoint.run.stepper.state.time, 1);
   ASSERT_EQ(found.notes.size(), 1u);
-  EXPECT_NE(found.notes[0].find("checkpoint.h5: this checkpoint is of no use: its checksum does not agree"),
+  EXPECT_NE(found.notes[0].find("checkpoint.h5: this checkpoint cannot be used: its checksum does not agree"),
             std::string::npos)
       << found.notes[0];
   fs::remove(checkpoint_file(folder));  // killed between the two renames

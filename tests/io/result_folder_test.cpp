@@ -51,7 +51,7 @@ TEST(ResultFolder, OnlyEnginesOfThisProgramAreRead) {
   };
   EXPECT_EQ(said("fem"), "accepted");
   EXPECT_EQ(said("bem"), "accepted");
-  EXPECT_NE(said("abc").find("the engine is \"abc\": no engine of this program"), std::string::npos);
+  EXPECT_NE(said("abc").find("the engine is \"abc\""), std::string::npos);
 }
 
 }  // namespace

@@ -404,7 +404,7 @@ young_ratio = 2.0
         self.assertIn("run.rolling = false has no effect", err)
         self.refused(2, ["creep-curve", self.case(TWO_PATCHES), *COARSE, "--out", self.folder / "no"],
                      "the wheel touches at y = -27.6 mm", "at another angle at y = -12.7 mm",
-                     "a creep curve is that of one patch")
+                     "a creep curve needs a single contact patch")
 
     # sweep
 

@@ -291,7 +291,7 @@ class Checkpoints(Faults):
         dice, cuts = random.Random(3), 12
         for length in [0, 1, 511, 512, 513, len(good) - 1, *(dice.randrange(len(good)) for _ in range(cuts - 6))]:
             newest.write_bytes(good[:length])
-            self.refused(2, resume, f"error: {newest}: this checkpoint is of no use: it", remedy)
+            self.refused(2, resume, f"error: {newest}: this checkpoint cannot be used: it", remedy)
         newest.unlink()
         os.mkfifo(newest)  # whoever opens it waits for ever
         self.refused(2, resume, f"error: {newest}: it is not a file", remedy)

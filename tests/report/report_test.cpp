@@ -106,7 +106,7 @@ TEST(ReportChecks, CompareTheLargestShearOnCellsAsLargeAsTheElements) {
   EXPECT_TRUE(shear.ok);
   EXPECT_NEAR(shear.value, 0.04, 1e-12);
   EXPECT_DOUBLE_EQ(shear.limit, 0.07);
-  EXPECT_NE(shear.note.find("(1 mm): 250 MPa; at the front of slip half-spaces have 300 MPa, from which the "
+  EXPECT_NE(shear.note.find("(1 mm): 250 MPa; half-spaces give 300 MPa at the front of slip, from which the "
                             "elements differ by 10.0 %"),
             std::string::npos)
       << shear.note;
@@ -132,7 +132,7 @@ TEST(ReportChecks, CompareProfileFilesByTheirContent) {
   bem.options.back().value = "inputs/w.csv";
   bem.profile_sha256["wheel_profile"] = "34";
   EXPECT_EQ(find(report_checks({fem, bem}), "cases_differ", 2).note,
-            "geometry.wheel_profile: inputs/w.csv, another file of this name");
+            "geometry.wheel_profile: inputs/w.csv, a different file of this name");
 }
 
 TEST(ReportVerdict, SaysWhatFailsAndByHowMuch) {

@@ -55,10 +55,10 @@ void note_short_strip(const BemPatch& patch, SectionShakedown& section) {
   const LoadFactor& decides = section.found.wandering;
   if (!section.strength.any() || decides.depth != 0) return;
   if (const int cells = strip_of_slip(patch, decides.y); cells > 0 && cells < kResolved)
-    section.notes.push_back(fmt::format(
-        "the surface decides where the strip of slip is {} cells long: smaller cells (--cell) change the factors, by "
-        "some 3 % with 3 cells",
-        cells));
+    section.notes.push_back(
+        fmt::format("the surface decides where the slip zone is {} cells long: smaller cells (--cell) change the "
+                    "factors, by about 3 % with 3 cells",
+                    cells));
 }
 
 /// The same of every patch: the one that bears least.

@@ -48,7 +48,7 @@ int readable_format(std::string_view format) {
 void verify(std::string_view bytes) {
   constexpr std::string_view kStart = "RailStrata checkpoint\nformat ";
   if (bytes.empty()) throw Damage{"it is empty"};
-  if (!bytes.starts_with(kStart)) throw Damage{"it does not start as a checkpoint does"};
+  if (!bytes.starts_with(kStart)) throw Damage{"it does not begin like a checkpoint"};
   if (bytes.size() <= kHeader) throw Damage{"it is cut off"};
   const std::string_view header = bytes.substr(0, kHeader);
   const int format = readable_format(header.substr(kStart.size(), header.find('\n', kStart.size()) - kStart.size()));
@@ -96,7 +96,7 @@ Checkpoint checkpoint_of(std::string_view bytes, const fs::path& file) {
     verify(bytes);
     return checkpoint_of_image(bytes.substr(kHeader));
   } catch (const Damage& d) {
-    throw CaseError(fmt::format("this checkpoint is of no use: {}", d.what), d.remedy, file.string());
+    throw CaseError(fmt::format("this checkpoint cannot be used: {}", d.what), d.remedy, file.string());
   }
 }
 
@@ -129,14 +129,14 @@ FoundCheckpoint read_checkpoint(const fs::path& folder, const std::string& case_
     }
     if (!checkpoint) continue;
     if (checkpoint->origin.case_sha256 != case_sha256)
-      throw CaseError("this checkpoint belongs to another case: case.toml beside it, or a profile, was changed since",
-                      "put the old ones back, or start the new case in a folder of its own", file.string());
+      throw CaseError("this checkpoint belongs to another case: the folder's case.toml or a profile was changed since",
+                      "restore the old files, or start the new case in its own folder", file.string());
     found.checkpoint = std::move(*checkpoint);
     return found;
   }
   if (found.notes.empty())
     throw CaseError(fmt::format("there is nothing to resume in {}: it has no checkpoint", folder.string()),
-                    "start the run anew; runs write a checkpoint every ten minutes (--checkpoint-every) and when they "
+                    "start the run again; runs write a checkpoint every ten minutes (--checkpoint-every) and when they "
                     "are stopped while rolling");
   std::vector<Diagnostic> all;
   for (const std::string& note : found.notes) all.push_back({"", note, ""});

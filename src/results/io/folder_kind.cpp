@@ -56,7 +56,7 @@ fs::path result_below(const fs::path& folder) {
 Diagnostic begun(const fs::path& folder, const std::string& command) {
   const std::string word = shell_word(folder.string()), name = folder.string();
   if (fs::exists(checkpoint_file(folder)) || fs::exists(previous_checkpoint_file(folder)))
-    return {"", fmt::format("{}: this run is not finished, it has a checkpoint and no summary.json", name),
+    return {"", fmt::format("{}: this run is not finished: it has a checkpoint but no summary.json", name),
             fmt::format("railstrata run --resume {}", word)};
   return {"", fmt::format("{}: this folder was begun by `railstrata {}` and has no results yet", name, command),
           fmt::format("wait until it has ended; if it was stopped, start it again: {}", command_again(folder))};
@@ -98,18 +98,18 @@ Diagnostic no_result_here(const fs::path& folder) {
             "its table is receptance.csv in it; for a page on the case: railstrata run CASE"};
   if (command == "collective" || has(folder, "collective.csv"))
     return {"", fmt::format("{}: this is a load collective, not the result of one case", name),
-            "its page is report.html in it; the load that it shows whole is in shown_load"};
+            "its page is report.html; the folder shown_load has the load that it shows in full"};
   if (command == "passes" || has(folder, "passes.csv"))
-    return {"", fmt::format("{}: these are passes over a rail that yields, not the result of one case", name),
+    return {"", fmt::format("{}: these are passes over a yielding rail, not the result of one case", name),
             "its tables are passes.csv and residual.csv in it; for a page on the case: railstrata bem CASE"};
   if (has(folder, "compare.json"))
     return {"", fmt::format("{}: this is a comparison, not the result of one case", name),
-            "its picture is compare.svg in it; for a page give the two folders it compares"};
+            "its picture is compare.svg; for a page give the two folders that it compares"};
   if (command == "run" || command == "bem" || has(folder, "checkpoint.h5")) return begun(folder, command);
   if (command == "mesh")
     return {"", fmt::format("{}: these are meshes, written by `railstrata mesh`", name), "railstrata run CASE"};
   if (const fs::path below = result_below(folder); !below.empty())
-    return {"", fmt::format("{} is not a result folder: it has no summary.json, folders in it have", name),
+    return {"", fmt::format("{} is not a result folder: it has no summary.json, but folders in it have one", name),
             fmt::format("give a folder that has one, for example {}", shell_word(below.string()))};
   return {"", fmt::format("{} is not a result folder: it has no summary.json", name),
           "give a folder that `railstrata run` or `railstrata bem` has written"};

@@ -72,7 +72,7 @@ FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
     throw EnvironmentError(fmt::format("cannot make the output folder {}: {}", folder.string(),
-                                       error ? error.message() : "a file of this name is in the way"),
+                                       error ? error.message() : "a file of this name already exists"),
                            "choose another with --out");
   FolderHold hold(folder, begun != nullptr);
   bool empty = true;  // but for what others that begin at this moment are still writing, or have left so

@@ -43,8 +43,8 @@ void doubt_version(const nlohmann::json& origin, std::vector<ResultDoubt>& out) 
   out.push_back(
       {"other_version",
        fmt::format("written by RailStrata {}, {} than this one ({}): {}", theirs, newer ? "newer" : "older", ours,
-                   newer ? "its files may have more or other data than are read here"
-                         : "today's program may give other numbers"),
+                   newer ? "its files may contain more or other data than this program reads"
+                         : "this program may give other numbers"),
        false});
 }
 
@@ -75,12 +75,11 @@ void doubt_number(const ResultFolder& result, const char* path, double scale, co
                   double tolerance, std::vector<ResultDoubt>& out) {
   const double said = result.number(path);
   if (!std::isfinite(said) || std::abs(of_patch - said) <= tolerance * std::abs(said)) return;
-  out.push_back(
-      {kContradicted,
-       fmt::format("summary.json has {} {:.6g}, patch.csv gives {:.6g}: one of them was changed, cut off or is "
-                   "another run's",
-                   what, scale * said, scale * of_patch),
-       true});
+  out.push_back({kContradicted,
+                 fmt::format("summary.json has {} {:.6g}, but patch.csv gives {:.6g}: one of them was changed, is "
+                             "incomplete or comes from another run",
+                             what, scale * said, scale * of_patch),
+                 true});
 }
 
 void doubt_patch(const ResultFolder& result, std::vector<ResultDoubt>& out) {

@@ -35,7 +35,7 @@ std::string text_of(const fs::path& file) {
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-  throw CaseError(what, "write the results anew with `railstrata run` or `railstrata bem`", file.string());
+  throw CaseError(what, "write the results again with `railstrata run` or `railstrata bem`", file.string());
 }
 
 /// The tables of the patches, which the column `patch` numbers in order; without it there is one.
@@ -114,7 +114,7 @@ void require_kinds(const nlohmann::json& summary, const fs::path& file) {
   }
   const std::string engine = text_at(summary, "/run/engine");
   if (!engine.empty() && !engine_of(engine))
-    refuse(file, fmt::format("the engine is \"{}\": no engine of this program, they are {}", engine,
+    refuse(file, fmt::format("the engine is \"{}\", which this program does not have; its engines are {}", engine,
                              fmt::join(engine_words(), " and ")));
 }
 

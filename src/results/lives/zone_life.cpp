@@ -290,7 +290,7 @@ void add_worn_through(const LifeZone& z, std::vector<LifeRow>& out) {
     row.wheels.high = std::fmax(row.wheels.high, least);
     if (law == z.across.law) row.wheels.best = least;
   }
-  row.rests_on = row.known() ? "wear of the unworn profile; from the wear laws with data"
+  row.rests_on = row.known() ? "wear of the unworn profile, from the wear laws with data"
                              : "data of collective.wear_law: hardness, wear_coefficient";
   out.push_back(row);
 }
@@ -315,7 +315,7 @@ void add_strengths(const LifeZone& z, std::vector<LifeRow>& out) {
                                                    share >= 1 ? "the first wheel reaches it" : "not of many cycles");
     out.push_back(row);
   };
-  judge(cracks, tension, "σ₁ with the stress of the process over tensile_strength", z.key + ".tensile_strength");
+  judge(cracks, tension, "σ₁ with the residual stress over tensile_strength", z.key + ".tensile_strength");
   judge(shears, bond, "delamination index", z.key + ".bond_shear, bond_tension");
 }
 
@@ -442,9 +442,9 @@ std::string life_text(const std::vector<LifeRow>& rows) {
       unknown.push_back(fmt::format("{}: {} ({})", r.zone, r.mechanism, r.rests_on));
   std::string out;
   if (!row)
-    out = "nothing that it could end by is known";
+    out = "no failure mode is known";
   else if (row->mgt.best == kNever)
-    out = "no end by what is known";
+    out = "no failure in the known modes";
   else
     out = fmt::format("lasts {} MGT: {}, {}, {}", range_text(row->mgt),
                       row->zone == row->body ? row->body : fmt::format("{} of the {}", row->zone, row->body),

@@ -176,13 +176,13 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
   bool same = values.rows() == grid.points() && values.columns.size() == names.size();
   for (std::size_t c = 0; same && c < names.size(); ++c) same = values.columns[c].name == names[c];
   if (!same || rows.columns.size() != stationary_columns().size())
-    throw CaseError("the state is of another grid", "give --cell as in the beginning, or begin anew with --force",
-                    state.string());
+    throw CaseError("the state was saved with another cell size",
+                    "give the same --cell as at the start, or start again with --force", state.string());
   const double passes = values.columns[0].values[0];
   const std::vector<double> pass = rows.column("pass");
   const auto end = std::find(pass.begin(), pass.end(), passes);
   if (passes != 0 && end == pass.end())
-    throw CaseError("fewer passes than the state has seen", "begin anew with --force", table.string());
+    throw CaseError("fewer passes than the saved state contains", "begin anew with --force", table.string());
   series.state.passes = static_cast<int>(passes);
   const auto seen = passes == 0 ? 0 : end - pass.begin() + 1;
   series.table = first_rows(rows, stationary_columns(), static_cast<std::size_t>(seen));
@@ -290,10 +290,11 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   out["loops"] = loops_json(loops_of(rail, way));
   out["grid"] = grid_json(rail.grid);
   const bool follows = spec.passes.pressure == PassPressure::following;
-  out["assumptions"] = {follows ? "half-spaces: the rail's surface moves by elastic and plastic strain as theirs does"
-                                : "pressure and friction are those of the elastic bodies",
-                        "straight endless rail, layers without sideways ends on a half-space", "small strains",
-                        "one patch, the same in every pass", "the wheel stays elastic"};
+  out["assumptions"] = {
+      follows ? "half-spaces: the rail's surface has the elastic and plastic strain of a half-space's surface"
+              : "pressure and friction of the elastic bodies",
+      "straight endless rail; layers without lateral ends on a half-space", "small strains",
+      "one patch, the same in every pass", "the wheel stays elastic"};
   out["notes"] = rail.notes;
   for (const std::string& doubt : answer.doubts) out["notes"].push_back(doubt);
   write_whole_file(file, json_text(out, 2) + "\n");

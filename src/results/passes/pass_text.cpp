@@ -50,10 +50,11 @@ std::string class_sentence(const PassProgress& s) {
   switch (s.verdict.kind) {
     case PassClass::elastic_shakedown:
       if (!s.ever_yielded) return "Stays elastic: no point has yielded.";
-      return fmt::format("Shakes down: from pass {} on nothing flows.", s.first_quiet);
+      return fmt::format("Shakes down: no plastic flow from pass {} on.", s.first_quiet);
     case PassClass::plastic_shakedown:
       return fmt::format(
-          "Closed cycles (plastic shakedown): {} plastic strain in every pass, {} of it stays: low-cycle fatigue, {}.",
+          "Closed cycles (plastic shakedown): {} plastic strain in every pass, {} of it remains: low-cycle fatigue, "
+          "{}.",
           strain_text(s.last.largest.accumulated), strain_text(s.verdict.rate), life_text(s));
     case PassClass::ratchetting:
       return fmt::format("Ratchets: {} net strain per pass at {}, the same from pass to pass.",
@@ -79,14 +80,15 @@ std::string describe_law(const PlasticParameters<double>& law) {
   for (int k = 0; k < kMostBackstresses; ++k)
     if (law.modulus[k] > 0) (law.recall[k] > 0 ? recalls : linear) = true;
   if (linear)
-    return "linear kinematic hardening: cannot ratchet for ever, ends in shakedown or closed cycles at any load";
+    return "linear kinematic hardening: cannot ratchet indefinitely; at any load it ends in shakedown or closed cycles";
   if (recalls)
-    return "Armstrong–Frederick hardening: above its limit it ratchets for ever at a constant rate, which it tends to "
-           "overestimate";
+    return "Armstrong–Frederick hardening: above its limit it ratchets indefinitely at a constant rate, which the law "
+           "tends to overestimate";
   if (law.saturation > 0)
-    return "isotropic hardening: grows stronger up to a limit, then perfect plasticity: shakes down, or ratchets for "
-           "ever beyond that limit";
-  return "perfect plasticity: above the shakedown limit it ratchets for ever or flows to and fro; below it settles";
+    return "isotropic hardening: hardens up to a limit and is then perfectly plastic: it shakes down, or ratchets "
+           "indefinitely above that limit";
+  return "perfect plasticity: above the shakedown limit it ratchets indefinitely or yields back and forth; below it, "
+         "it shakes down";
 }
 
 }  // namespace railstrata

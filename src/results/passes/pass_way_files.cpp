@@ -67,8 +67,8 @@ std::vector<PassLoop> loops_of(const RailPasses& rail, const PassWay& way) {
 void write_loops(const std::filesystem::path& file, std::vector<std::string> remarks,
                  const std::vector<PassLoop>& loops) {
   remarks.emplace_back(
-      "The last pass, station after station as the load goes over. point: its place in passes.json, loops. strain: "
-      "tensor shears.");
+      "The last pass, station by station as the load passes. point: its place in passes.json, loops. strain: tensor "
+      "shears.");
   struct Step {
     int point;
     double y, depth, x;

@@ -139,10 +139,9 @@ class Rows {
       laws_.push_back(plastic_law(material, name, key));
       if (!laws_.back()) {
         if (!material.strength.elastic)
-          notes_.push_back(
-              fmt::format("{}: the case gives no strength of it, and it stays elastic: give "
-                          "{}.yield_strength, or {}.elastic = true",
-                          name, key, key));
+          notes_.push_back(fmt::format(
+              "{}: the case gives no strength, so it stays elastic: give {}.yield_strength, or {}.elastic = true", name,
+              key, key));
         continue;
       }
       any_ = true;
@@ -205,10 +204,11 @@ void require_surface_bears(const ContactField& field, const SteadyRow& surface) 
   for (int i = 0; i < field.size(); ++i) most = std::max(most, std::hypot(field.q_x[i], field.q_y[i]));
   const double bears = largest_stress(surface.law) / std::numbers::sqrt3;
   if (most < bears) return;
-  throw CaseError(fmt::format("friction on the surface reaches {:.0f} MPa, its material bears {:.0f} MPa in shear: the "
-                              "friction of elastic bodies, which passes take over, has no equilibrium there",
-                              1e-6 * most, 1e-6 * bears),
-                  "lower drive.friction_coefficient or the traction, or give the surface hardening or more strength");
+  throw CaseError(
+      fmt::format("friction on the surface reaches {:.0f} MPa, but its material carries {:.0f} MPa in shear: passes "
+                  "use the friction of elastic bodies, which has no equilibrium there",
+                  1e-6 * most, 1e-6 * bears),
+      "lower drive.friction_coefficient or the traction, or give the surface hardening or a higher strength");
 }
 
 double largest_mises(const std::vector<Sym3>& stresses) {
@@ -225,19 +225,18 @@ void require_known(const CaseSpec& spec, const std::vector<BemResult>& solutions
                    const Footprint& f) {
   for (const BemResult& result : solutions)
     if (!result.further.empty())
-      throw CaseError("the wheel touches the rail at several places: passes follow one patch",
+      throw CaseError("the wheel touches the rail at several places, but passes follow one patch",
                       "move the wheel (geometry.lateral_shift) until it touches at one place");
   if (!rows.any())
     throw CaseError(
-        "the case gives no strength of the rail or its layers, or has elastic = true for all that it "
-        "gives a strength of: nothing can yield",
+        "nothing can yield: the case gives no strength of the rail or its layers, or sets elastic = true wherever it "
+        "gives one",
         "give yield_strength = \"500 MPa\", or grade = \"R260\", in [material.rail] or a [[layer]]");
   if (const double most = kFarthest * f.y.half(); !f.line && farthest_pass(spec.passes) > most)
-    throw CaseError(
-        fmt::format("wheels that run {:.1f} mm to the side touch another part of the profile: passes take the patch "
-                    "along, up to {:.1f} mm",
-                    1e3 * farthest_pass(spec.passes), 1e3 * most),
-        "bring passes.lateral_positions nearer together, or lower passes.lateral_deviation");
+    throw CaseError(fmt::format("wheels shifted by {:.1f} mm touch another part of the profile; passes move the same "
+                                "patch, by up to {:.1f} mm",
+                                1e3 * farthest_pass(spec.passes), 1e3 * most),
+                    "bring passes.lateral_positions closer together, or lower passes.lateral_deviation");
 }
 
 /// Stresses at the active stations, a vector a row, as a field of a grid with these rows or fewer.

@@ -126,8 +126,8 @@ RolledPass rolled_pass(const RollingSystem& sys, const Model& base, const Plasti
 std::string unevenness_text(double uneven) {
   if (uneven <= kLargestUnevenness) return {};
   return fmt::format(
-      "plastic strain differs by {:.2g} of itself along the steady stations: a smaller mesh.element_size, with five "
-      "elements and more over the patch, or a longer way to them",
+      "plastic strain varies by {:.2g} of itself along the steady stations: use a smaller mesh.element_size, with at "
+      "least five elements over the patch, or a longer way to them",
       uneven);
 }
 

@@ -49,7 +49,7 @@ Columns<StateRow> state_columns(int history) {
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::filesystem::path& file) {
-  throw CaseError(what, "begin anew with --force", file.string());
+  throw CaseError(what, "start again with --force", file.string());
 }
 
 /// A whole number of a column.
@@ -130,12 +130,12 @@ RolledSeries read_rolled_series(const std::filesystem::path& state, const std::f
   const std::size_t heads = kHeads + 2 * kPointPasses, pairs = kGaussPairs;
   const bool nothing_hot = values.rows() == 1 && values.column(kQuadrilateral)[0] == kNoQuad;
   if (values.columns.size() < heads + 7 || values.rows() == 0 || (values.rows() % pairs != 0 && !nothing_hot))
-    refuse("the state is none of such passes", state);
+    refuse("the state in this folder comes from another method", state);
   RolledSeries series;
   series.passes = whole(values, kPasses, 0);
   series.creepage_shift = values.column(kShift)[0];
   if (static_cast<std::size_t>(series.passes) > rows.rows() || rows.columns.size() != rolled_columns().size())
-    refuse("fewer passes than the state has seen", table);
+    refuse("fewer passes than the saved state contains", table);
   series.table = first_rows(rows, rolled_columns(), static_cast<std::size_t>(series.passes));
   series.strains = pass_strains(series.table);
   series.section.point_entries = static_cast<int>(values.columns.size() - heads);
@@ -177,7 +177,7 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   progress.ductility = spec.passes.ductility;
   progress.strain_life = strain_life_of(spec.rail_material, "rail", "material.rail");
   const std::string doubt = unevenness_text(pass.uneven);
-  out["verdict"] = describe(progress) + (doubt.empty() ? "" : fmt::format(" Not to be relied on: {}.", doubt));
+  out["verdict"] = describe(progress) + (doubt.empty() ? "" : fmt::format(" Not reliable: {}.", doubt));
   out["doubts"] = doubt.empty() ? nlohmann::ordered_json::array() : nlohmann::ordered_json::array({doubt});
   if (spec.passes.ductility)
     out["ductility"] = ductility_json(*spec.passes.ductility, pass.row.strain, series.strains, 1);
@@ -188,8 +188,8 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
                  {"steady_from_m", roll.from},
                  {"steady_to_m", roll.to}};
   out["element_size_m"] = spec.mesh.element_size;
-  out["assumptions"] = {"every pass begins with the state of the steady stations at every station",
-                        "the wheel is a new one in every pass, with a given creepage", "small strains"};
+  out["assumptions"] = {"every pass starts with the state of the steady stations at every station",
+                        "the wheel is new in every pass, with a given creepage", "small strains"};
   write_whole_file(folder / "passes.json", json_text(out, 2) + "\n");
 }
 
@@ -202,10 +202,10 @@ void write_run_residual(const std::filesystem::path& folder, const std::vector<s
   nlohmann::ordered_json out{{"none", nullptr}};
   for (const ResidualNumber& n : residual_numbers()) out[n.key()] = n.value(residual);
   std::vector<std::string> remarks = provenance;
-  remarks.push_back(fmt::format(
-      "What the wheel leaves behind: mean of the stations from {:.6g} to {:.6g} mm, in an endless rail at rest. y, "
-      "depth: axes of the rigid contact point. plastic_xy ...: tensor shears.",
-      kToMilli * residual.from, kToMilli * residual.to));
+  remarks.push_back(
+      fmt::format("State behind the wheel: mean of the stations from {:.6g} to {:.6g} mm, in an endless rail at rest. "
+                  "y, depth: axes of the rigid contact point. plastic_xy ...: tensor shears.",
+                  kToMilli * residual.from, kToMilli * residual.to));
   write_pass_points(folder / "residual.csv", remarks, residual.pass.points, PointColumns::of_a_run);
   write_points_vtk(folder / "section.vtp", quads_of(residual.pass.mesh), residual.pass.points, PointColumns::of_a_run);
   write_whole_file(folder / "residual.json", json_text(out, 2) + "\n");

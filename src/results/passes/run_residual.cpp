@@ -32,15 +32,15 @@ constexpr ResidualNumber kNumbers[] = {
     {"plastic_strain", unit::kNone, "Largest equivalent plastic strain √(2/3) |E^p|",
      [](const RunResidual& r) { return r.pass.row.strain; }},
     {"balance", unit::kNone,
-     "Larger resultant of the shear stresses τ_xy and τ_xz over the section, over the integral of |σ_x|: 0 in "
+     "Larger resultant of the shear stresses τ_xy and τ_xz over the section, divided by the integral of |σ_x|: 0 in "
      "equilibrium",
      [](const RunResidual& r) { return r.pass.row.balance; }},
-    {"steady_from", unit::kMillimetres, "First station of the mean, from where the wheel was put on",
+    {"steady_from", unit::kMillimetres, "First station of the mean, measured from the start of the wheel",
      [](const RunResidual& r) { return r.from; }},
     {"steady_to", unit::kMillimetres, "Last station of the mean", [](const RunResidual& r) { return r.to; }},
     {"uneven", unit::kNone,
-     "Largest difference of the plastic strain between the two halves of these stations, over the largest plastic "
-     "strain: 0 where rolling is steady",
+     "Largest difference of the plastic strain between the two halves of these stations, divided by the largest "
+     "plastic strain: 0 where rolling is steady",
      [](const RunResidual& r) { return r.pass.uneven; }}};
 
 }  // namespace
@@ -84,16 +84,15 @@ std::string describe(const RunResidual& residual) {
   if (!residual.none.empty()) return fmt::format("residual stress not available: {}", residual.none);
   const PassRow& row = residual.pass.row;
   return fmt::format(
-      "residual stress behind the wheel: {:.0f} MPa along, {:.0f} MPa across at the most compressive "
-      "places",
+      "residual stress behind the wheel: {:.0f} MPa along, {:.0f} MPa across where it is most compressive",
       1e-6 * row.stress[0], 1e-6 * row.stress[1]);
 }
 
 std::string doubt_of(const RunResidual& residual) {
   if (!residual.none.empty() || residual.pass.uneven <= kLargestUnevenness) return {};
   return fmt::format(
-      "plastic strain differs by {:.2g} of its largest along the stations that the residual stress is taken from: roll "
-      "farther, or let `railstrata passes --engine fem` roll with a given creepage, which is steady sooner",
+      "plastic strain varies by {:.2g} of its largest along the stations that give the residual stress: roll farther, "
+      "or use `railstrata passes --engine fem` with a given creepage, which becomes steady sooner",
       residual.pass.uneven);
 }
 

@@ -40,7 +40,7 @@ std::vector<std::string> differences(const ReportRun& a, const ReportRun& b) {
     const std::string theirs = b.option(o.table, o.key);
     out.push_back(fmt::format("{}.{}: {}, {}", o.table, o.key, o.value,
                               theirs.empty()      ? "none"
-                              : theirs == o.value ? "another file of this name"
+                              : theirs == o.value ? "a different file of this name"
                                                   : theirs));
   }
   for (const CaseOption& o : b.options)
@@ -97,8 +97,8 @@ ReportCheck shear_check(const ReportRun& fem, const ReportRun& bem, const std::v
   if (!std::isfinite(fem.shear_on_elements)) return within("q_max", both, ours, theirs);
   ReportCheck check = within("q_max", both, fem.result.number("/contact/q_max_point_Pa"), fem.shear_on_elements);
   check.note = fmt::format(
-      "largest of a point, beside cells as large as the elements ({:.3g} mm): {:.0f} MPa; at the front of slip "
-      "half-spaces have {:.0f} MPa, from which the elements differ by {:.1f} %",
+      "largest value at a point, compared with cells as large as the elements ({:.3g} mm): {:.0f} MPa; half-spaces "
+      "give {:.0f} MPa at the front of slip, from which the elements differ by {:.1f} %",
       1e3 * element_size(fem), 1e-6 * fem.shear_on_elements, 1e-6 * theirs, 100 * std::abs(ours / theirs - 1));
   return check;
 }
@@ -155,7 +155,7 @@ void add_pair(const std::vector<ReportRun>& runs, int fem, int bem, std::vector<
   if (const double h = element_size(runs[fem]); stress.judged && theirs.depth <= h) {
     stress.judged = false;
     stress.note =
-        fmt::format("not judged: the half-space's largest lies {:.2f} mm deep, within an element of {:.2f} mm",
+        fmt::format("not compared: the half-space's maximum is {:.2f} mm deep, within an element of {:.2f} mm",
                     1e3 * theirs.depth, 1e3 * h);
   }
   out.push_back(std::move(stress));
@@ -206,7 +206,7 @@ std::vector<ReportAnswer> run_answers(const std::vector<ReportRun>& runs) {
       out.push_back({answer.value("tone", ""), answer.value("title", ""), whose + answer.value("reason", "")});
     }
     if (summary.contains(kLifeGroup))
-      out.push_back({summary[best].is_number() ? "open" : "plain", "Life, of such wheels",
+      out.push_back({summary[best].is_number() ? "open" : "plain", "Life with such wheels",
                      whose + summary[kLifeGroup].value("text", "")});
   }
   return out;

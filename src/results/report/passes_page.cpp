@@ -41,7 +41,7 @@ Json summary_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in)
     throw CaseError("no passes.json: not a folder of `railstrata passes`, or not finished",
-                    "give the folder that `railstrata passes` has written, or go on with --resume", file.string());
+                    "give the folder that `railstrata passes` wrote, or continue with --resume", file.string());
   Json out = Json::parse(in, nullptr, false);
   if (!out.is_object() || !out.contains("title") || !out["title"].is_string())
     throw CaseError("is damaged", "write the results anew with `railstrata passes`", file.string());

@@ -233,13 +233,12 @@ std::size_t width_of(const CsvTable& table, const std::vector<double>& depth, st
   std::size_t width = 0;
   while (width < depth.size() && depth[width] == depth[0]) ++width;
   if (width < least || depth.size() % width != 0 || depth.size() < 2 * width)
-    throw CaseError(
-        fmt::format("this section cannot be drawn: {} rows do not make a grid with one depth a row of it (the first "
-                    "depth has {} points)",
-                    depth.size(), width),
-        "lines were removed or sorted; copy the file back, or write the results anew with `railstrata run` or "
-        "`railstrata bem`",
-        table.file.string());
+    throw CaseError(fmt::format("this section cannot be drawn: {} rows do not make a grid with one depth per row (the "
+                                "first depth has {} points)",
+                                depth.size(), width),
+                    "lines were removed or sorted; restore the file, or write the results again with `railstrata run` "
+                    "or `railstrata bem`",
+                    table.file.string());
   return width;
 }
 

@@ -27,7 +27,7 @@ nlohmann::ordered_json json_of(const fs::path& file) {
   if (file.empty()) return nullptr;
   nlohmann::ordered_json out = nlohmann::ordered_json::parse(file_text(file), nullptr, false);
   if (!out.is_object())
-    throw CaseError("this is not a JSON object", "write the results anew with `railstrata run` or `railstrata bem`",
+    throw CaseError("this is not a JSON object", "write the results again with `railstrata run` or `railstrata bem`",
                     file.string());
   return out;
 }

@@ -108,7 +108,7 @@ ContactField contact_field(const RollingSystem& sys, const RollingSample& s) {
 }
 
 MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group) {
-  if (group.samples.empty()) throw NumericalError("no sample was taken: the run ended before the wanted position");
+  if (group.samples.empty()) throw NumericalError("no sample was taken: the run ended before the requested position");
   MeanContact m;
   m.position = group.position;
   m.samples = static_cast<int>(group.samples.size());
@@ -126,8 +126,8 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     }
     if (f.size() != m.field.size())
       throw NumericalError(
-          fmt::format("the samples cannot be averaged: the surface of one has {} points, that of another {} (a fault "
-                      "of the program: please report it with the case file)",
+          fmt::format("the samples cannot be averaged: one surface has {} points, another {} (a fault of the program: "
+                      "please report it with the case file)",
                       m.field.size(), f.size()));
     for (int i = 0; i < f.size(); ++i) {
       m.field.x[i] += weight * f.x[i];

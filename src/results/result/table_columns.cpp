@@ -80,11 +80,10 @@ const std::vector<StressZone>& stress_zones() {
   static const std::vector<StressZone> zones{
       {"surface", &S::surface, "at the surface", "At the running surface, from its tractions and strains"},
       {"subsurface", &S::subsurface, "below the surface",
-       "Deeper than a tenth of the patch's shorter semi-axis, or half a thinner surface layer; finite elements: and "
-       "than "
-       "one element edge"},
-      {"layer", &S::layer, "in the layers", "In the layers, from their own points"},
-      {"interface", &S::interface, "at the interfaces", "On either side of every border between materials"},
+       "Deeper than a tenth of the patch's shorter semi-axis or half a thinner surface layer; in finite elements also "
+       "deeper than one element edge"},
+      {"layer", &S::layer, "in the layers", "In the layers, at their own points"},
+      {"interface", &S::interface, "at the interfaces", "On both sides of every border between materials"},
       {"matrix", &S::matrix, "in the matrix", "Below all layers"}};
   return zones;
 }
@@ -98,11 +97,11 @@ const std::vector<StressMeasure>& stress_measures() {
 const std::vector<StressNumber>& stress_numbers() {
   static const std::vector<StressNumber> numbers{
       {"value", kMPa, &StressMaximum::value, "Largest value"},
-      {"x", kMillimetres, &StressMaximum::x, "Its place from the axle in the rolling direction"},
-      {"y", kMillimetres, &StressMaximum::y, "Its place from the rigid contact point towards the field side"},
-      {"depth", kMillimetres, &StressMaximum::depth, "Its depth below the surface along the normal"},
+      {"x", kMillimetres, &StressMaximum::x, "Distance from the axle in the rolling direction"},
+      {"y", kMillimetres, &StressMaximum::y, "Distance from the rigid contact point towards the field side"},
+      {"depth", kMillimetres, &StressMaximum::depth, "Depth below the surface along the normal"},
       {"error", kMPa, &StressMaximum::error,
-       "Its error bar, as that of `p_max`; half-spaces, von Mises stresses below the surface"}};
+       "Error bar, defined as for `p_max`; half-spaces, von Mises stresses below the surface"}};
   return numbers;
 }
 

@@ -78,11 +78,11 @@ std::vector<WheelKind> kinds_of(const std::vector<CollectiveRow>& rows) {
 std::vector<CollectiveRow> plan_collective(const CaseSpec& spec) {
   if (spec.loads.empty())
     throw CaseError("the case has no load collective",
-                    "write rows of [[load]], each with passages and what differs from the case, or name a table with "
-                    "collective.file = \"loads.csv\"");
+                    "write rows of [[load]], each with passages and the keys that differ from the case, or name a "
+                    "table with collective.file = \"loads.csv\"");
   if (!spec.run.rolling)
-    throw CaseError("nothing rolls in this case (run.rolling = false): it has no wear and no fatigue of passages",
-                    "take out run.rolling");
+    throw CaseError("nothing rolls in this case (run.rolling = false), so there is no wear and no fatigue",
+                    "remove run.rolling");
   std::vector<CollectiveRow> rows;
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
     CollectiveRow& row = rows.emplace_back();

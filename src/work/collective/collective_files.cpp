@@ -124,8 +124,8 @@ ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const Collectiv
   if (*deepest <= kMostWearOfOneProfile) return out;
   out.tone = "open";
   out.text += fmt::format(
-      "; the {:.0f} µm of all {:.0f} passages are no forecast, for the profile stays unworn: `railstrata wear-loop` "
-      "takes wear off step by step",
+      "; {:.0f} µm after all {:.0f} passages assumes an unworn profile; use `railstrata wear-loop`, which removes the "
+      "wear step by step, for a forecast",
       micro, passages);
   return out;
 }
@@ -155,23 +155,23 @@ ReportAnswer comparison_answer(const std::vector<CollectiveRow>& rows) {
           [](const Summary& s) { return s.damage.friction_energy; });
   compare("Y", unit::kKilonewtons, &LoadSpec::guiding_force, [](const Summary& s) { return -s.contact.F_y; });
   if (text.empty()) return {};
-  if (turned) text += "; Y has the other sign: are y, psi and roll positive to the field side?";
+  if (turned) text += "; Y has the opposite sign: are y, psi and roll positive to the field side?";
   const bool matched = rows.front().spec.collective.match_guiding_force;
   const long unmatched =
       std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return std::isnan(r.moved); });
   double farthest = 0;
   for (const CollectiveRow& row : rows) farthest = std::fmax(farthest, std::abs(row.moved));
   if (farthest > 0)
-    text += fmt::format("; shifts moved by up to {} to have this Y", with_unit(unit::kMillimetres, farthest, 2));
+    text += fmt::format("; shifts moved by up to {} to reach this Y", with_unit(unit::kMillimetres, farthest, 2));
   if (unmatched > 0)
-    text += fmt::format("; {} of {} loads have it nowhere within {}", unmatched, rows.size(),
+    text += fmt::format("; {} of {} loads do not reach it within {}", unmatched, rows.size(),
                         with_unit(unit::kMillimetres, kFarthestMatch, 1));
   const auto two = std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return r.patches.size() > 1; });
   if (far && two > 0)
     text += fmt::format(
-        "; {} of {} loads touch at two places, where some µm of the shift move the load from tread to flange{}", two,
-        rows.size(), matched ? "" : " (collective.match_guiding_force moves them)");
-  return {far ? "open" : "plain", "Beside the vehicle code", "mean of the wheels: " + text};
+        "; {} of {} loads touch at two places, where a few µm of shift move the load from tread to flange{}", two,
+        rows.size(), matched ? "" : " (collective.match_guiding_force adjusts the shift)");
+  return {far ? "open" : "plain", "Comparison with the vehicle code", "mean of the wheels: " + text};
 }
 
 /// Where the damage function grows most, and when it comes to a visible crack.
@@ -189,8 +189,8 @@ ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
   ReportTable t{.id = "loads",
                 .title = "Loads",
                 .note =
-                    "y: of the contact from the rail's axis, field side positive. Shakedown: load factor for "
-                    "wandering traffic, above 1 there is a reserve.",
+                    "y: contact position from the rail's axis, positive to the field side. Shakedown: load factor for "
+                    "wandering traffic; above 1 there is a reserve.",
                 .columns = {},
                 .rows = {}};
   using C = CollectiveRow;
@@ -220,15 +220,15 @@ ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
 }
 
 ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
-  ReportTable t{.id = "totals",
-                .title = "All passages together",
-                .note = fmt::format(
-                    "Wear of dry laboratory surfaces times collective.wear_factor = {:.3g}: a lubricated or wet rail "
-                    "has 0.2 and less. RCF damage: Burstow's function for R260 over the width of each patch; 1 is a "
-                    "visible crack, below zero wear removes the cracks.",
-                    rows.front().spec.collective.wear_factor),
-                .columns = {"what", "unit", "total", "largest", "at y [mm]"},
-                .rows = {}};
+  ReportTable t{
+      .id = "totals",
+      .title = "All passages together",
+      .note = fmt::format("Wear of dry laboratory surfaces times collective.wear_factor = {:.3g}: a lubricated or wet "
+                          "rail has 0.2 or less. RCF damage: Burstow's function for R260 over the width of each patch; "
+                          "1 is a visible crack, below zero wear removes the cracks.",
+                          rows.front().spec.collective.wear_factor),
+      .columns = {"what", "unit", "total", "largest", "at y [mm]"},
+      .rows = {}};
   const auto add = [&](const std::string& what, const char* units, const Json& total, const std::vector<double>& values,
                        auto&& shown) {
     const auto at = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
@@ -279,13 +279,13 @@ ReportSeries series_over(const std::string& name, const std::vector<double>& y, 
 }
 
 ReportChart wheel_chart(const WheelDamage& d) {
-  ReportChart out{"wheel-wear",
-                  "Wear depth over the wheel's tread",
-                  "Of one wheel that runs all loads in the shares of their passages: depth of a turn over the length "
-                  "of a turn.",
-                  "y across the wheel, from the tape circle to the field side [mm]",
-                  titled("wear depth", unit::kWearRate.shown),
-                  {}};
+  ReportChart out{
+      "wheel-wear",
+      "Wear depth over the wheel's tread",
+      "For one wheel that runs all loads in proportion to their passages: depth per turn over the length of a turn.",
+      "y across the wheel, from the tape circle to the field side [mm]",
+      titled("wear depth", unit::kWearRate.shown),
+      {}};
   for (const KnownWear& known : known_wear(d))
     out.series.push_back(series_over(known.words, d.y, d.share, d.depth(known.law), unit::kWearRate));
   return out;

@@ -61,15 +61,14 @@ Json lives_json(const Lives& lives) { return json_rows(life_columns(), lives.row
 
 ReportTable lives_table(const Lives& lives) {
   using R = LifeRow;
-  ReportTable out{
-      .id = "lives",
-      .title = "How long each zone lasts",
-      .note =
-          "Best value and range: of the rail in million gross tonnes and wheels over it, of the wheel in "
-          "turns and distance. Ways to end do not add up: the shortest life counts. Not known: the key that "
-          "is missing stands in the last column.",
-      .columns = {},
-      .rows = {}};
+  ReportTable out{.id = "lives",
+                  .title = "How long each zone lasts",
+                  .note =
+                      "Best value and range: for the rail in million gross tonnes and wheels over it, for the wheel in "
+                      "turns and distance. Failure modes do not add up: the shortest life counts. Not known: the last "
+                      "column names the missing key.",
+                  .columns = {},
+                  .rows = {}};
   add_rows(
       out, lives.rows,
       {{"body", [](const R& r) { return r.body; }},
@@ -90,10 +89,10 @@ std::optional<ReportChart> life_chart(const Lives& lives) {
   const LifeCurve& c = lives.curve;
   if (c.mgt.empty() || !std::isfinite(c.mgt.back())) return std::nullopt;
   ReportChart out{"life",
-                  "Damage against removal where the metal fails first",
+                  "Damage and removal where the metal fails first",
                   fmt::format("At y = {:.1f} mm; depth from the new surface. Removed: by wear and grinding. Fails: "
-                              "points when they fail while they come nearer to the surface; the first of them is the "
-                              "life. Unworn: the same if nothing were removed.",
+                              "when each point fails while wear brings it nearer to the surface; the first failure is "
+                              "the life. Unworn: the same without removal.",
                               unit::kMillimetres.factor * c.y),
                   "traffic [MGT]",
                   titled("depth", unit::kMillimetres.shown),

@@ -138,7 +138,7 @@ class AxisNumbers {
     if (option_.dimension != dimension::kForce) return std::nullopt;
     try {
       const double gravity = VehicleSpec{}.gravity, mass = parse_quantity(value, dimension::kMass);
-      return fmt::format("write the weight, \"{:.6g} kN\" under {:g} m/s^2", 1e-3 * gravity * mass, gravity);
+      return fmt::format("write the weight as \"{:.6g} kN\" with {:g} m/s^2", 1e-3 * gravity * mass, gravity);
     } catch (const UnitError&) {
       return std::nullopt;
     }
@@ -148,7 +148,8 @@ class AxisNumbers {
     int out = 0;
     const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), out);
     if (fault != std::errc{} || end != value.data() + value.size() || out < least || out > 1000)
-      refuse(fmt::format("{} is no number of values", value), fmt::format("give {} to 1000", least));
+      refuse(fmt::format("the number of values must be an integer, got {}", value),
+             fmt::format("give {} to 1000", least));
     return out;
   }
 
@@ -156,7 +157,7 @@ class AxisNumbers {
     const bool by_ratio = given.starts_with("log ");
     const std::vector<std::string> parts = split(by_ratio ? given.substr(4) : given, ':');
     const double from = quantity(parts[0]), to = quantity(parts[1]);
-    if (by_ratio && !(from * to > 0)) refuse("log asks for two values on one side of zero", "or write from:to:count");
+    if (by_ratio && !(from * to > 0)) refuse("log needs two values on one side of zero", "or write from:to:count");
     const int n = count(parts[2], 2);
     std::vector<double> out;
     for (int k = 0; k < n; ++k)
@@ -167,10 +168,10 @@ class AxisNumbers {
   }
 
   std::vector<double> to_both_sides(const std::vector<std::string>& parts) const {
-    if (parts.size() != 2) refuse("+- wants a largest value and a number of values");
+    if (parts.size() != 2) refuse("+- needs a largest value and a number of values");
     const double largest = quantity(parts[0]);
     const int n = count(parts[1], 3), half = n / 2;
-    if (n % 2 == 0) refuse(fmt::format("{} values have none in the middle", n), "give an odd number");
+    if (n % 2 == 0) refuse(fmt::format("{} values have no middle value", n), "give an odd number");
     std::vector<double> out;
     for (int k = -half; k <= half; ++k) {
       const double size = k == 0 ? 0 : largest * decade_share(std::abs(k), half);
@@ -192,7 +193,7 @@ Said parts_of(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');
   std::string word(trimmed(std::string_view(text).substr(0, equals), " \t\"'"));
   if (equals == std::string::npos || word.empty())
-    throw CaseError(fmt::format("{} \"{}\" names no key: there is no =", option, text),
+    throw CaseError(fmt::format("{} \"{}\": expected KEY=VALUES", option, text),
                     fmt::format("write {0} key=value,value, for example {0} layer.0.young_ratio=0.5,1,2", option));
   return {std::move(word), std::string(trimmed(std::string_view(text).substr(equals + 1), " \t\"'"))};
 }
@@ -214,7 +215,7 @@ NumberAxis number_axis(const std::string& option, const std::string& text) {
   if (!found) {
     const std::vector<std::string> words = axis_words();
     const std::string near = nearest_word(out.word, words);
-    throw CaseError(fmt::format("{}: there is no word or key {}", name, out.word),
+    throw CaseError(fmt::format("{}: unknown word or key {}", name, out.word),
                     fmt::format("{}words: {}; keys: railstrata schema",
                                 near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(words, ", ")));
   }
@@ -222,9 +223,9 @@ NumberAxis number_axis(const std::string& option, const std::string& text) {
   if (!is_number(found)) numbers.refuse(fmt::format("{} is no number", out.key));
   out.unit = si_unit(*found);
   out.at = numbers(said.values);
-  if (out.at.size() < 2) numbers.refuse("an axis has two values or more");
+  if (out.at.size() < 2) numbers.refuse("an axis needs at least two values");
   if (std::adjacent_find(out.at.begin(), out.at.end(), std::greater_equal<>()) != out.at.end())
-    numbers.refuse("values do not ascend", "sort them, each once");
+    numbers.refuse("values must be in ascending order", "sort them, each once");
   for (const double v : out.at) out.values.push_back(axis_text(out, v));
   return out;
 }
@@ -335,7 +336,7 @@ std::vector<NumberAxis> parse_number_axes(const std::string& option, const std::
     refuse_twice(option, out);
   }
   if (out.empty() || out.size() > kMostAxes)
-    throw CaseError(out.empty() ? "there is no axis" : fmt::format("{} axes", out.size()),
+    throw CaseError(out.empty() ? "no axis is given" : fmt::format("{} axes", out.size()),
                     fmt::format("give 1 to {} of {} creepage_x=+-0.02:21", kMostAxes, option));
   return out;
 }

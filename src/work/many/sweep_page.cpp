@@ -56,7 +56,7 @@ void write_sweep_page(const std::filesystem::path& page, const std::string& titl
     const std::vector<LinePoint> points = points_over(axis->key, rows);
     const std::string x = axis_title(axis->key, axis->values);
     const std::string note =
-        points.size() < rows.size() ? fmt::format("The first {} lines; the table has all.", kMostLines) : "";
+        points.size() < rows.size() ? fmt::format("The first {} lines; the table has all of them.", kMostLines) : "";
     for (const ResultColumn* column : shown_columns(rows)) {
       const std::string named = column_title(column->name);
       report.charts.push_back({column->name, named, note, x, named, {}});

@@ -31,9 +31,9 @@ bool has_gauge(const Placement& p) { return !p.wheel.primitive() && !p.rail.prim
 void require_gauge_face(const Placement& original) {
   if (original.rail.primitive() && !original.wheel.primitive())
     throw CaseError(
-        "the rail's profile is an arc or a plane: once it is worn it is a list of points, and a wheel with "
-        "a flange then stands by the gauge face that it does not have",
-        "take a rail's profile, or an arc for the wheel too");
+        "the rail's profile is an arc or a plane; once worn it is a list of points, and a wheel with a flange then "
+        "needs a gauge face, which this profile does not have",
+        "use a rail profile, or an arc for the wheel too");
 }
 
 /// The height that the reader of profiles takes off so that z = 0 at y = 0.
@@ -44,9 +44,9 @@ double origin_height(const WornRail& rail) {
 void require_solved(const WearStep& step, const WornRail& before) {
   for (const CollectiveRow& row : step.rows)
     if (!row.sound())
-      throw CaseError(fmt::format("step {}: {} cannot be solved on the rail of {} passages: {}", before.step + 1,
+      throw CaseError(fmt::format("step {}: {} cannot be solved on the rail after {} passages: {}", before.step + 1,
                                   row.name, before.passages, row.fault),
-                      "take the load out, or change it; the steps before are kept");
+                      "remove the load, or change it; the earlier steps are kept");
 }
 
 /// m, of one collective.
@@ -54,11 +54,11 @@ std::vector<double> wear_of(const WearStep& step, const CaseSpec& spec) {
   const WearLaw law = spec.collective.wear_law;
   const std::vector<KnownWear> known = known_wear(step.damage);
   if (std::none_of(known.begin(), known.end(), [&](const KnownWear& w) { return w.law == law; }))
-    throw CaseError("collective.wear_law: the case lacks the data of this law",
+    throw CaseError("collective.wear_law: the case has no data for this law",
                     "give [material.rail] a hardness, or a grade, and for \"archard\" a wear_coefficient");
   std::vector<double> out = smoothed_wear(step.damage, law);
   if (!(*std::max_element(out.begin(), out.end()) > 0))
-    throw CaseError("nothing wears: no load of the collective slips", "give loads with traction, yaw or spin");
+    throw CaseError("there is no wear: no load of the collective slips", "give loads with traction, yaw or spin");
   return out;
 }
 

@@ -92,8 +92,7 @@ class WearLoopJob : public CaseJob {
     options_.max_wear = wanted_.max_wear;
     rail_ = unworn(original_, wanted_.cell);
     plan_collective(loaded_.spec);
-    if (loaded_.spec.grinding.every)
-      control.warn("the loop wears the rail and does not grind it: [grinding] is left out");
+    if (loaded_.spec.grinding.every) control.warn("[grinding] is ignored: the wear loop does not grind the rail");
   }
   const WornRail& rail() const { return rail_; }
 
@@ -172,9 +171,8 @@ class WearLoopJob : public CaseJob {
     const double before = rows_[rows_.size() - 2].pressure, now = rows_.back().pressure;
     if (std::abs(now / before - 1) > kJump)
       control_.warn(
-          "step {}: the largest pressure jumped from {:.0f} to {:.0f} MPa: the steps are too long, profiles from here "
-          "on "
-          "are not to be trusted; start anew with a smaller --max-wear",
+          "step {}: the largest pressure jumped from {:.0f} to {:.0f} MPa: the steps are too long and later profiles "
+          "are not reliable; start again with a smaller --max-wear",
           rows_.back().step, before, now);
   }
 

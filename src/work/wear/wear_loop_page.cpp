@@ -70,9 +70,12 @@ ReportChart profile_chart(const WearLoopHistory& history, Reach reach) {
 }
 
 ReportChart depth_chart(const WearLoopHistory& history, Reach reach) {
-  ReportChart out{
-      "depth", "Worn off so far, over the rail", "Along the normal of the unworn profile.", kAcross, "wear depth [µm]",
-      {}};
+  ReportChart out{"depth",
+                  "Worn off so far, over the rail",
+                  "Measured along the normal of the unworn profile.",
+                  kAcross,
+                  "wear depth [µm]",
+                  {}};
   for (const WornProfile* p : some_of(history.profiles)) {
     const std::vector<double> depth = worn_depth(history.unworn, p->points);
     ReportSeries s{.name = after(*p), .x = {}, .y = {}, .markers = false};
@@ -125,7 +128,7 @@ double largest(const WearLoopHistory& history, int step, double WearLoad::*value
 ReportTable steps_table(const WearLoopHistory& history) {
   ReportTable t{.id = "steps",
                 .title = "Steps",
-                .note = "Pressure and T-gamma: the largest of all loads, on the rail before the step.",
+                .note = "Pressure and T-gamma: largest of all loads, on the rail before the step.",
                 .columns = {},
                 .rows = {}};
   struct Step {

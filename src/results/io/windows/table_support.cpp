@@ -4,8 +4,8 @@
 namespace railstrata {
 
 void require_table_files() {
-  throw EnvironmentError("the program for Windows has no HDF5: it makes and reads no tables of creep forces",
-                         "make the table on Linux; its numbers stand in creep_table.csv too");
+  throw EnvironmentError("the Windows program has no HDF5, so it cannot write or read tables of creep forces",
+                         "compute the table on Linux; its numbers are also in creep_table.csv");
 }
 
 }  // namespace railstrata
