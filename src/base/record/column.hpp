@@ -59,7 +59,7 @@ void append(Columns<Record>& columns, const Columns<Record>& more) {
   columns.insert(columns.end(), more.begin(), more.end());
 }
 
-/// The same of a record with a part that has them; `part` gives it of a record.
+/// The same for a record one of whose parts has them; `part` gets that part of a record.
 template <class Record, class Part, class Get>
 Columns<Record> of_part(const Columns<Part>& columns, Get part) {
   Columns<Record> out;

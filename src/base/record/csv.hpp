@@ -94,7 +94,7 @@ class CsvLog {
   std::size_t columns_;
 };
 
-/// The same of records.
+/// The same for records.
 template <class Record>
 class RecordLog {
  public:

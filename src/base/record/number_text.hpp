@@ -15,7 +15,7 @@ std::string fixed(double value, int decimals);
 /// "1067 MPa", "24.6 %", "inside".
 std::string with_unit(const Unit& unit, double value_si, int digits);
 
-/// "p_max [MPa]", as the head of a column or an axis has it; without a unit the name alone.
+/// "p_max [MPa]", as in the head of a column or an axis; without a unit only the name.
 std::string titled(const std::string& name, std::string_view unit);
 
 /// A limit, without zeros at its end: "4 %", "500 MPa".

@@ -31,7 +31,7 @@ template <auto... Path>
 Slot at(CaseSpec& spec, std::size_t) {
   return slot_of((spec.*....*Path));
 }
-/// The same of an entry of a list of tables.
+/// The same for an entry of a list of tables.
 template <auto List, auto... Path>
 Slot entry(CaseSpec& spec, std::size_t index) {
   return slot_of(((spec.*List).at(index).*....*Path));
@@ -46,7 +46,7 @@ TableList list_of() {
           [](CaseSpec& spec, std::size_t n) { (spec.*List).resize(n); }};
 }
 
-/// A row of a table; what else it has follows as .where(…), .derived(…), ….
+/// A row of a table; further properties are added by .where(…), .derived(…), ….
 inline Option option(std::string_view key, Slot (*slot)(CaseSpec&, std::size_t), std::string_view doc,
                      const Dimension& dimension = {}, const Range& range = {}) {
   return {.key = key, .slot = slot, .doc = doc, .dimension = dimension, .range = range};

@@ -34,7 +34,7 @@ struct BemOptions {
                                       ///< empty. Numbers then depend on it, within the tolerances of the solver
   bool apart = true;  ///< parts of a patch of several contacts that are not connected become patches of the result;
                       ///< false: one patch, as its plane was solved
-  std::function<RailSurface(const PatchGrid&)> rail_surface = {};  ///< empty: as its profile has it
+  std::function<RailSurface(const PatchGrid&)> rail_surface = {};  ///< empty: the surface of its profile
 };
 
 }  // namespace railstrata

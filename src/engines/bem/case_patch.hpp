@@ -23,7 +23,7 @@ struct PatchRoom {
 struct CasePatch {
   PatchGrid grid;
   ProfileGap profile;   ///< its gap with the sinking of the rail's surface
-  RailSurface surface;  ///< empty planes: as the profile has it
+  RailSurface surface;  ///< empty planes: the surface of the profile
   std::shared_ptr<const InfluenceOperator> influence;
   RollingContact contact;  ///< gap, load, friction, spin and rigid slip of the geometry; creepages and forces are left
                            ///< to the caller (drive_contact)
@@ -70,13 +70,13 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
 CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement,
                         const BemOptions& options, const NormalTarget& target);
 
-/// Gives a patch on its grid and its profiles' gap the problem of a case.
+/// Fills the patch's contact problem from the case; the grid and the gap are there already.
 void set_problem(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, CasePatch& patch);
 
-/// Whether the patch has no ring of cells to spare.
+/// Whether the patch touches the outermost ring of cells.
 bool reaches_edge(const PatchGrid& grid, const Plane& pressure);
 
-/// Whether a grid is large enough for the case to begin with, and not much larger.
+/// Whether a grid is a suitable start for the case: large enough, and not much larger.
 bool suits(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement, const BemOptions& options);
 
 }  // namespace railstrata

@@ -29,13 +29,13 @@ struct PatchOnWheel {
 
 struct SharedLoad {
   std::vector<PatchOnWheel> patches;   ///< that carry load; empty: the first patch carries it all, in one plane
-  PatchRoom room;                      ///< what the grid of that one has to hold
+  PatchRoom room;                      ///< extent that the grid of the first patch must cover
   RigidContact plane;                  ///< and its plane
   std::vector<RigidContact> contacts;  ///< that it has
   int load_iterations = 0;
 };
 
-/// Looks for contacts beside a first one that was solved alone under the whole load, where its approach is `approach`
+/// Looks for further contacts after a first one that was solved alone under the whole load, where its approach is `approach`
 /// [m], and shares the load if there are.
 /// Patches that reach the ridge between them become one. Its plane is common_contact under the descent of the wheel, of
 /// one patch that of its frictionless contact: it then is the same whichever contact was first. Throws CaseError:

@@ -100,7 +100,7 @@ class PlasticElements {
     std::vector<IncompatibleModes<double>> modes;  ///< by hourglass class; those that occur
   };
   static constexpr int kElastic = -1, kMixed = -2;
-  /// Of an element of a place: into quads, or kElastic.
+  /// For the element at a place: index into quads, or kElastic.
   int kind_at(const Place& p, const Tile& tile, const BlockElements& elements, int element) const {
     return p.kind != kMixed ? p.kind : kinds_[tile.block][elements.reference(elements.set_at(element), p.quad)];
   }

@@ -30,7 +30,7 @@ struct NodeTraction {
   RAILSTRATA_POINTWISE bool slips() const { return p > 0 && stuck < kPause; }
 };
 
-/// A node that left the neighbourhood of the patch: of its state only what it has gone through.
+/// A node that left the neighbourhood of the patch: only the history in its state is kept.
 RAILSTRATA_POINTWISE NodeTraction apart(const NodeTraction& t) {
   NodeTraction out;
   out.contact_time = t.contact_time;

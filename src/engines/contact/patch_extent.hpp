@@ -6,7 +6,7 @@
 
 namespace railstrata {
 
-/// Of the largest pressure: points of finite elements below it are left out of areas and ratios.
+/// Share of the largest pressure: areas and ratios of finite elements leave out points with less.
 inline constexpr double kPressureNoise = 0.025;
 
 /// A row of points from the first to the last in contact, between the edges where p² extrapolates to zero, as Hertz's

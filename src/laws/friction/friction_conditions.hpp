@@ -16,7 +16,7 @@ struct FrictionCondition {
   Certainty certainty = Certainty::absent;
   std::string_view source;
   double coefficient = 0;    ///< at rest
-  double low = 0, high = 0;  ///< of it, as the source or the field has it
+  double low = 0, high = 0;  ///< its range, from the source or the field
   FallingFriction law{};     ///< kinetic_share, half_velocity, memory
   ThirdBody film{};          ///< none without a thickness
 };

@@ -15,7 +15,7 @@ std::vector<Vec2> even_positions(const Profile& profile, double begin, double st
 /// curve ends, up to which all of them from k = 1 on have tangents t with t·direction > cosine. cosine: 0 or more.
 double last_facing(const Profile& profile, double begin, double step, Vec2 direction, double cosine);
 
-/// Of the running surface at one y: z and dz/dy.
+/// The running surface at one y: z and dz/dy.
 struct SurfacePlace {
   double height, slope;
 };

@@ -25,7 +25,7 @@ struct WheelsetMotion {
   double pitch_rate = 0;                                       ///< omega, rad/s: of the axle beyond V/r0
 };
 
-/// One rail beside its place at rest.
+/// Displacement of one rail from its place at rest.
 struct RailMotion {
   double y = 0, z = 0, roll = 0;  ///< m, rad about x through the origin of its profile
   double y_rate = 0, z_rate = 0;  ///< m/s

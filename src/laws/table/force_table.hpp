@@ -42,7 +42,7 @@ struct ForceTable {
   std::vector<TableNumber> numbers;
   std::optional<TableScaling> scaling{};
   std::size_t points() const;
-  /// An axis as whoever asks has it.
+  /// An axis as the caller states it.
   const TableAxis& asked(std::size_t axis) const;
 };
 

@@ -18,7 +18,7 @@ struct WheelKind {
 /// placement: of the case (profile, track); `cell` [m]: length of the cells.
 RailDamage rail_damage(const CaseSpec& spec, std::span<const WheelKind> kinds, const Placement& placement, double cell);
 
-/// Of one wheel that runs the kinds in the shares of their passages.
+/// Damage of one wheel that runs the kinds in proportion to their passages.
 WheelDamage wheel_damage(const CaseSpec& spec, std::span<const WheelKind> kinds, const Placement& placement,
                          double cell);
 

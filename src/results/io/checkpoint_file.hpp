@@ -44,7 +44,7 @@ struct FoundCheckpoint {
 /// The newest whole checkpoint of the folder. Throws CaseError if there is none, or if it belongs to another case.
 FoundCheckpoint read_checkpoint(const std::filesystem::path& folder, const std::string& case_sha256);
 
-/// Removes the checkpoints of a folder and what a killed writer has left.
+/// Removes the checkpoints of a folder and the unfinished files of a killed writer.
 void remove_checkpoints(const std::filesystem::path& folder);
 
 }  // namespace railstrata

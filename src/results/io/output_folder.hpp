@@ -35,7 +35,7 @@ void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
 
 /// Whose half written files: of dead processes of this machine, or anyone's, where the folder is ours alone.
 enum class PartsOf { dead, anyone };
-/// Removes what a killed run has left half written in the folder and those in it:
+/// Removes files that a killed run left half written in the folder and its subfolders:
 /// <a result's name>.part-<host>-<process id>.
 void remove_parts(const std::filesystem::path& folder, PartsOf whom);
 

@@ -23,7 +23,7 @@ struct ResultFolder {  // NOLINT(bugprone-exception-escape): the move of json is
   double number(const std::string& path) const;
 };
 
-/// A check as summary.json has it.
+/// A check, as stored in summary.json.
 struct KeptCheck : Check {
   bool said_ok = false;  ///< `ok` in the file
 };

@@ -39,14 +39,14 @@ struct LifeSection {
 const SectionShakedown* section_of(const LifeLoad& load, BodyId body);
 double middle_of(const LifeLoad& load, BodyId body, std::size_t patch);
 
-/// The two rows of a zone beside a depth and the share of the lower one; none: the zone is not in the section.
+/// The two rows of a zone around a depth and the share of the lower one; none: the zone is not in the section.
 struct RowsBeside {
   std::size_t above = 0, below = 0;
   double share = 0;
 };
 std::optional<RowsBeside> rows_beside(const LifeSection& s, int zone, double z);
 
-/// A value of the section at a place of the profile and a depth; 0 beside the section.
+/// A value of the section at a place of the profile and a depth; 0 outside the section.
 double value_at(const LifeSection& s, const std::vector<double>& values, const RowsBeside& rows, double place);
 
 }  // namespace railstrata

@@ -43,9 +43,9 @@ void write_pass_points(const std::filesystem::path& file, const std::vector<std:
 /// The state, as one table that is whole or not there.
 void write_pass_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                       const SteadyGrid& grid, const PassSeries& series);
-/// Stations of the grid that a state is of, as of SteadyGrid::active_stations.
+/// Stations of the grid that a state belongs to, as in SteadyGrid::active_stations.
 int active_stations(const std::filesystem::path& state);
-/// Reads both; the table up to the pass of the state. cycle: as of PassSeries. Throws CaseError if they are of
+/// Reads both; the table up to the pass of the state. cycle: see PassSeries. Throws CaseError if they are of
 /// another grid.
 PassSeries read_pass_series(const std::filesystem::path& state, const std::filesystem::path& table,
                             const SteadyGrid& grid, int cycle = 1);

@@ -12,7 +12,7 @@ namespace railstrata {
 /// are there. Throws CaseError at a file that is missing or damaged.
 Report passes_report(const std::vector<std::filesystem::path>& folders);
 
-/// Writes the page of one folder, or of several beside each other.
+/// Writes the page of one folder, or of several side by side.
 void write_passes_page(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders);
 
 }  // namespace railstrata

@@ -56,7 +56,7 @@ struct ReportCheck {
 
 /// An answer of the page, in its banner.
 struct ReportAnswer {
-  std::string tone;         ///< "good", "open", "bad": green, amber, red; "plain": a number beside them
+  std::string tone;         ///< "good", "open", "bad": green, amber, red; "plain": a number without a verdict
   std::string title, text;  ///< "Does not last", "wheel, at the surface: …"
 };
 

@@ -13,7 +13,7 @@ namespace railstrata {
 
 /// Contact, then the stresses if they are wanted, then the wall time; nothing of a way.
 std::vector<ResultColumn> result_columns(bool stresses);
-/// Those of a wheel's way over what changes along the rail.
+/// Columns of a wheel's passage over a rail that varies along its length.
 std::vector<ResultColumn> passage_columns();
 
 /// Further columns of a study's table: made from the result's files (study_results.cpp), and its threads.
@@ -45,7 +45,7 @@ struct ResultRemarks {
 };
 ResultRemarks remarks_of(const nlohmann::ordered_json& summary);
 
-/// A line for the head of a table: what its columns are of where a wheel touches at several places.
+/// A line for the head of a table: which patch each column describes where a wheel touches at several places.
 std::string patches_remark(const std::vector<ResultColumn>& columns);
 
 /// "check failed: p_max_scatter": what is wrong with a result that is there; empty if nothing is.

@@ -30,7 +30,7 @@ struct SweepCase {
 /// values.
 std::vector<SweepCase> plan_rows(const LoadedCase& base, const std::vector<std::string>& overrides,
                                  const std::vector<std::string>& keys, std::vector<std::vector<std::string>> rows);
-/// The same of all combinations.
+/// The same for all combinations.
 std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
                                   const std::vector<Axis>& keys);
 
