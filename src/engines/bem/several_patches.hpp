@@ -35,7 +35,7 @@ struct SharedLoad {
   int load_iterations = 0;
 };
 
-/// Looks for further contacts after a first one that was solved alone under the whole load, where its approach is `approach`
+/// Looks for more contacts than a first one, solved alone under the whole load, where its approach is `approach`
 /// [m], and shares the load if there are.
 /// Patches that reach the ridge between them become one. Its plane is common_contact under the descent of the wheel, of
 /// one patch that of its frictionless contact: it then is the same whichever contact was first. Throws CaseError:

@@ -5,7 +5,7 @@
 
 namespace railstrata {
 
-/// Track below one rail, per rail seat. Sleepers are at x = (phase + k) spacing, k any whole number; x = 0 is where the wheel starts.
+/// Track per rail seat. Sleepers are at x = (phase + k) spacing, k any whole number; the wheel starts at x = 0.
 /// Vertically a pad joins the foot to the sleeper, half a sleeper's mass, and the ballast joins that to the ground.
 /// Sideways and along the rail the sleeper is at rest, and the pad has `pad_shear` of its vertical numbers. Without
 /// others the numbers are those of `medium`.

@@ -47,7 +47,7 @@ struct PassedSection {
 /// nothing scatters.
 using PassedSections = std::array<std::vector<PassedSection>, 3>;
 
-/// Factor on the strengths for the low (0), best (1) and high (2) value of a life: two deviations of life.strength_scatter.
+/// Factor on the strengths for the low (0), best (1) and high (2) life: two deviations of life.strength_scatter.
 double strength_factor(const CaseSpec& spec, std::size_t variant);
 
 /// A kind of wheels.
