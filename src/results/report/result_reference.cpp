@@ -202,8 +202,8 @@ std::string results_reference_markdown() {
       "program. -->\n\n`summary.json` of a result folder holds these numbers in SI units, with the same keys from both "
       "engines; a number that\ndoes not apply is null. The key ends with the unit. Tables (`sweep.csv`, `study.csv`) "
       "hold the numbers that have a\ncolumn, in the unit at the end of its name. Engine: `fem` or `bem` where only one "
-      "of them computes the number.\n\n`title` is the title of the case; `state` says which state of a transient this "
-      "is; in `run`, `engine` is `fem` or `bem`\nand `commit` is the commit of the program.\n" +
+      "of them computes the number.\n\n`title` is the title of the case; `state` names the state of a transient; in "
+      "`run`, `engine` is `fem` or `bem`\nand `commit` is the commit of the program.\n" +
       std::string(kRoundOff) + numbers_markdown("");
   for (const std::string_view group :
        {"contact", "damage", "shakedown/factors", "layers", "passage", "plastic", "energy", "run"}) {
