@@ -33,7 +33,7 @@ SECTIONS = [
                 "docs/passes-theory.md"]),
     ("Verification", ["docs/validation.md", "docs/bem-verification.md", "docs/finite-elements-verification.md",
                       "docs/damage-verification.md", "docs/passes-verification.md"]),
-    ("Reference", ["docs/case-reference.md", "docs/results-reference.md", "CHANGELOG.md"]),
+    ("Reference", ["docs/case-reference.md", "docs/exclusions.md", "docs/results-reference.md", "CHANGELOG.md"]),
     ("Programming", ["docs/python.md", "python-interface.md", "docs/library.md", "docs/vehicle.md", "c-interface.md",
                      "docs/contact-interface.md"]),
     ("Cases", []),

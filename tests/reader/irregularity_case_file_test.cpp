@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "reader/case_file.hpp"
-#include "rules/engine_scope.hpp"
 #include "rules/irregularity_rules.hpp"
+#include "rules/support.hpp"
 #include "tests/places.hpp"
 
 namespace railstrata {
@@ -90,14 +90,14 @@ TEST(IrregularityCaseFile, FaultsNameTheKeyAndTheRemedy) {
   EXPECT_NE(
       refusal("[transient]\nkind = \"shift\"\ndisplacement = [\"1 um\"]\n[[irregularity]]\nat = \"0 mm\"\nlength = "
               "\"20 mm\"\ndepth = \"0.1 mm\"\n")
-          .find("a shift does not roll over"),
+          .find("irregularity cannot be combined with transient.kind = \"shift\""),
       std::string::npos);
 }
 
 TEST(IrregularityCaseFile, FiniteElementsSayWhatTheyDoNotTake) {
   const auto beyond = [](const std::string& text) {
     std::vector<std::string> keys;
-    for (const BeyondEngine& b : beyond_finite_elements(parse_case(text, "a.toml").spec)) keys.push_back(b.key);
+    for (const Refusal& r : refused_by(uses::kFiniteElements, parse_case(text, "a.toml").spec)) keys.push_back(r.key);
     return keys;
   };
   const std::string hollow = "[[irregularity]]\nat = \"200 mm\"\nlength = \"20 mm\"\ndepth = \"0.2 mm\"\n";
@@ -109,14 +109,14 @@ TEST(IrregularityCaseFile, FiniteElementsSayWhatTheyDoNotTake) {
             Keys{"irregularity.0"});
   EXPECT_EQ(beyond(hollow + "[run]\nrolling = false\n"), Keys{}) << "at rest it may lie anywhere";
   EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\n[[irregularity]]\nkind = \"dip\"\nat = \"2 m\"\nangle = \"10 mrad\"\n"),
-            Keys{"irregularity.0"})
+            Keys{"irregularity"})
       << "no track";
   const std::string on_track = "[track]\npreset = \"delft\"\n";
   EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\n[[irregularity]]\nkind = \"dip\"\nat = \"2 m\"\nangle = \"10 mrad\"\n" +
                    on_track),
             Keys{});
-  EXPECT_THROW(require_same_along(parse_case(hollow, "a.toml").spec, "steady rolling"), CaseError);
-  EXPECT_THROW(require_same_along(parse_case(on_track, "a.toml").spec, "steady rolling"), CaseError);
+  EXPECT_THROW(require_support(uses::kHalfSpaces, parse_case(hollow, "a.toml").spec), CaseError);
+  EXPECT_THROW(require_support(uses::kHalfSpaces, parse_case(on_track, "a.toml").spec), CaseError);
   EXPECT_THROW(parse_case(on_track + "[run]\ntime_step_method = \"local\"\n", "a.toml"), CaseError);
 }
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "reader/case_file.hpp"
-#include "rules/engine_scope.hpp"
 #include "rules/irregularity_rules.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -59,7 +59,7 @@ TEST(LayerEndsCaseFile, FaultsNameTheKeyAndTheRemedy) {
 TEST(LayerEndsCaseFile, EnginesSayWhatTheyDoNotTake) {
   const auto beyond = [](const std::string& text) {
     std::vector<std::string> keys;
-    for (const BeyondEngine& b : beyond_finite_elements(parse_case(text, "a.toml").spec)) keys.push_back(b.key);
+    for (const Refusal& r : refused_by(uses::kFiniteElements, parse_case(text, "a.toml").spec)) keys.push_back(r.key);
     return keys;
   };
   using Keys = std::vector<std::string>;
@@ -75,8 +75,8 @@ TEST(LayerEndsCaseFile, EnginesSayWhatTheyDoNotTake) {
             Keys{"material.rail.initial_stress"});
   for (const std::string& text : {ending, kStretch}) {
     const CaseSpec spec = parse_case(text, "a.toml").spec;
-    EXPECT_THROW(require_half_spaces(spec), CaseError);
-    EXPECT_THROW(require_same_along(spec, "steady rolling"), CaseError);
+    EXPECT_THROW(require_support(uses::kHalfSpaces, spec), CaseError);
+    EXPECT_THROW(require_support(uses::kRolledPasses, spec), CaseError);
   }
 }
 
@@ -113,8 +113,8 @@ TEST(LayerEndsCaseFile, UnbondedStretchesLieInOrderWhereTheLayerIs) {
 TEST(LayerEndsCaseFile, EnginesSayWhereALayerMustHold) {
   const auto beyond = [](const std::string& run) {
     std::vector<std::string> keys;
-    for (const BeyondEngine& b : beyond_finite_elements(parse_case(run + kClad + kUnbonded, "a.toml").spec))
-      keys.push_back(b.key);
+    const CaseSpec spec = parse_case(run + kClad + kUnbonded, "a.toml").spec;
+    for (const Refusal& r : refused_by(uses::kFiniteElements, spec)) keys.push_back(r.key);
     return keys;
   };
   using Keys = std::vector<std::string>;
@@ -125,14 +125,14 @@ TEST(LayerEndsCaseFile, EnginesSayWhereALayerMustHold) {
   EXPECT_EQ(beyond("[run]\nrolling = false\n"), Keys{"run.rolling"});
   const CaseSpec spec = parse_case(kClad + kUnbonded, "a.toml").spec;
   try {
-    require_half_spaces(spec);
+    require_support(uses::kHalfSpaces, spec);
     FAIL() << "taken";
   } catch (const CaseError& e) {
     const std::string said = e.what();
-    for (const char* word : {"come off", "take its unbonded out", "railstrata run"})
+    for (const char* word : {"layer.0.unbonded", "half-spaces", "take it out", "railstrata run"})
       EXPECT_NE(said.find(word), std::string::npos) << said;
   }
-  EXPECT_THROW(require_same_along(spec, "steady rolling"), CaseError);
+  EXPECT_THROW(require_support(uses::kRolledPasses, spec), CaseError);
 }
 
 }  // namespace

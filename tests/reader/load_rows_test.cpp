@@ -122,9 +122,10 @@ TEST(LoadRows, AFaultIsToldWithItsPlaceAndRemedy) {
   expect_says(refusal("[[load]]\nweel_load = \"80 kN\"\n"), "did you mean wheel_load?");
   expect_says(refusal("[load]\npassages = 1\n"), "write [[load]] with two brackets");
   expect_says(refusal("[drive]\ntractive_force = \"10 kN\"\n[[load]]\nwheel_load = \"80 kN\"\n"),
-              "this force is over the case's");
+              "drive.tractive_force cannot be combined with load.0.wheel_load");
   expect_says(refusal("[[load]]\n[collective]\nfile = \"x.csv\"\n"), "rows of [[load]] and collective.file");
-  expect_says(refusal("[transient]\nkind = \"shift\"\nat_time = [\"0 s\"]\n[[load]]\n"), "it follows no history");
+  expect_says(refusal("[transient]\nkind = \"shift\"\nat_time = [\"0 s\"]\n[[load]]\n"),
+              "transient.kind cannot be combined with load");
 }
 
 TEST(LoadRows, AFaultOfATableIsToldWithItsLine) {

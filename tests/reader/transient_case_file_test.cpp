@@ -123,7 +123,7 @@ TEST(TransientCaseFile, AFaultInAHistoryFileIsOneErrorAtItsOwnLine) {
             "h.csv:2: transient.at_distance: the first row must be the start, 0");
   EXPECT_NE(refusal_of_history("tractive_force_kN\n10\n50\n").find("h.csv:3: transient.tractive_force: row 2 wants"),
             std::string::npos);
-  EXPECT_EQ(refusal_of_history("creepage\n0\n"), "h.csv:1: transient.creepage: a shift does not roll");
+  EXPECT_EQ(refusal_of_history("creepage\n0\n").find("h.csv:1: transient.creepage cannot be combined with"), 0u);
 }
 
 std::string table_refusal(const std::string& text) {
@@ -175,11 +175,11 @@ TEST(TransientCaseFile, WhatCannotBeIsToldWithItsPlaceAndRemedy) {
   expect_says(rolling + "at_distance = [\"0 mm\", \"2 mm\", \"1 mm\"]\n", {"transient.at_distance: must not decrease"});
   expect_says(rolling + "at_distance = [\"1 mm\", \"2 mm\"]\n", {"the first row must be the start, 0"});
   expect_says(rolling + "distance = \"1 mm\"\ndisplacement = [\"1 um\"]\n",
-              {"transient.displacement: what rolls has creepages, not displacements", "kind = \"shift\""});
+              {"transient.displacement", "transient.kind = \"rolling\"", "kind = \"shift\""});
   expect_says(shift, {"transient.kind: a shift needs something that shifts"});
-  expect_says(shift + "creepage = [0.1]\n", {"transient.creepage: a shift does not roll"});
+  expect_says(shift + "creepage = [0.1]\n", {"transient.creepage", "transient.kind = \"shift\""});
   expect_says(shift + "distance = \"1 mm\"\ndisplacement = [\"1 um\"]\n",
-              {"transient.distance: a shift does not roll"});
+              {"transient.distance", "transient.kind = \"shift\""});
   expect_says(shift + "tractive_force = [\"10 kN\", \"50 kN\"]\n",
               {"a.toml:3:18: transient.tractive_force: row 2 wants 50 kN of friction", "at most 42.48 kN",
                "the wheel would slide"});
@@ -187,11 +187,11 @@ TEST(TransientCaseFile, WhatCannotBeIsToldWithItsPlaceAndRemedy) {
       rolling + "at_distance = [\"0 mm\", \"1 mm\"]\nload_factor = [1, 0.3]\n",
       {"row 2 wants 16.99 kN of friction, a friction coefficient of 0.5 gives at most 12.74 kN under its load"});
   expect_says(shift + "displacement = [\"1 um\"]\n[vehicle]\napproach = \"0.1 mm\"\n",
-              {"vehicle.approach: a transient is followed under loads"});
+              {"vehicle.approach", "transient.kind", "transient.wheel_load"});
   expect_says(shift + "displacement = [\"1 um\"]\n[run]\nrolling = false\n",
-              {"a static case (run.rolling = false) has no friction"});
+              {"transient.kind", "run.rolling = false", "take run.rolling out"});
   expect_says(shift + "displacement = [\"1 um\"]\n[drive]\nfriction_coefficient = 0\n",
-              {"drive.friction_coefficient: a transient lives on friction"});
+              {"transient.kind", "drive.friction_coefficient", "above zero"});
   expect_says(shift + "displacement = [\"1 um\"]\ntractive_force = [\"1 kN\"]\n",
               {"[transient] has tractive_force and displacement"});
   expect_says(shift + "displacement = [2]\n", {"a bare number has no unit"});
@@ -210,8 +210,7 @@ TEST(TransientCaseFile, WhatHasNoEffectIsSaid) {
   const LoadedCase steps =
       parse_case("[transient]\nkind = \"rolling\"\ndistance = \"5 mm\"\nincrements = 7\n", "a.toml");
   ASSERT_EQ(steps.notes.size(), 1u);
-  EXPECT_NE(steps.notes[0].find("transient.increments has no effect: it needs transient.kind = \"shift\""),
-            std::string::npos)
+  EXPECT_EQ(steps.notes[0].find("transient.increments has no effect without transient.kind = \"shift\""), 0u)
       << steps.notes[0];
 }
 
@@ -228,7 +227,7 @@ TEST(TransientCaseFile, AndApproachAreNotInTheFiniteElements) {
                    approach = parse_case("[vehicle]\napproach = \"0.09 mm\"\n", "a.toml");
   ASSERT_EQ(transient.not_in_fem.size(), 1u);
   EXPECT_EQ(transient.not_in_fem[0].where, "a.toml:2:8");
-  EXPECT_NE(transient.not_in_fem[0].message.find("is not in this engine"), std::string::npos);
+  EXPECT_NE(transient.not_in_fem[0].message.find("not supported by the finite elements"), std::string::npos);
   ASSERT_EQ(approach.not_in_fem.size(), 1u);
   EXPECT_EQ(approach.not_in_fem[0].where, "a.toml:2:12");
 }

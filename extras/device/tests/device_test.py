@@ -97,7 +97,7 @@ class Refused(FromOutside):
         out = self.folder / "out"
         case = self.case(ON_CARD)
         self.refused(2, ["passes", case, "--engine", "fem", "--out", out], f"{case}:{LINE}:10: ",
-                     "run.device: a device takes steps without run.plasticity = true only")
+                     'run.device = "gpu" cannot be combined with run.plasticity = true')
         if MPIRUN is None or not (BINARY.parent / "railstrata_mpi.so").exists():
             return
         quiet = {"OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_btl_base_warn_component_unused": "0",
@@ -105,8 +105,8 @@ class Refused(FromOutside):
         done = subprocess.run([MPIRUN, "--oversubscribe", "--allow-run-as-root", "-n", "2", BINARY, "run", case, *WORDS,
                                "--out", out], capture_output=True, text=True, timeout=300, env=os.environ | quiet)
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn(f"{case}:{LINE}:10: error: run.device: several ranks share a run on processors only", done.stderr)
-        self.assertIn('remedy: start one rank, or run.device = "cpu"', done.stderr)
+        self.assertIn(f'{case}:{LINE}:10: error: run.device = "gpu" is not supported by several ranks', done.stderr)
+        self.assertIn('remedy: start one rank, or give run.device = "cpu"', done.stderr)
         self.assertNotIn("meshing", done.stderr)
         self.assertFalse(out.exists())
 

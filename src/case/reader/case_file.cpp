@@ -11,8 +11,8 @@
 #include "options/option_table.hpp"
 #include "reader/case_tree.hpp"
 #include "rules/case_rules.hpp"
-#include "rules/engine_scope.hpp"
 #include "rules/irregularity_rules.hpp"
+#include "rules/support.hpp"
 #include "rules/track_facts.hpp"
 #include "rules/transient_rules.hpp"
 #include "tables/history_table.hpp"
@@ -135,6 +135,11 @@ void read_loads(LoadedCase& loaded, CaseSource& source) {
       [&](const std::string& text, const std::filesystem::path& file) { return read_load_table(text, file, spec); });
 }
 
+/// The message with its key, if it does not name it itself.
+std::string named(const Diagnostic& d) {
+  return d.message.find(d.where) == std::string::npos ? fmt::format("{}: {}", d.where, d.message) : d.message;
+}
+
 /// Only blanks and comments.
 bool says_nothing(const std::string& text) {
   std::istringstream lines(text);
@@ -161,16 +166,20 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   read_height_files(loaded, source);
   check_case_rules(loaded.spec, source);
   source.finish();
-  for (const BeyondEngine& b : beyond_finite_elements(loaded.spec))
-    loaded.not_in_fem.push_back(source.diagnosis(b.key, b.message, b.remedy));
+  for (const Refusal& r : refused_by(uses::kFiniteElements, loaded.spec))
+    loaded.not_in_fem.push_back(source.diagnosis(r.key, r.message, r.remedy));
   loaded.resolved_toml = resolved_case(loaded.spec);
   if (says_nothing(text))
     loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),
                                        overrides.empty() ? "" : ", but for what --set gives"));
-  for (std::string& note : idle_settings(loaded.spec)) loaded.notes.push_back(std::move(note));
+  for (IdleSetting& idle : idle_settings(loaded.spec, &source)) {
+    const bool elastic = idle.by->key == "run.plasticity = false", rest = idle.by->key == "run.rolling = false";
+    std::vector<std::string>& notes = elastic                ? loaded.elastic_notes
+                                      : rest && idle.by->has ? loaded.static_notes
+                                                             : loaded.notes;
+    notes.push_back(std::move(idle.text));
+  }
   for (std::string& note : track_notes(loaded.spec, source)) loaded.notes.push_back(std::move(note));
-  loaded.elastic_notes = unread_hardening(loaded.spec);
-  loaded.static_notes = void_drive(loaded.spec, source);
   return loaded;
 }
 
@@ -191,9 +200,7 @@ CaseError in_case_file(const LoadedCase& loaded, const CaseError& error) {
     if (d.where.empty())
       all.push_back({loaded.file.string(), d.message, d.remedy});
     else
-      all.push_back(d.where.find(':') == std::string::npos
-                        ? source.diagnosis(d.where, fmt::format("{}: {}", d.where, d.message), d.remedy)
-                        : d);
+      all.push_back(d.where.find(':') == std::string::npos ? source.diagnosis(d.where, named(d), d.remedy) : d);
   return CaseError(std::move(all));
 }
 

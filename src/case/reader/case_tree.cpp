@@ -190,13 +190,6 @@ class TreeReader {
     if (young && ratio)
       source_.complain(name + ".young_ratio", fmt::format("{} has both young and young_ratio", name),
                        "keep one of them");
-    if ((young || ratio) && table)
-      source_.complain(name + ".young_table",
-                       fmt::format("{} has both young_table and {}", name, young ? "young" : "young_ratio"),
-                       "keep one of them");
-    if (table && entry.contains("thickness"))
-      source_.complain(name + ".thickness", fmt::format("{} has both young_table and thickness", name),
-                       "leave thickness out: the layer ends at the table's last depth");
     if (!young && !ratio && !table)
       source_.complain(name, fmt::format("{} has no modulus", name),
                        "add young = \"420 GPa\", or young_ratio = 2.0 for twice the body's");

@@ -22,9 +22,8 @@ class TransientRules {
       : spec_(spec), t_(spec.transient), source_(source), columns_(given_columns(spec)) {}
 
   void check() {
-    check_others();
     if (!source_.sound({kHistoryFile})) return;  // rows that end at a fault would be blamed for it
-    check_kind();
+    if (!rolls()) check_shift();
     check_rows();
     if (source_.sound({"transient"})) check_friction();
   }
@@ -40,35 +39,7 @@ class TransientRules {
     source_.complain(fmt::format("{}.{}", key, row), fmt::format("{}: {}", key, what), remedy);
   }
 
-  /// Other tables that a transient cannot go with.
-  void check_others() {
-    if (!spec_.run.rolling)
-      refuse("transient.kind", "a static case (run.rolling = false) has no friction",
-             "take run.rolling out, or transient.kind");
-    if (!(spec_.drive.friction_coefficient > 0) && source_.sound({"drive.friction_coefficient"}))
-      refuse("drive.friction_coefficient", "a transient lives on friction, and there is none",
-             "raise it above zero, or take transient.kind out");
-    if (spec_.vehicle.approach)
-      refuse("vehicle.approach", "a transient is followed under loads, not under an approach",
-             "give vehicle.wheel_load, or the rows transient.wheel_load");
-    if (spec_.friction.law != FrictionForm::coulomb && !rolls())
-      refuse("friction.law", "friction falls with slip velocity, and the slip of a shift has none",
-             "give friction.law = \"coulomb\", or transient.kind = \"rolling\"");
-  }
-
-  /// Keys of one kind in a transient of the other.
-  void check_kind() {
-    for (const GivenColumn& c : columns_) {
-      const bool of_rolling = is_any(c.key, {"creepage", "lateral_creepage", "spin", "at_distance"}),
-                 of_shift = is_any(c.key, {"displacement", "lateral_displacement"});
-      if (rolls() && of_shift)
-        refuse("transient." + c.key, "what rolls has creepages, not displacements",
-               "give creepage or lateral_creepage, or kind = \"shift\"");
-      if (!rolls() && of_rolling)
-        refuse("transient." + c.key, "a shift does not roll", "give displacements or forces, or kind = \"rolling\"");
-    }
-    if (rolls()) return;
-    if (t_.distance) refuse("transient.distance", "a shift does not roll", "leave it out, or kind = \"rolling\"");
+  void check_shift() {
     const auto moves = [](const GivenColumn& c) { return !is_any(c.key, {"at_time", "wheel_load", "load_factor"}); };
     if (source_.sound({"transient"}) && std::none_of(columns_.begin(), columns_.end(), moves))
       refuse("transient.kind", "a shift needs something that shifts",

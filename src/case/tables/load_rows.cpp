@@ -249,19 +249,6 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
 }
 
 void check_loads(const CaseSpec& spec, CaseSource& source) {
-  if (spec.loads.empty()) return;
-  const bool own_loads =
-      std::any_of(spec.loads.begin(), spec.loads.end(), [](const LoadSpec& l) { return l.wheel_load.has_value(); });
-  for (const char* key : {"drive.tractive_force", "drive.lateral_force"})
-    if (own_loads && source.has(key))
-      source.complain(key,
-                      fmt::format("{}: the rows of the collective have loads of their own, this force is over the "
-                                  "case's",
-                                  key),
-                      "give a traction coefficient, which counts over each row's load");
-  if (spec.transient.kind != TransientKind::none)
-    source.complain("transient.kind", "a load collective is of wheels that roll steadily: it follows no history",
-                    "take out [transient], or the rows of the collective");
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
     const std::string name = fmt::format("load.{}", i);
     if (!source.has(name) || !source.sound({name})) continue;

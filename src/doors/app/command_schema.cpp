@@ -6,6 +6,7 @@
 #include "app/common_options.hpp"
 #include "options/case_schema.hpp"
 #include "report/result_reference.hpp"
+#include "rules/clashes.hpp"
 
 namespace railstrata {
 namespace {
@@ -24,6 +25,13 @@ void declare_schema(CLI::App& sub, CommandOptions& options) {
   sub.add_flag("--markdown", options.schema.markdown, "Reference page in Markdown")->excludes(json);
   sub.add_flag("--results", options.schema.results,
                "Of results instead of cases: every number of summary.json, every check");
+  sub.add_flag_callback(
+      "--exclusions",
+      [] {
+        fmt::print("{}", exclusions_markdown());
+        throw CLI::Success();
+      },
+      "Page in Markdown: which settings exclude each other");
 }
 
 }  // namespace

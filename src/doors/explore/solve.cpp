@@ -26,6 +26,7 @@
 #include "record/json.hpp"
 #include "result/result_table.hpp"
 #include "result/stress_sections.hpp"
+#include "rules/clashes.hpp"
 
 namespace railstrata {
 namespace {
@@ -217,6 +218,7 @@ struct Explorer::State {
     out["layers"] = layers_json(loaded.spec);
     out["strengths"] = strength_to_judge(loaded.spec);
     out["doubts"] = doubts_json(asked.summary);
+    out["excluded"] = excluded_keys(uses::kExplorer, loaded.spec);
     out["notes"] = loaded.notes;
     for (const auto& further : {loaded.elastic_notes, loaded.static_notes, placement.notes, asked.result.notes})
       for (const std::string& note : further) out["notes"].push_back(note);

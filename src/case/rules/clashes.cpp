@@ -1,0 +1,467 @@
+#include "rules/clashes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "geometry/profile_names.hpp"
+#include "model/material_strength.hpp"
+#include "rules/engine_scope.hpp"
+#include "spec/case_spec.hpp"
+
+namespace railstrata {
+
+using C = CaseSpec;
+
+constexpr Use uses::kRollingElements{"rolling finite elements", &kFiniteElements,
+                                     [](const C& c) { return c.run.rolling; }};
+constexpr Use uses::kSteadyRolling{"steady rolling of half-spaces", &kHalfSpaces,
+                                   [](const C& c) { return c.run.rolling && c.transient.kind == TransientKind::none; }};
+
+namespace {
+
+/// Poisson's ratio up to which elements do not lock.
+constexpr double kLargestMeshedPoisson = 0.495;
+
+bool is_flat(const std::string& profile) { return profile == "flat" || profile == "Flat" || profile == "FLAT"; }
+
+Keys keys_of_layers(const C& c, const char* key, bool (*has)(const LayerSpec&)) {
+  Keys out;
+  for (std::size_t i = 0; i < c.layers.size(); ++i)
+    if (has(c.layers[i])) out.push_back("layer." + std::to_string(i) + "." + key);
+  return out;
+}
+
+/// Those of these keys that the text gives.
+Keys given_in_layers(const C& c, const CaseSource* text, std::initializer_list<const char*> keys) {
+  Keys out;
+  for (const char* key : keys)
+    for (const std::string& all : keys_of_layers(c, key, [](const LayerSpec&) { return true; }))
+      if (text && text->has(all)) out.push_back(all);
+  return out;
+}
+
+bool yields(const MaterialSpec& material) {
+  const StrengthSpec& s = material.strength;
+  return !s.elastic && !(s.hardening.empty() && std::isnan(MaterialStrength(s, {}, {}).yield(0)));
+}
+
+// Features that are more than a value at a key.
+constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return !is_flat(c.geometry.wheel_profile); },
+                                "a profile that is not flat"},
+    kRailProfile{"geometry.rail_profile", [](const C&c) { return !is_flat(c.geometry.rail_profile); },
+                 "a profile that is not flat"},
+    kFlangeOnArc{"geometry.rail_profile",
+                 [](const C&c) {
+                   return names_primitive(c.geometry.rail_profile) && !names_primitive(c.geometry.wheel_profile);
+                 },
+                 "an arc or a plane below a wheel with a flange"},
+    kCant{"geometry.cant", [](const C&c) { return c.geometry.cant != 0; }},
+    kHollowRail{"geometry.rail_radius", [](const C&c) { return c.geometry.rail_radius.value_or(0) < 0; },
+                "a hollow rail"},
+    kJoint{"irregularity",
+           [](const C&c) {
+             return std::any_of(c.irregularities.begin(), c.irregularities.end(), [](const Irregularity& is) {
+               return is.kind == IrregularityKind::dip || is.kind == IrregularityKind::step;
+             });
+           },
+           "a dip or a step"},
+    kThinLayer{"layer.thickness",
+               [](const C&c, const CaseSource*) {
+                 return keys_of_layers(c, "thickness",
+                                       [](const LayerSpec& l) { return l.thickness < kThinnestMeshedLayer; });
+               },
+               "a layer thinner than 0.05 mm"},
+    kLayerThickness{"layer.thickness",
+                    [](const C&c, const CaseSource*text) { return given_in_layers(c, text, {"thickness"}); }},
+    kLayerModulus{"layer.young_ratio",
+                  [](const C&c, const CaseSource*text) {
+                    return given_in_layers(c, text, {"young_ratio", "young"});
+                  }},
+    kIncompressible{"*.poisson",
+                    [](const C&c, const CaseSource*) {
+                      Keys out = keys_of_layers(
+                          c, "poisson", [](const LayerSpec& l) { return l.material.poisson > kLargestMeshedPoisson; });
+                      if (c.rail_material.poisson > kLargestMeshedPoisson) out.emplace_back("material.rail.poisson");
+                      if (c.wheel_material.poisson > kLargestMeshedPoisson) out.emplace_back("material.wheel.poisson");
+                      return out;
+                    },
+                    "a Poisson's ratio above 0.495"},
+    kYieldStrength{"material.rail.yield_strength",
+                   [](const C&c) {
+                     return yields(c.rail_material) || yields(c.wheel_material) ||
+                            std::any_of(c.layers.begin(), c.layers.end(),
+                                        [](const LayerSpec& l) { return yields(l.material); });
+                   }},
+    kInitialStress{"material.rail.initial_stress",
+                   [](const C&c) {
+                     const auto given = [](const MaterialSpec& m) {
+                       return !m.strength.initial_stress.empty() || !m.strength.initial_stress_table.empty();
+                     };
+                     return c.run.plasticity && (given(c.rail_material) || given(c.wheel_material) ||
+                                                 std::any_of(c.layers.begin(), c.layers.end(),
+                                                             [&](const LayerSpec& l) { return given(l.material); }));
+                   },
+                   "stress from the start where materials yield"},
+    kFriction{"drive.friction_coefficient", [](const C&c) { return c.drive.friction_coefficient > 0; }},
+    kFrictionBeside{"drive.friction_coefficient",
+                    [](const C&c) {
+                      return !c.friction.lateral_table.empty() &&
+                             c.drive.friction_coefficient != largest_value(c.friction.lateral_table);
+                    }},
+    kTraction{"drive.traction_coefficient",
+              [](const C&c, const CaseSource*text) {
+                const bool force = text && text->has("drive.tractive_force");
+                const std::string key = force ? "drive.tractive_force" : "drive.traction_coefficient";
+                const bool asked =
+                    c.drive.traction_coefficient != DriveSpec{}.traction_coefficient || (text && text->has_origin(key));
+                return c.drive.traction().value_or(0) != 0 && asked ? Keys{key} : Keys{};
+              }},
+    kCreepageAlone{"drive.creepage",
+                   [](const C&c) {
+                     return c.transient.kind == TransientKind::rolling && c.drive.creepage &&
+                            c.transient.tractive_force.empty() && c.transient.traction_coefficient.empty();
+                   },
+                   "a creepage in a history"},
+    kLargeCreepage{"drive.creepage",
+                   [](const C&c) { return std::abs(c.drive.creepage.value_or(0)) > kLargestRunCreepage; },
+                   "a creepage beyond 0.1"},
+    kLargeLateralCreepage{
+        "drive.lateral_creepage",
+        [](const C&c) { return std::abs(c.drive.lateral_creepage.value_or(0)) > kLargestRunCreepage; },
+        "a creepage beyond 0.1"},
+    kFallingAtOnce{
+        "friction.law",
+        [](const C&c) { return c.friction.law != FrictionForm::coulomb && !(c.friction.memory_distance > 0); },
+        "friction that falls with slip at once"},
+    kFilmSoftening{"third_body.hardening", [](const C&c) { return c.third_body.hardening < 0; }, "a film that softens"},
+    kAtRest{"run.rolling = false",
+            [](const C&c) { return !c.run.rolling && c.transient.kind != TransientKind::shift; }},
+    kRollingDevice{"run.device = \"gpu\"",
+                   [](const C&c) { return c.run.rolling && c.run.device != ComputeDevice::cpu; }},
+    kWindow{"run.window", [](const C&c) { return c.run.rolling && c.run.window > 0; }},
+    kElastic{"run.plasticity = false", [](const C&c) { return !c.run.plasticity && c.life.passes == 0; }},
+    kLayerEnds{"layer.from | layer.to"},
+    kRollingColumns{
+        "transient.creepage | transient.lateral_creepage | transient.spin | transient.at_distance | "
+        "transient.distance"},
+    kLateralColumns{
+        "transient.lateral_force | transient.lateral_traction_coefficient | transient.lateral_creepage | "
+        "transient.lateral_displacement | transient.spin"},
+    kShiftColumns{"transient.displacement | transient.lateral_displacement"},
+    kStationaryGrid{
+        "passes.patch_cells | passes.patch_rows | passes.first_row | passes.window | "
+        "passes.window_tolerance"};
+
+using enum ClashRule;
+
+constexpr const char *kOneOut = "take one of them out", *kOut = "take it out",
+                     *kByBem = "take it out, or solve the case with `railstrata bem`",
+                     *kByRun = "take it out, or roll over it with `railstrata run`",
+                     *kCpu = "give run.device = \"cpu\"", *kNoWindow = "give run.window = \"0 mm\"",
+                     *kMixes = "averaging over the window would mix different sections of the rail",
+                     *kPoint = "leave it out, or give geometry.contact = \"point\"",
+                     *kFilmThickness = "give the film's thickness, e.g. third_body.thickness = \"20 um\"";
+constexpr const char *kStraight = "its wheel rolls straight on and level", *kAcross = "all places across are the same",
+                     *kUnknown = "displacements of distant points are not known in plane strain",
+                     *kNoFriction = "the wheel is pressed on without friction",
+                     *kLetRoll = "take it out, or give run.rolling = true",
+                     *kRolls = "a shift takes from [drive] its friction alone";
+
+constexpr Clash kClashes[] = {
+    // Load and drive
+    {"drive.creepage_of = \"wheel\"", excludes, "geometry.rail_radius",
+     "only creepages on a straight rail are converted", "give creepages of the contact"},
+    {"drive.creepage_of = \"wheel\"", excludes, "geometry.contact = \"line\"",
+     "only creepages of a patch are converted", "give creepages of the contact"},
+    {"drive.creepage_of = \"wheel\"", excludes, "transient.kind", "only steady creepages are converted",
+     "give creepages of the contact"},
+    {"drive.tractive_force | drive.lateral_force", excludes, "vehicle.approach",
+     "the load is a result, and may be too small for this force",
+     "give drive.traction_coefficient or lateral_traction_coefficient, which count over that load, or a creepage"},
+    {"drive.tractive_force | drive.lateral_force", excludes, "load.wheel_load",
+     "the force would count over the load of the case, not of the row",
+     "give a traction coefficient, which counts over the load of each row"},
+    {"transient.kind", excludes, "load", "a load collective needs steady rolling",
+     "take out [transient], or the rows of [[load]]"},
+    {"geometry.rail_radius", excludes, "geometry.roll", "the axles of a roller rig are parallel", kOneOut},
+    {"geometry.rail_radius", excludes, "geometry.curve_radius", "a roller is a straight track", kOneOut},
+
+    // Friction and third body
+    {"friction.law", needs, "friction.kinetic_coefficient", "friction falls to this coefficient",
+     "give the coefficient of fast slip, e.g. 0.4 times drive.friction_coefficient"},
+    {"friction.law", needs, "friction.half_velocity", "half of the fall is done at this slip velocity",
+     "give friction.half_velocity, e.g. \"1 m/s\""},
+    {"friction.kinetic_coefficient", needs, "friction.law", "a constant coefficient does not fall",
+     "take it out, or give friction.law = \"falling_exponential\" or \"falling_rational\""},
+    {"friction.half_velocity", needs, "friction.law", "a constant coefficient does not fall",
+     "take it out, or give friction.law = \"falling_exponential\" or \"falling_rational\""},
+    {kFrictionBeside, excludes, "friction.lateral_table", "the table gives the coefficients",
+     "take drive.friction_coefficient out"},
+    {"friction.lateral_table", excludes, "geometry.contact = \"line\"", kAcross,
+     "give drive.friction_coefficient instead"},
+    {"friction.lateral_coefficient", excludes, "friction.law", "that law counts slip the same along and across",
+     kOneOut},
+    {"friction.lateral_coefficient", excludes, "third_body.yield_shear",
+     "that law counts slip the same along and across", kOneOut},
+    {"friction.lateral_coefficient", needs, kFriction, "an ellipse of friction has two axes",
+     "give drive.friction_coefficient above 0"},
+    {"friction.temperature_table | third_body.temperature_table", needs, "friction.rail_temperature",
+     "the bodies come into the contact with a temperature",
+     "give it with the zero of the table: \"20 K\" if that is 0 °C"},
+    {"friction.temperature_table | third_body.temperature_table", needs, "friction.wheel_temperature",
+     "the bodies come into the contact with a temperature",
+     "give it with the zero of the table: \"20 K\" if that is 0 °C"},
+    {"friction.rail_temperature", needs, "friction.temperature_table | third_body.temperature_table",
+     "nothing depends on the temperature",
+     "give friction.temperature_table or third_body.temperature_table, or take it out"},
+    {"friction.wheel_temperature", needs, "friction.temperature_table | third_body.temperature_table",
+     "nothing depends on the temperature",
+     "give friction.temperature_table or third_body.temperature_table, or take it out"},
+    {"third_body.thickness", needs, "third_body.shear_modulus", "a film is elastic in shear",
+     "give the film's shear modulus, e.g. \"100 MPa\""},
+    {"third_body.shear_modulus", needs, "third_body.thickness", "", kFilmThickness},
+    {"third_body.yield_shear", needs, "third_body.thickness", "", kFilmThickness},
+    {"third_body.modulus_by_pressure", needs, "third_body.thickness", "", kFilmThickness},
+    {"third_body.temperature_table", needs, "third_body.thickness", "", kFilmThickness},
+    {"third_body.hardening", needs, "third_body.yield_shear", "", "give the stress at which the film begins to yield"},
+    {"third_body.yield_by_pressure", needs, "third_body.yield_shear", "",
+     "give the stress at which the film begins to yield without pressure"},
+    {kFilmSoftening, needs, "third_body.residual_shear", "softening ends at this strength",
+     "give the strength that much shear leaves, e.g. a tenth of yield_shear"},
+    {"third_body.residual_shear", needs, kFilmSoftening, "", "take it out, or give a third_body.hardening below 0"},
+    {"third_body.thickness", excludes, kFallingAtOnce, "there is no steady state: it would jump",
+     "give friction.memory_distance, e.g. \"14 um\", or take friction.law = \"coulomb\""},
+
+    // Line contact
+    {"geometry.contact = \"line\"", needs, "geometry.line_length", "the length bears the load",
+     "give e.g. line_length = \"20 mm\""},
+    {"geometry.line_length", needs, "geometry.contact = \"line\"", "a patch has a length of its own",
+     "take it out, or give contact = \"line\""},
+    {kWheelProfile, excludes, "geometry.contact = \"line\"", "a cylinder touches a plane",
+     "give wheel_profile = \"flat\""},
+    {kRailProfile, excludes, "geometry.contact = \"line\"", "a cylinder touches a plane",
+     "give rail_profile = \"flat\""},
+    {kCant, excludes, "geometry.contact = \"line\"", kStraight, "give 0"},
+    {"geometry.roll", excludes, "geometry.contact = \"line\"", kStraight, "give 0"},
+    {"geometry.yaw", excludes, "geometry.contact = \"line\"", kStraight, "give 0"},
+    {"geometry.lateral_shift", excludes, "geometry.contact = \"line\"", kAcross, "give 0"},
+    {"geometry.curve_radius", excludes, "geometry.contact = \"line\"", kStraight, kPoint},
+    {"drive.lateral_creepage", excludes, "geometry.contact = \"line\"", kStraight, kPoint},
+    {"drive.lateral_traction_coefficient", excludes, "geometry.contact = \"line\"", kStraight, kPoint},
+    {"drive.spin", excludes, "geometry.contact = \"line\"", kStraight, kPoint},
+    {"vehicle.approach", excludes, "geometry.contact = \"line\"", "distant points come together without end",
+     "give a load"},
+    {"passes.lateral_positions", excludes, "geometry.contact = \"line\"", kAcross, kPoint},
+    {"passes.lateral_deviation", excludes, "geometry.contact = \"line\"", kAcross, kPoint},
+    {"transient.creepage | transient.displacement", excludes, "geometry.contact = \"line\"", kUnknown,
+     "give transient.tractive_force or traction_coefficient"},
+    {kCreepageAlone, excludes, "geometry.contact = \"line\"", kUnknown,
+     "give transient.tractive_force or traction_coefficient"},
+    {kLateralColumns, excludes, "geometry.contact = \"line\"", kStraight, kPoint},
+
+    // Histories
+    {"transient.kind", excludes, "run.rolling = false", "a static case has no friction",
+     "take run.rolling out, or transient.kind"},
+    {"transient.kind", needs, kFriction, "without friction nothing changes in time",
+     "raise it above zero, or take transient.kind out"},
+    {"vehicle.approach", excludes, "transient.kind", "a history is followed under loads",
+     "give vehicle.wheel_load, or the rows transient.wheel_load"},
+    {"friction.law", excludes, "transient.kind = \"shift\"", "the slip of a shift has no velocity",
+     "give friction.law = \"coulomb\", or transient.kind = \"rolling\""},
+    {"friction.temperature_table | third_body.temperature_table", excludes, "transient.kind = \"shift\"",
+     "a shift takes no time in which heat is made", "take the table out, or let it roll"},
+    {"irregularity", excludes, "transient.kind = \"shift\"", "a shift does not roll over it",
+     "take the irregularities out, or give transient.kind = \"rolling\""},
+    {kShiftColumns, excludes, "transient.kind = \"rolling\"", "what rolls has creepages instead",
+     "give creepage or lateral_creepage, or kind = \"shift\""},
+    {kRollingColumns, excludes, "transient.kind = \"shift\"", "a shift does not roll",
+     "give displacements or forces, or kind = \"rolling\""},
+    {"transient", idle_without, "transient.kind", "", "give transient.kind = \"rolling\" or \"shift\""},
+    {"transient.increments", idle_without, "transient.kind = \"shift\"", "what rolls goes on by one cell a step", ""},
+    {"drive.creepage", idle_with, "transient.kind = \"shift\"", kRolls, ""},
+    {kTraction, idle_with, "transient.kind = \"shift\"", kRolls, ""},
+    {"drive.lateral_creepage", idle_with, "transient.kind = \"shift\"", kRolls, ""},
+    {"drive.lateral_traction_coefficient", idle_with, "transient.kind = \"shift\"", kRolls, ""},
+    {"drive.spin", idle_with, "transient.kind = \"shift\"", kRolls, ""},
+
+    // Layers, passes, lives
+    {kLayerThickness, excludes, "layer.young_table", "the layer ends at the table's last depth", "leave thickness out"},
+    {kLayerModulus, excludes, "layer.young_table", "the table gives the modulus", "keep one of them"},
+    {"layer.grading_tolerance", idle_without, "layer.young_table", "a uniform layer is not cut into others", ""},
+    {"passes.jump = \"auto\"", excludes, "passes.lateral_deviation",
+     "wheels that scatter never repeat, so no round shows the next",
+     "take passes.lateral_deviation out, or give passes.lateral_positions alone"},
+    {"grinding.every", needs, "grinding.depth", "",
+     "give both, e.g. every = \"15 Mt\" and depth = \"0.2 mm\", or none"},
+    {"grinding.depth", needs, "grinding.every", "",
+     "give both, e.g. every = \"15 Mt\" and depth = \"0.2 mm\", or none"},
+
+    // Steps and machines of a run
+    {"mesh.element = \"one_point\"", excludes, "run.plasticity = true",
+     "elements with one point stay too stiff after yield", "give mesh.element = \"full\""},
+    {"run.time_step_method = \"local\"", excludes, "run.plasticity = true",
+     "rows with inner steps keep no plastic strain", "give run.time_step_method = \"mass_scaling\" or \"auto\""},
+    {"run.device = \"gpu\"", excludes, "run.time_step_method = \"local\"", "the GPU takes all rows at one step", kCpu},
+    {"run.device = \"gpu\"", excludes, "run.plasticity = true", "materials that yield are computed on processors",
+     kCpu},
+    {"run.device = \"gpu\"", excludes, "friction.lateral_table", "the GPU has one coefficient for all places", kCpu},
+    {"track.preset", excludes, "run.device = \"gpu\"", "pads and sleepers are computed on processors", kCpu},
+    {"track.preset", excludes, "run.time_step_method = \"local\"", "inner steps need a foot that is held",
+     "give run.time_step_method = \"auto\""},
+    {"track.preset", excludes, "geometry.rail_radius", "a roller turns about a shaft", kOneOut},
+    {"track", needs, "track.preset", "without a preset the foot of the rail is held",
+     "give track.preset = \"delft\", \"medium\" or \"cn60\"; it supplies the defaults of the other keys"},
+    {"contact.penalty_scale", idle_without, "contact.method = \"penalty\"", "", ""},
+    {"mesh.hourglass_coefficient", idle_without, "mesh.element = \"one_point\"", "", ""},
+    {"geometry.block_width", idle_without, "geometry.rail_shape = \"block\"", "", ""},
+    {"geometry.block_height", idle_without, "geometry.rail_shape = \"block\"", "", ""},
+    {"run.device = \"gpu\"", idle_with, "run.rolling = false", "only rolling is computed on a GPU", ""},
+    {"run.plastic_depth", idle_without, "run.plasticity = true", "", ""},
+    {"run.plastic_width", idle_without, "run.plasticity = true", "", ""},
+    {"*.hardening | *.isotropic_hardening | *.kinematic_hardening", idle_with, kElastic,
+     "`run` and `bem` compute elastically, `railstrata passes` and `railstrata material` use it",
+     "give run.plasticity = true to `run`"},
+    {"drive.creepage", idle_with, kAtRest, kNoFriction, kLetRoll},
+    {kTraction, idle_with, kAtRest, kNoFriction, kLetRoll},
+    {"drive.lateral_creepage", idle_with, kAtRest, kNoFriction, kLetRoll},
+    {"drive.lateral_traction_coefficient", idle_with, kAtRest, kNoFriction, kLetRoll},
+    {"drive.spin", idle_with, kAtRest, kNoFriction, kLetRoll},
+    {"passes.traction_coefficients", idle_with, kAtRest, kNoFriction, kLetRoll},
+
+    // The finite elements
+    {"vehicle.approach", excludes, uses::kFiniteElements, "masses press the wheel down, and the approach follows",
+     kByBem},
+    {"transient.kind", excludes, uses::kFiniteElements, "one drive leads to the wanted positions, with inertia",
+     kByBem},
+    {"geometry.contact = \"line\"", excludes, uses::kFiniteElements, "bodies end across the rail, and so do patches",
+     kByBem},
+    {"geometry.roll", excludes, uses::kFiniteElements, "the wheel is meshed upright", kByBem},
+    {kHollowRail, excludes, uses::kFiniteElements, "there is no axle below a hollow rail", kByBem},
+    {kThinLayer, excludes, uses::kFiniteElements, "so thin elements would need tiny time steps", kByBem},
+    {kIncompressible, excludes, uses::kFiniteElements, "elements lock; to the contact the difference is small", kByBem},
+    {"run.plasticity = true", needs, kYieldStrength, "nothing could yield",
+     "give material.rail.yield_strength, or a ready set: material.rail.hardening = \"R260\"", &uses::kFiniteElements},
+    {"geometry.rail_shape = \"rail\"", excludes, "geometry.rail_radius", "web and foot do not close to a ring",
+     "give rail_shape = \"block\": a disc as wide as its profile, block_height thick down to its bore",
+     &uses::kFiniteElements},
+    {kCant, excludes, "geometry.rail_radius", "both axles are parallel",
+     "give cant = 0, or solve the case with `railstrata bem`", &uses::kFiniteElements},
+    {"run.plasticity = true", excludes, "geometry.rail_radius", "elements of a ring that turns stay elastic", kOut,
+     &uses::kFiniteElements},
+    {"run.time_step_method = \"local\"", excludes, "geometry.rail_radius", "inner steps need a straight rail",
+     "give run.time_step_method = \"auto\"", &uses::kFiniteElements},
+    {"geometry.rail_radius", excludes, "irregularity", "heights lie along a straight rail", kByBem,
+     &uses::kFiniteElements},
+    {"geometry.rail_radius", excludes, kLayerEnds, "a roller is the same all round", kOneOut, &uses::kFiniteElements},
+    {"geometry.rail_radius", excludes, "layer.unbonded", "a roller is the same all round", kOneOut,
+     &uses::kFiniteElements},
+    {"geometry.rail_radius", excludes, "stretch", "a roller is the same all round", kOneOut, &uses::kFiniteElements},
+    {"run.device = \"gpu\"", excludes, "irregularity", "irregularities are not implemented on the GPU", kCpu,
+     &uses::kFiniteElements},
+    {"run.device = \"gpu\"", excludes, kLayerEnds, "the GPU supports uniform layers only", kCpu,
+     &uses::kFiniteElements},
+    {"run.device = \"gpu\"", excludes, "layer.unbonded", "the GPU supports bonded layers only", kCpu,
+     &uses::kFiniteElements},
+    {"run.device = \"gpu\"", excludes, "stretch", "the GPU supports uniform bodies only", kCpu, &uses::kFiniteElements},
+    {kWindow, excludes, "irregularity", kMixes, kNoWindow, &uses::kFiniteElements},
+    {kWindow, excludes, kLayerEnds, kMixes, kNoWindow, &uses::kFiniteElements},
+    {kWindow, excludes, "layer.unbonded", kMixes, kNoWindow, &uses::kFiniteElements},
+    {kWindow, excludes, "stretch", kMixes, kNoWindow, &uses::kFiniteElements},
+    {kJoint, needs, "track.preset", "its forces are made by the springs and masses of a track",
+     "give [track] preset = \"delft\", or kind = \"indentation\" for a short one, or solve the case with "
+     "`railstrata bem`, under a given load",
+     &uses::kFiniteElements},
+    {"run.rolling = false", excludes, "layer.unbonded", "the static wheel does not touch the unbonded stretch",
+     "give run.rolling = true, or take unbonded out", &uses::kFiniteElements},
+    {"run.time_step_method = \"mass_scaling\"", excludes, "layer.unbonded",
+     "both sides of the interface need their own masses", "give run.time_step_method = \"uniform\"",
+     &uses::kFiniteElements},
+    {"run.time_step_method = \"local\"", excludes, "layer.unbonded", "both sides of the interface move at one step",
+     "give run.time_step_method = \"uniform\"", &uses::kFiniteElements},
+    {kInitialStress, excludes, kLayerEnds, "stress from the start is the same all along", kOut, &uses::kFiniteElements},
+    {kFallingAtOnce, excludes, uses::kRollingElements,
+     "surfaces of finite elements chatter on a law that follows slip at once",
+     "give friction.memory_distance, 10 to 50 um for a wheel on a rail, or solve the case with `railstrata bem`"},
+    {kFilmSoftening, excludes, uses::kRollingElements, "a step would have several answers", kByBem},
+    {"friction.temperature_table | third_body.temperature_table", excludes, uses::kRollingElements,
+     "heat that flows into the bodies is not computed", kByBem},
+    {"third_body.yield_by_pressure", excludes, uses::kRollingElements, "each node has one film for its whole way",
+     kByBem},
+    {"third_body.modulus_by_pressure", excludes, uses::kRollingElements, "each node has one film for its whole way",
+     kByBem},
+    {"geometry.curve_radius", excludes, uses::kRollingElements, "the track is straight", kByBem},
+    {kLargeCreepage, excludes, uses::kRollingElements, "creepages reach to 0.1", kByBem},
+    {kLargeLateralCreepage, excludes, uses::kRollingElements, "the wheel moves sideways on its way, by up to 0.1",
+     kByBem},
+    {"drive.spin", excludes, uses::kRollingElements, "spin follows from the geometry", kByBem},
+
+    // Half-spaces
+    {"track.preset", excludes, uses::kHalfSpaces, "half-spaces have no inertia, and nothing below them", kByRun},
+    {"layer.unbonded", excludes, uses::kHalfSpaces, "layers of half-spaces are bonded", kByRun},
+    {kLayerEnds, excludes, uses::kHalfSpaces, "layers of half-spaces are endless", kByRun},
+    {"stretch", excludes, uses::kHalfSpaces, "half-spaces are the same all along", kByRun},
+    {"irregularity", excludes, uses::kSteadyRolling,
+     "steady rolling needs a rail and a wheel that are the same all along",
+     "take it out; half-spaces roll over it with transient.kind = \"rolling\", the finite elements with `railstrata "
+     "run`"},
+    {kRollingDevice, idle_with, uses::kHalfSpaces, "half-spaces are computed on processors", ""},
+
+    // Commands
+    {"geometry.contact = \"line\"", excludes, uses::kCreepCurve, "the fast theories beside it need ellipses",
+     "take `railstrata sweep` over drive.creepage, or geometry.contact = \"point\""},
+    {uses::kCreepCurve, needs, kFriction, "", "give drive.friction_coefficient above 0"},
+    {"transient.kind", idle_with, uses::kCreepCurve, "it assumes steady rolling", ""},
+    {kAtRest, idle_with, uses::kCreepCurve, "it assumes steady rolling, with the friction of the case", ""},
+    {"transient.kind", idle_with, uses::kCreepTable, "it assumes steady rolling", ""},
+    {kAtRest, idle_with, uses::kCreepTable, "it assumes steady rolling, with the friction of the case", ""},
+    {"transient.kind", excludes, uses::kPasses, "they roll steadily", "take out [transient]"},
+    {kAtRest, idle_with, uses::kPasses, "passes roll", ""},
+    {kElastic, overlooked, uses::kPasses, "", ""},
+    {"track.preset", excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
+    {"irregularity", excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
+    {kLayerEnds, excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
+    {"layer.unbonded", excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
+    {"stretch", excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
+    {"passes.jump = \"auto\"", excludes, uses::kRolledPasses, "every pass is rolled",
+     "take it out, or use --engine bem"},
+    {kStationaryGrid, excludes, uses::kRolledPasses, "the mesh is the grid",
+     "take it out and give mesh.element_size, or use --engine bem"},
+    {uses::kCollective, needs, "load", "",
+     "write rows of [[load]], each with passages and what differs from the case, or name a table with collective.file "
+     "= \"loads.csv\""},
+    {"run.rolling = false", excludes, uses::kCollective, "a wheel at rest makes no wear and no fatigue",
+     "take out run.rolling"},
+    {kFlangeOnArc, excludes, uses::kWearLoop, "a worn arc is a list of points without a gauge face for the flange",
+     "take a rail's profile, or an arc for the wheel too"},
+    {"transient.kind", excludes, uses::kExplorer, "it shows steady rolling",
+     "leave transient.kind out, or use `railstrata bem`"},
+    {"geometry.rail_radius", excludes, uses::kWheelset, "a wheelset rolls on straight rails", kOut},
+    {"geometry.contact = \"line\"", excludes, uses::kWheelset, "both wheels touch in patches", kOut},
+    {"run.plasticity = true", excludes, uses::kElasticShakedown, "the theorems of shakedown judge elastic stresses",
+     "leave run.plasticity out; `railstrata run` follows yielding itself"},
+    {uses::kReceptance, needs, "track.preset", "the foot of this rail is held",
+     "give [track] preset = \"delft\", \"medium\" or \"cn60\""},
+    {"track.preset", excludes, uses::kDeck, "decks hold the foot of the rail", "take [track] out"},
+    {"geometry.rail_radius", excludes, uses::kDeck, "decks have a rail at rest and a wheel that travels", kOut},
+    {"transient.kind", excludes, uses::kContactResult, "one result cannot hold a history",
+     "export a steady case: --set transient.kind=\"none\""},
+    {"geometry.contact = \"line\"", excludes, uses::kContactResult, "a result holds a patch",
+     "export a case with geometry.contact = \"point\""},
+    {"layer", excludes, uses::kContactInput, "", "compare with the result (.mat) alone"},
+    {"geometry.rail_radius", excludes, uses::kContactInput, "", "compare with the result (.mat) alone"},
+    {"friction.law", excludes, uses::kContactInput, "", "compare with the result (.mat) alone"},
+    {"third_body.thickness", excludes, uses::kContactInput, "", "compare with the result (.mat) alone"},
+    {"geometry.rail_radius", excludes, uses::kRanks, "MPI exchange is implemented for straight rails only",
+     "run the case in one process"},
+    {"layer.unbonded", excludes, uses::kRanks, "both sides of the interface meet in one process",
+     "run the case in one process"},
+    {"run.device = \"gpu\"", excludes, uses::kRanks, "several ranks share a run on processors only",
+     "start one rank, or give run.device = \"cpu\""},
+};
+
+}  // namespace
+
+std::span<const Clash> clash_table() { return kClashes; }
+
+}  // namespace railstrata

@@ -1,0 +1,16 @@
+#pragma once
+// What an engine or a command does not support of a case: the pairs of the table of clashes (clashes.hpp), and ranges
+// of numbers that are narrower there.
+#include <vector>
+
+#include "rules/clashes.hpp"
+
+namespace railstrata {
+
+/// Empty for a case that it takes.
+std::vector<Refusal> refused_by(const Use& use, const CaseSpec& spec);
+
+/// Throws CaseError with all of them, each with its key as its place.
+void require_support(const Use& use, const CaseSpec& spec);
+
+}  // namespace railstrata
