@@ -2,18 +2,10 @@
 # Debian's folders. Targets and their variables stand in cmake/library.cmake.
 set(package_build ${CMAKE_BINARY_DIR}/package)
 
-# Manual pages and completion, written by the program.
-set(texts ${CMAKE_BINARY_DIR}/texts)
 find_program(GZIP gzip REQUIRED)
-add_custom_command(OUTPUT ${texts}/stamp VERBATIM DEPENDS railstrata_program
-  COMMAND ${CMAKE_COMMAND} -E rm -rf ${texts}
-  COMMAND ${CMAKE_COMMAND} -E make_directory ${texts}/completions
-  COMMAND railstrata_program manual --out ${texts}/man
-  COMMAND sh -c "${GZIP} -9n ${texts}/man/man1/*.1 ${texts}/man/man5/*.5"
-  COMMAND sh -c "$<TARGET_FILE:railstrata_program> completion bash > ${texts}/completions/railstrata"
-  COMMAND ${CMAKE_COMMAND} -E touch ${texts}/stamp
-  COMMENT "Writing manual pages and completion")
-add_custom_target(railstrata_texts ALL DEPENDS ${texts}/stamp)
+configure_file(${CMAKE_SOURCE_DIR}/packaging/railstrata.1.in ${package_build}/railstrata.1 @ONLY)
+execute_process(COMMAND sh -c "${GZIP} -9nc railstrata.1 > railstrata.1.gz" WORKING_DIRECTORY ${package_build}
+  COMMAND_ERROR_IS_FATAL ANY)
 
 # Of a part of the files: its component. Those of Debian's layout are installed on demand alone.
 macro(railstrata_part name)
@@ -82,8 +74,7 @@ function(railstrata_install_data layout)
   if(NOT layout)  # Debian has them under names of its own
     install(FILES ${CMAKE_SOURCE_DIR}/LICENSE ${CMAKE_SOURCE_DIR}/CHANGELOG.md DESTINATION ${doc} ${part})
   endif()
-  install(DIRECTORY ${texts}/man/ DESTINATION ${CMAKE_INSTALL_DATADIR}/man ${part})
-  install(FILES ${texts}/completions/railstrata DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions ${part})
+  install(FILES ${package_build}/railstrata.1.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/man/man1 ${part})
 endfunction()
 
 function(railstrata_install_python layout libdir folder)

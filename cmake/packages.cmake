@@ -1,6 +1,6 @@
 # Debian packages by `cpack -G DEB` in a build folder (packaging/README.md):
 #
-#   railstrata               the program, its commands, cases and profiles, manual, completion
+#   railstrata               the program, its commands, cases and profiles, manual page
 #   librailstrata0.3         librailstrata.so and CONTACT's interface
 #   librailstrata-dev        headers, CMake package, pkg-config
 #   python3-railstrata       the Python package

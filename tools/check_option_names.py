@@ -3,7 +3,7 @@
 
 usage: check_option_names.py RAILSTRATA FOLDER...
 
-RAILSTRATA is the program: its `schema --json-schema` lists tables, keys and the words of choices.
+RAILSTRATA is the program: its `info --schema` lists tables, keys and the words of choices.
 """
 import json
 import pathlib
@@ -89,7 +89,7 @@ def self_test():
 def main():
     self_test()
     program, folders = sys.argv[1], [pathlib.Path(word) for word in sys.argv[2:]]
-    schema = json.loads(subprocess.run([program, "schema", "--json-schema"], capture_output=True, text=True,
+    schema = json.loads(subprocess.run([program, "info", "--schema"], capture_output=True, text=True,
                                        check=True).stdout)
     found = check(folders, keys_of(schema))
     print("\n".join(found) or f"{', '.join(map(str, folders))}: every option that a text names is there")

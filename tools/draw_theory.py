@@ -104,7 +104,7 @@ def draw_cut(axes, cells, material, axis, place, colours):
 def finite_elements(program, folder):
     with tempfile.TemporaryDirectory() as scratch:
         out = pathlib.Path(scratch) / "mesh"
-        subprocess.run([program, "mesh", ROOT / "cases/quick", "--out", out, "--quiet"], check=True,
+        subprocess.run([program, "check", ROOT / "cases/quick", "--mesh", "--out", out, "--quiet"], check=True,
                        stdout=subprocess.DEVNULL)
         bodies = [(hexahedra(out / f"{name}.vtu"), colours)
                   for name, colours in (("rail", (STEEL, LAYER)), ("wheel", (WHEEL, LAYER)))]

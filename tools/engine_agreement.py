@@ -5,7 +5,8 @@
                               [--csv agreement.csv] [--element-mm 1]
 
 Differences in per cent of the half-space value, with the limits of the study's page, asked of the program
-(`railstrata schema --results`). --equal-cells: a table of the same half-space cases on cells as large as the elements;
+(`railstrata info --schema --results`). --equal-cells: a table of the same half-space cases on cells as large as the
+elements;
 a q_max that differs from the study's fine cells and agrees there is a matter of resolution. The von Mises stress is the
 largest deeper than an element, border of the layer included; in brackets, and not judged, where the half-space's
 largest lies shallower. Prints a Markdown table, one row a case. Exit code 1 if a case has no row by one of the engines.
@@ -24,7 +25,7 @@ COLUMNS = {"p_max": "p_max_MPa", "patch_length": "patch_length_mm", "q_max": "q_
 
 def limits(program):
     """Per cent by column, as the program has them."""
-    checks = json.loads(subprocess.run([program, "schema", "--results"], check=True, capture_output=True,
+    checks = json.loads(subprocess.run([program, "info", "--schema", "--results"], check=True, capture_output=True,
                                        text=True).stdout)["checks"]
     return {COLUMNS[c["key"]]: 100 * c["fem_limit"] for c in checks if c["kind"] == "engines"}
 

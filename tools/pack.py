@@ -192,7 +192,7 @@ def readme(name):
 
 Unpack it anywhere and run bin/railstrata:
 
-    {name}/bin/railstrata demo
+    {name}/bin/railstrata run cases/quick
     {name}/bin/railstrata bem cases/quick
 
 Cases and profiles are in share/railstrata, the documentation in share/doc/railstrata, with the licences of all that is

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <map>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
@@ -26,6 +27,11 @@ const std::map<std::string, ExportTarget> kTargets{{"calculix", ExportTarget::ca
                                                    {"abaqus", ExportTarget::abaqus},
                                                    {"lsdyna", ExportTarget::lsdyna},
                                                    {"contact", ExportTarget::contact}};
+
+struct ExportOptions {
+  std::string to;         ///< --to: the word of a program
+  bool friction = false;  ///< --friction: in the deck's contact
+};
 
 /// Names of files with their contents, and what each is.
 struct Files {
@@ -62,11 +68,11 @@ void require_steady_patch(const CaseSpec& spec) {
 }
 
 /// Options of the other kind of program.
-void require_used(const CommandOptions& options, ExportTarget target) {
-  if (target == ExportTarget::contact && options.export_to.friction)
+void require_used(const ExportOptions& wanted, const CommandOptions& options, ExportTarget target) {
+  if (target == ExportTarget::contact && wanted.friction)
     throw CaseError("--friction: CONTACT's files have the friction of the half-space solution", "leave it out");
   if (target != ExportTarget::contact && !options.cell.empty())
-    throw CaseError(fmt::format("--cell: the meshes for {} have no cells", options.export_to.to),
+    throw CaseError(fmt::format("--cell: the meshes for {} have no cells", wanted.to),
                     "leave it out; the meshes' fineness is mesh.element_size");
 }
 
@@ -95,10 +101,9 @@ Files contact_result(const LoadedCase& loaded, const std::string& cell) {
 
 std::vector<std::string> export_words() { return {"calculix", "abaqus", "lsdyna", "contact"}; }
 
-ExitCode command_export(const CommandOptions& options) {
-  const ExportOptions& wanted = options.export_to;
+ExitCode command_export(const ExportOptions& wanted, const CommandOptions& options) {
   const ExportTarget target = kTargets.at(wanted.to);
-  require_used(options, target);
+  require_used(wanted, options, target);
   const LoadedCase loaded = load_case_of(options);
   const std::filesystem::path out = output_folder_of(options, loaded, "-" + wanted.to);
   const Files files =
@@ -116,28 +121,28 @@ ExitCode command_export(const CommandOptions& options) {
   return ExitCode::ok;
 }
 
-void declare_export(CLI::App& sub, CommandOptions& options) {
+CommandWork declare_export(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<ExportOptions>();
   sub.add_option("case", options.case_file, "Case file, or a folder with case.toml: a case's or a result's")
       ->required();
   add_set(sub, options, "Override a key of the case; once for each key");
-  sub.add_option("--to", options.export_to.to, "The program that reads it")
-      ->check(CLI::IsMember(export_words()))
-      ->required();
+  sub.add_option("--to", own->to, "The program that reads it")->check(CLI::IsMember(export_words()))->required();
   add_output(sub, options, "results/<case name>-<program>");
-  sub.add_flag("--friction", options.export_to.friction,
+  sub.add_flag("--friction", own->friction,
                "abaqus, calculix, lsdyna: the contact has the case's friction coefficient (default: none, as in the "
                "preload here)");
   add_cell(sub, options);
+  return [own, &options] { return command_export(*own, options); };
 }
 
 }  // namespace
 
-const Command kExportCommand{
+extern const Command kExportCommand{
     "export",
     "The case in the files of other programs: mesh and static preload for Abaqus, CalculiX and LS-DYNA; case and "
     "half-space result for CONTACT",
     "Examples:\n  railstrata export cases/quick --to calculix --out /tmp/quick-ccx\n  railstrata export "
     "cases/verification/hertz_sphere.toml --to contact\n",
-    declare_export, command_export};
+    declare_export};
 
 }  // namespace railstrata

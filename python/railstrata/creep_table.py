@@ -19,7 +19,7 @@ Numbers = Union[float, Array]
 
 
 class CreepTable:
-    """A creep-force table of `railstrata creep-table` (docs/creep-table.md): numbers over axes, interpolated between,
+    """A creep-force table of `railstrata creep --axis` (docs/creep-table.md): numbers over axes, interpolated between,
     as rs.open_table of its creep_table.h5 gives it.
 
         table.at(creepage_x=-0.001, creepage_y=0)["force_x"]

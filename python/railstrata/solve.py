@@ -83,7 +83,7 @@ def bem(
 
 
 def shakedown(case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0) -> BemResult:
-    """Load factors of shakedown of a case by half-spaces, at every level (`railstrata shakedown`); some seconds.
+    """Load factors of shakedown of a case by half-spaces, at every level (`railstrata bem --maps`); some seconds.
 
     The case must give strengths (yield_strength or grade). `result.shakedown` has the factors by body and zone.
     """

@@ -33,7 +33,7 @@ case " $* " in
   *" --help "* | *" --cell "* | " run --resume "*) ;;
   " python "*) shift; exec /usr/bin/python3 "$@" ;;
   " run "* | *" --engine fem "*) set -- "$@" {sets} ;;
-  " bem "* | " passes "* | " shakedown "* | " sweep "* | " creep-curve "* | " creep-table "* | " collective "*)
+  " bem "* | " passes "* | " creep "* | " sweep "* | " collective "*)
     set -- "$@" --cell "{cell}" ;;
 esac
 {binary} "$@" || {{ code=$?; test $code = 1 || exit $code; }}

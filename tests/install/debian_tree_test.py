@@ -48,7 +48,8 @@ def library_first(tree, debs):
 def the_program(tree):
     tree.run("cd /root && railstrata --version && railstrata bem cases/quick --cell '1 mm' --out results/quick")
     assert (tree.folder / "root/results/quick/report.html").stat().st_size > 100000
-    tree.run("cd /root && railstrata explore cases/quick --out explore.html && railstrata demo --out results/demo")
+    tree.run("cd /root && railstrata explore cases/quick --out explore.html")
+    tree.run("cd /root && railstrata run cases/quick --out results/demo")
     assert (tree.folder / "root/results/demo/summary.json").exists()
     assert "cell" in tree.run("railstrata bem --help")
 

@@ -115,7 +115,7 @@ class FrontDoor(unittest.TestCase):
 
     def test_the_demo_goes_through_the_program_in_the_folder_of_the_caller(self):
         out = self.call("demo", "--out", "here")
-        self.assertEqual(out.stdout, "program: demo --out here\n", out.stderr)
+        self.assertEqual(out.stdout, f"program: run {self.root}/cases/quick --out here\n", out.stderr)
         self.assertFalse((self.root / "results").exists())
 
 

@@ -176,7 +176,7 @@ class Tarball(Promises, unittest.TestCase):
 
     def test_a_creep_table_is_written_by_hdf5(self):
         words = ["--axis", "creepage_x=-0.001,0,0.001", "--out", FOLDER / "table"]
-        done(self.tree / "bin/railstrata", "creep-table", "cases/quick", "--cell", "2 mm", *words, cwd=FOLDER)
+        done(self.tree / "bin/railstrata", "creep", "cases/quick", "--cell", "2 mm", *words, cwd=FOLDER)
         self.assertEqual((FOLDER / "table/creep_table.h5").read_bytes()[:4], b"\x89HDF")
 
     def test_texts_headers_and_examples_are_there(self):

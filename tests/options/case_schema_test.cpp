@@ -17,7 +17,7 @@ TEST(CaseReference, ThePageInDocsIsTheOneTheProgramWrites) {
   std::ostringstream text;
   text << file.rdbuf();
   EXPECT_EQ(text.str(), case_reference_markdown())
-      << "write it again: ./railstrata schema --markdown > docs/case-reference.md";
+      << "write it again: ./railstrata info --schema --markdown > docs/case-reference.md";
 }
 
 TEST(CaseSchema, HasEveryOptionAndRefusesOthers) {

@@ -162,8 +162,9 @@ class Folders(FromOutside):
         out.mkdir()
         (out / "case.toml").write_text("mine")
         (out / "report.html").write_text("mine")
-        commands = [["run", case], ["bem", case], ["mesh", case], ["sweep", case, "--vary", "drive.speed=20 m/s"],
-                    ["creep-curve", case, "--points", "2", "--cell", "3 mm"], ["compare", results, results],
+        commands = [["run", case], ["bem", case], ["check", case, "--mesh"],
+                    ["sweep", case, "--vary", "drive.speed=20 m/s"],
+                    ["creep", case, "--points", "2", "--cell", "3 mm"], ["report", results, results],
                     ["study", study]]
         for words in commands:
             with self.subTest(words[0]):
@@ -244,7 +245,8 @@ class DuringTheRun(FromOutside):
                          max(s["von_mises_max"]["value_Pa"] for s in summary["stress"]["rail"].values() if s
                              and s["von_mises_max"]) > 500e6)
         self.assertTrue(names)
-        words = {row["key"]: row["name"] for row in json.loads(railstrata("schema", "--results")[1])["checks"]}
+        reference = json.loads(railstrata("info", "--schema", "--results")[1])
+        words = {row["key"]: row["name"] for row in reference["checks"]}
         for name in names:
             self.assertIn(f"warn   {words[name]}", out)
 

@@ -141,7 +141,7 @@ class Edited(FromOutside):
         self.assertRegex(err, r"warning: checks of the page: 1 of \d+ checks fails: Case unchanged since the run\n")
         self.assertFalse(self.checks()["case_edited"]["ok"])
         self.assertIn("case.toml was changed after the run",
-                      self.messages_of("compare", self.out, self.out, "--out", self.folder / "c"))
+                      self.messages_of("report", "--no-report", self.out, self.out, "--out", self.folder / "c"))
 
     def doubted(self, text):
         err = self.messages_of("report", self.out, code=1)
@@ -149,7 +149,8 @@ class Edited(FromOutside):
         self.assertRegex(err, r"warning: checks of the page: \d of \d+ checks fails?: ")
         self.assertFalse(self.checks()["summary_contradicted"]["ok"])
         self.assertIn(f"warning: {self.out}: {text}",
-                      self.messages_of("compare", self.out, self.out, "--force", "--out", self.folder / "c"))
+                      self.messages_of("report", "--no-report", self.out, self.out, "--force", "--out",
+                                       self.folder / "c"))
 
     def test_a_check_that_is_said_to_hold_beyond_its_limit_fails(self):
         summary = json.loads((self.out / "summary.json").read_text())
@@ -192,7 +193,7 @@ class Edited(FromOutside):
         summary = json.loads((self.out / "summary.json").read_text())
         summary["contact"]["p_max_Pa"] = "1.1 GPa"
         (self.out / "summary.json").write_text(json.dumps(summary))
-        for words in (["report", self.out], ["compare", self.out, self.out, "--out", self.folder / "c"]):
+        for words in (["report", self.out], ["report", self.out, self.out, "--out", self.folder / "c"]):
             self.refused(2, words, f"{self.out}/summary.json: error: contact.p_max_Pa is a text, not a number\n    "
                                    f"remedy: ")
 
@@ -205,7 +206,7 @@ class Edited(FromOutside):
 
 class NoResults(FromOutside):
     def refused_by_both(self, folder, message, remedy):
-        for words in (["report", folder], ["compare", folder, folder, "--out", self.folder / "c"]):
+        for words in (["report", folder], ["report", folder, folder, "--out", self.folder / "c"]):
             self.refused(2, words, f"error: {folder}{message}", f"remedy: {remedy}")
 
     def test_an_unfinished_run_is_told_how_to_go_on(self):
@@ -217,7 +218,7 @@ class NoResults(FromOutside):
         self.refused_by_both(out, ": this run is not finished", f"railstrata run --resume '{out}'\n")
         for file in out.glob("checkpoint*"):
             file.unlink()
-        self.refused_by_both(out, ": this folder was begun by `railstrata run` and has no results yet",
+        self.refused_by_both(out, ": this folder was begun and has no results yet",
                              "wait until it has ended; if it was stopped, start it again: railstrata run ")
 
     def test_a_result_without_its_case_says_what_is_missing(self):
@@ -236,14 +237,13 @@ class NoResults(FromOutside):
         self.assertEqual(railstrata("sweep", case, "--cell", "1 mm", "--vary", "drive.traction_coefficient=0.1,0.2",
                                     "--out", sweep)[0], 0)
         self.refused_by_both(sweep, ": this is a sweep", "its table is sweep.csv")
-        self.assertEqual(railstrata("creep-curve", case, "--cell", "1 mm", "--points", "2", "--out", creep)[0], 0)
+        self.assertEqual(railstrata("creep", case, "--cell", "1 mm", "--points", "2", "--out", creep)[0], 0)
         self.refused_by_both(creep, ": this is a creep curve", "its table is creep_curve.csv")
         (self.folder / "study.toml").write_text(
             '[study]\ntitle = "s"\nbase = "case.toml"\nengines = ["bem"]\ncell = "1 mm"\n[[group]]\nname = "g"\n')
         study = self.folder / "study"
         self.assertEqual(railstrata("study", self.folder / "study.toml", "--out", study, "--no-report")[0], 0)
-        self.refused_by_both(study, ": this is a study", "its page is report.html in it, written by `railstrata study "
-                                                         "FILE --out ")
+        self.refused_by_both(study, ": this is a study", "its page is report.html in it; for one case")
         one = next(study.glob("g/*/bem"))
         self.refused_by_both(one.parent, " is not a result folder: it has no summary.json",
                              f"give a folder that has one, for example {one}")

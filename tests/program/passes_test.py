@@ -42,9 +42,9 @@ class Passes(FromOutside):
         strong = json.loads((self.passes("strong", *strength(2000), "--passes", 2) / "passes.json").read_text())
         self.assertEqual(strong["class"], "elastic shakedown")
         self.assertEqual(strong["last_pass"]["accumulated_strain"], 0)
-        # factors of the command shakedown: first yield below 1, one track above
+        # factors: first yield below 1, one track above
         out = self.folder / "factors"
-        rc, _, err = railstrata("shakedown", BASE, *COARSE, *strength(560), "--no-report", "--out", out)
+        rc, _, err = railstrata("bem", BASE, *COARSE, *strength(560), "--no-report", "--out", out)
         self.assertEqual(rc, 0, err)
         factors = json.loads((out / "shakedown.json").read_text())["bodies"][0]["factors"]
         self.assertLess(factors["first_yield"], 0.95)

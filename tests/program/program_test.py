@@ -15,6 +15,10 @@ SOURCE = pathlib.Path(sys.argv[2]).resolve()
 COARSE = ["--threads", "1", "--set", "mesh.element_size=4 mm", "--set", "mesh.fine_depth=12 mm"]
 
 
+def commands():
+    return railstrata("?")[2].split("commands: ")[1].strip().split(", ")
+
+
 class Program(FromOutside):
     def test_a_case_error_exits_2_with_place_caret_and_remedy(self):
         case = self.case('[mesh]\nelement_size = "1 MPa"\n[geometry]\nguage = "1.4 m"\n')
@@ -41,7 +45,7 @@ class Program(FromOutside):
                      'error: "mesh.element_size=2 mm" is one word too many for railstrata check\n    remedy: write '
                      "--set once for each key: --set 'mesh.element_size=2 mm'\n")
         self.assertRegex(railstrata("check", "--help")[1], r"--set KEY=VALUE +Override")
-        self.refused(2, ["--json"], "error: no command is given\n    remedy: commands: demo, check, mesh, run, ")
+        self.refused(2, ["--json"], "error: no command is given\n    remedy: commands: check, run, bem, ")
         self.refused(2, ["check"], "error: railstrata check: case is required (Case file, or a folder with "
                                    "case.toml)\n    remedy: what it takes: railstrata check --help\n")
         self.refused(2, ["check", "a.toml", "--threads", "many"], "error: railstrata check: ", "--threads", "remedy: ")
@@ -49,7 +53,7 @@ class Program(FromOutside):
         self.assertEqual(errors[0]["message"], "railstrata bem has no option --cel")
 
     def test_an_empty_out_is_refused(self):
-        for words in (["bem", "a"], ["study", "a"], ["report", "a"], ["compare", "a", "b"]):
+        for words in (["bem", "a"], ["study", "a"], ["report", "a"], ["report", "a", "b"]):
             for out in (["--out", ""], ["-o", ""], ["--out="]):
                 self.refused(2, [*words, *out], f"error: railstrata {words[0]}: --out", f"railstrata {words[0]} --help")
 
@@ -57,7 +61,7 @@ class Program(FromOutside):
         rc, out, err = railstrata()
         self.assertEqual((rc, err), (2, ""))
         self.assertEqual(out, railstrata("--help")[1])
-        self.assertIn("creep-curve", out)
+        self.assertIn("collective", out)
 
     def test_help_is_a_word_too(self):
         self.assertEqual(railstrata("help"), railstrata("--help"))
@@ -76,7 +80,7 @@ class Program(FromOutside):
     def test_a_folder_that_is_not_empty_exits_2_and_force_writes_into_it(self):
         (self.folder / "out").mkdir()
         (self.folder / "out" / "mine.txt").write_text("keep")
-        words = ["mesh", self.case(""), *COARSE, "--out", self.folder / "out"]
+        words = ["check", self.case(""), *COARSE, "--mesh", "--out", self.folder / "out"]
         self.refused(2, words,
                      "is not empty\n    remedy: choose another with --out, or overwrite files of the same name with "
                      "--force")
@@ -120,10 +124,10 @@ class Program(FromOutside):
 
     def test_mesh_writes_its_files_and_where_they_come_from(self):
         case = self.case('[case]\ntitle = "m"\n')
-        rc, out, err = railstrata("mesh", case, *COARSE, cwd=self.folder)
+        rc, out, err = railstrata("check", case, *COARSE, "--mesh", cwd=self.folder)
         self.assertEqual(rc, 0, err)
         self.assertIn("limits the step", out)
-        results = self.folder / "results" / self.folder.name
+        results = self.folder / "results" / f"{self.folder.name}-mesh"
         self.assertTrue({"rail.vtu", "wheel.vtu", "case.toml", "case.original.toml",
                          "provenance.json"} <= {f.name for f in results.iterdir()})
         provenance = json.loads((results / "provenance.json").read_text())
@@ -131,8 +135,10 @@ class Program(FromOutside):
         self.assertEqual(provenance["overrides"], COARSE[3::2])
 
     def test_the_resolved_case_of_a_run_is_accepted_and_says_the_same(self):
-        railstrata("mesh", self.case('[[layer]]\nyoung_ratio = 2\n'), *COARSE, "--out", self.folder / "first")
-        rc, _, err = railstrata("mesh", self.folder / "first" / "case.toml", "--out", self.folder / "second")
+        railstrata("check", self.case('[[layer]]\nyoung_ratio = 2\n'), *COARSE, "--mesh", "--out",
+                   self.folder / "first")
+        rc, _, err = railstrata("check", self.folder / "first" / "case.toml", "--mesh", "--out",
+                                self.folder / "second")
         self.assertEqual(rc, 0, err)
         self.assertEqual((self.folder / "first" / "case.toml").read_text(),
                          (self.folder / "second" / "case.toml").read_text())
@@ -143,10 +149,24 @@ class Program(FromOutside):
         self.assertRegex(out, r"^railstrata \d+\.\d+\.\d+( \([0-9a-f]{12}(\+dirty)?\))?\n$")
 
     def test_every_command_has_help_with_examples(self):
-        for command in ["check", "mesh", "run", "schema", "info"]:
+        for command in commands():
             rc, out, _ = railstrata(command, "--help")
             self.assertEqual(rc, 0)
-            self.assertIn(f"railstrata {command}", out)
+            self.assertIn(f"railstrata {command}", out.split("Examples:")[1])
+
+    def test_every_command_stands_on_its_page_with_an_example(self):
+        page = (SOURCE / "docs/commands.md").read_text()
+        for command in commands():
+            self.assertIn(f"\n./railstrata {command}", page)
+
+    def test_an_old_name_answers_with_the_new_one(self):
+        for old, now, words in [("mesh", "check --mesh", [self.case(TINY)]), ("schema", "info --schema", [])]:
+            rc, _, err = railstrata(old, *words, cwd=self.folder)
+            self.assertEqual(rc, 0, err)
+            self.assertIn(f"warning: `railstrata {old}` is now `railstrata {now}`\n", err)
+        self.refused(2, ["manual"], "there is no command manual any more", "--help")
+        self.refused(2, ["wear-loop", "a.toml", "--stepps", 2], "railstrata collective has no option --stepps",
+                     "did you mean --steps?")
 
     def test_info_lists_the_built_in_profiles(self):
         info = json.loads(railstrata("info", "--json")[1])
@@ -160,7 +180,7 @@ class Program(FromOutside):
         self.assertRegex(text, r"\nlibraries .*hdf5 \d")
 
     def test_the_schema_is_json(self):
-        self.assertIn("geometry", json.loads(railstrata("schema")[1])["properties"])
+        self.assertIn("geometry", json.loads(railstrata("info", "--schema")[1])["properties"])
 
     def test_every_shipped_case_is_accepted(self):
         cases = sorted(SOURCE.glob("cases/**/*.toml"))
@@ -177,8 +197,8 @@ class Program(FromOutside):
     def test_a_receptance_has_its_table_page_and_refusals(self):
         case = SOURCE / "cases" / "along" / "receptance.toml"
         out = self.folder / "receptance"
-        rc, text, err = railstrata("receptance", case, "--beam", "--largest", 100, "--set", "track.pad_length=0 mm",
-                                   "--out", out, "--json")
+        rc, text, err = railstrata("check", case, "--receptance", "--beam", "--largest", 100, "--set",
+                                   "track.pad_length=0 mm", "--out", out, "--json")
         self.assertEqual(rc, 0, err)
         curves = json.loads(text)
         self.assertEqual(curves["frequency_Hz"], [10.0 * k for k in range(11)])
@@ -188,15 +208,13 @@ class Program(FromOutside):
         for name in "report.html", "receptance.csv":
             self.assertTrue((out / name).is_file(), name)
         self.refused(2, ["bem", case, "--out", self.folder / "no"], "receptance.toml:", "railstrata run")
-        self.refused(2, ["receptance", self.case(TINY), "--out", self.folder / "no"], "the foot of this rail is held")
-
-    def test_compare_names_the_folder_that_it_writes(self):
-        self.assertIn("(default: results/<folder A>-against-<folder B>)", re.sub(r"\s+", " ", railstrata(
-            "compare", "--help")[1]))
+        self.refused(2, ["check", self.case(TINY), "--receptance", "--out", self.folder / "no"],
+                     "the foot of this rail is held")
+        self.refused(2, ["check", case, "--beam"], "--beam")
 
     def test_every_command_named_on_the_first_pages_exists(self):
         pages = (SOURCE / "README.md").read_text() + (SOURCE / "docs/commands.md").read_text()
-        of_the_front_door = {"test", "install", "python", "packages", "site", "wasm"}
+        of_the_front_door = {"demo", "test", "install", "python", "packages", "site", "wasm"}
         for word in set(re.findall(r"\./railstrata ([a-z]+)", pages)) - of_the_front_door:
             self.assertEqual(railstrata(word, "--help")[0], 0, word)
 

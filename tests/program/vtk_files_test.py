@@ -64,11 +64,12 @@ class Results(unittest.TestCase):
 
 
 class Mesh(Results):
-    """`mesh cases/quick`."""
+    """`check cases/quick --mesh`."""
 
     @classmethod
     def make(cls):
-        cls.rows = json.loads(cls.call("mesh", SOURCE / "cases" / "quick", "--out", cls.folder, "--json"))
+        cls.rows = json.loads(cls.call("check", SOURCE / "cases" / "quick", "--mesh", "--out", cls.folder,
+                                       "--json"))["blocks"]
 
     def test_bodies_are_hexahedra_as_many_as_the_table_says_and_none_is_inverted(self):
         for body in ["rail", "wheel"]:
@@ -248,7 +249,7 @@ class Residual(Results):
 
     def test_every_number_of_its_file_stands_in_the_schema(self):
         told = json.loads((self.rolled / "residual.json").read_text())
-        schema = json.loads(railstrata("schema", "--results")[1])["residual"]
+        schema = json.loads(railstrata("info", "--schema", "--results")[1])["residual"]
         self.assertEqual(list(told), ["none", *(number["key"] for number in schema)])
 
 

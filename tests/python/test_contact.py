@@ -113,7 +113,7 @@ def test_ctrl_c_stops_a_state_soon():
 @pytest.fixture(scope="module")
 def table(program, tmp_path_factory):
     out = tmp_path_factory.mktemp("table") / "out"
-    subprocess.run([program, "creep-table", rs.shipped_data() / "cases/quick", "--axis", "creepage_x=-0.002:0.002:3",
+    subprocess.run([program, "creep", rs.shipped_data() / "cases/quick", "--axis", "creepage_x=-0.002:0.002:3",
                     "--axis", "lateral_shift=0:1 mm:2", "--cell", "1 mm", "--out", out], check=True,
                    capture_output=True)
     return rs.open_table(out / "creep_table.h5")
@@ -141,7 +141,7 @@ def test_a_creep_table_is_linear_between_its_points(table):
 
 
 def test_a_scaled_creep_table_is_asked_as_a_plain_one_is(program, tmp_path):
-    subprocess.run([program, "creep-table", rs.shipped_data() / "cases/quick", "--axis", "creepage_x=-0.002,0.002",
+    subprocess.run([program, "creep", rs.shipped_data() / "cases/quick", "--axis", "creepage_x=-0.002,0.002",
                     "--axis", "creepage_y=-0.002,0.002", "--axis", "spin=-0.2,0.2 1/m", "--scaled", "4:5:4", "--cell",
                     "2 mm", "--places", "0", "--out", tmp_path / "out"], check=True, capture_output=True)
     table = rs.open_table(tmp_path / "out/creep_table.h5")

@@ -239,7 +239,7 @@ TEST(Clashes, SayWhichKeysHaveNoPlaceInACase) {
 
 TEST(Clashes, ThePageInDocsIsTheOneTheProgramWrites) {
   EXPECT_EQ(text_of("docs/exclusions.md"), exclusions_markdown())
-      << "write it again: ./railstrata schema --exclusions > docs/exclusions.md";
+      << "write it again: ./railstrata info --schema --exclusions > docs/exclusions.md";
 }
 
 // Where a reader looks: one grep finds what keeps a track from half-spaces.

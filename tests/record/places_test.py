@@ -22,7 +22,8 @@ def texts():
 
 class Places(unittest.TestCase):
     def test_a_number_of_the_summary_stands_in_one_file(self):
-        listed = json.loads(subprocess.run([PROGRAM, "schema", "--results"], capture_output=True, check=True).stdout)
+        done = subprocess.run([PROGRAM, "info", "--schema", "--results"], capture_output=True, check=True)
+        listed = json.loads(done.stdout)
         sources = list(texts())
         many = {}
         for number in listed["numbers"]:

@@ -208,7 +208,7 @@ railstrata("run", FOLDER / "rolling.toml", "--out", FOLDER / "yields", "--thread
 railstrata("report", FOLDER / "yields", FOLDER / "fem", "--out", FOLDER / "yields.html", "--quiet")
 railstrata("sweep", FOLDER / "layers.toml", "--out", FOLDER / "sweep", "--cell", "0.8 mm", "--vary",
            "layer.0.thickness=1 mm,0.5 mm,2 mm", "--vary", "drive.friction_coefficient=0.3,0.5", "--quiet")
-railstrata("creep-curve", FOLDER / "layers.toml", "--out", FOLDER / "creep", "--cell", "0.8 mm", "--points", "7",
+railstrata("creep", FOLDER / "layers.toml", "--out", FOLDER / "creep", "--cell", "0.8 mm", "--points", "7",
            "--quiet")
 shutil.copytree(FOLDER / "fem", FOLDER / "old")
 for file in [*(FOLDER / "old").glob("*_section.csv"), FOLDER / "old" / "geometry.json", FOLDER / "old" / "report.html"]:

@@ -134,7 +134,7 @@ class Run(Page):
                               "figures have followed back")
 
     def test_names_of_checks_are_those_of_the_program_s_table(self):
-        checks = json.loads(subprocess.run([BINARY, "schema", "--results"], capture_output=True, text=True,
+        checks = json.loads(subprocess.run([BINARY, "info", "--schema", "--results"], capture_output=True, text=True,
                                            check=True).stdout)["checks"]
         names = {row["key"]: row["name"] for row in checks}
         for name, key in self.js("return [...document.querySelectorAll('#verdict tr[data-check] th')].map(e => "
@@ -174,7 +174,7 @@ class Run(Page):
 
     def test_finite_elements_are_held_against_half_spaces(self):
         fem, bem = summary_of(FEM), summary_of(HALF_SPACE)
-        schema = subprocess.run([BINARY, "schema", "--results"], capture_output=True, text=True, check=True)
+        schema = subprocess.run([BINARY, "info", "--schema", "--results"], capture_output=True, text=True, check=True)
         limits = {row["key"]: row["fem_limit"] for row in json.loads(schema.stdout)["checks"]}
         with tempfile.TemporaryDirectory() as place:  # shear: on cells as large as the elements
             size = re.search(r'element_size = "(.*)"', (FEM / "case.toml").read_text())[1]

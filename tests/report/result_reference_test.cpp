@@ -33,7 +33,7 @@ void expect_keys(const Json& object, const std::string& known) { EXPECT_EQ(keys_
 
 TEST(ResultsReference, ThePageInDocsIsTheOneTheProgramWrites) {
   EXPECT_EQ(text_of("docs/results-reference.md"), results_reference_markdown())
-      << "write it again: ./railstrata schema --results --markdown > docs/results-reference.md";
+      << "write it again: ./railstrata info --schema --results --markdown > docs/results-reference.md";
 }
 
 // Scripts and recorded results read these keys; new ones may stand between them.

@@ -13,7 +13,7 @@ constexpr std::string_view
     kLoad =
         "set vehicle.wheel_load or vehicle.axle_load, or the masses of [vehicle]; `railstrata check` shows the load",
     kCreepage =
-        "set drive.creepage, drive.lateral_creepage or drive.spin; `railstrata creep-curve` computes traction against "
+        "set drive.creepage, drive.lateral_creepage or drive.spin; `railstrata creep` computes traction against "
         "creepage",
     kYaw = "geometry.yaw is the angle of attack", kCurve = "geometry.curve_radius is the radius of the track's curve",
     kRoll = "geometry.roll is the roll of the wheelset";

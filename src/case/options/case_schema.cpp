@@ -231,7 +231,8 @@ std::string case_reference_markdown() {
   CaseSpec spec = one_of_each();
   std::string out =
       "# Case file reference\n\n"
-      "<!-- Written by `railstrata schema --markdown` from src/case/options/option_table.cpp; a test holds this page "
+      "<!-- Written by `railstrata info --schema --markdown` from src/case/options/option_table.cpp; a test holds this "
+      "page "
       "against "
       "the program. -->\n\n"
       "A case is a TOML file. Every key has a default, so a case gives only what differs. "

@@ -102,12 +102,13 @@ OptionTable collective_table() {
       option("file", at<&CaseSpec::collective, &C::file>,
              "A CSV file with the rows, instead of [[load]]; its columns are the keys of [[load]] with units")
           .where(never);
-  const Option law = choice_at<&CaseSpec::collective, &C::wear_law>(
-                         "wear_law",
-                         "Wear law of `railstrata wear-loop`. usfd: University of Sheffield, from T-gamma; kth: "
-                         "Archard with Jendel's map; archard: Archard with the rail's wear_coefficient",
-                         {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}})
-                         .where(has_loads);
+  const Option law =
+      choice_at<&CaseSpec::collective, &C::wear_law>(
+          "wear_law",
+          "Wear law of `railstrata collective --steps`. usfd: University of Sheffield, from T-gamma; kth: "
+          "Archard with Jendel's map; archard: Archard with the rail's wear_coefficient",
+          {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}})
+          .where(has_loads);
   const Option deviation =
       option("lateral_deviation", at<&CaseSpec::collective, &C::lateral_deviation>,
              "Standard deviation of the lateral positions of a row's wheels: wear, rolling contact fatigue and damage "

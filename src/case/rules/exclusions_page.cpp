@@ -53,7 +53,8 @@ std::string heading(std::string name) {
 
 std::string exclusions_markdown() {
   std::string out =
-      "# What excludes what\n\n<!-- Written by `railstrata schema --exclusions` from src/case/rules/clashes.cpp; a "
+      "# What excludes what\n\n<!-- Written by `railstrata info --schema --exclusions` from "
+      "src/case/rules/clashes.cpp; a "
       "test "
       "holds this page against the program. -->\n\nA case that breaks one of these rules is refused before anything is "
       "meshed or solved, with the place in its\nfile. Ranges of numbers are in the [case reference](case-reference.md)."

@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include <memory>
+
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
@@ -12,6 +14,7 @@
 #include "app/waiting.hpp"
 #include "ask/half_space_need.hpp"
 #include "core/faults.hpp"
+#include "fatigue/row_strength.hpp"
 #include "io/folder_kind.hpp"
 #include "io/output_folder.hpp"
 #include "rules/track_facts.hpp"
@@ -21,6 +24,11 @@
 
 namespace railstrata {
 namespace {
+
+struct BemWords {
+  bool single_track = true;  ///< --no-single-track: without the limit for one track, which takes some seconds
+  bool maps = false;         ///< --maps: limits over traction too
+};
 
 bool shown() { return spdlog::should_log(spdlog::level::info); }
 
@@ -32,6 +40,17 @@ struct HalfSpaceJob {
   BemOptions bem;
   HalfSpaceNeed need;
 };
+
+/// Without a strength there is nothing to draw limits for.
+void require_strength(const LoadedCase& loaded) {
+  if (strength_to_judge(loaded.spec)) return;
+  const bool both = loaded.spec.run.judged == JudgedBodies::both;
+  throw CaseError(both ? "--maps: the case gives no strength of rail, wheel or layers"
+                       : "--maps: the case gives no strength of the body that run.judged names, nor of its layers",
+                  "give yield_strength = \"500 MPa\", or grade = \"R260\", in [material.rail], [material.wheel] or a "
+                  "[[layer]]",
+                  loaded.file.string());
+}
 
 HalfSpaceJob job_of(const CommandOptions& options) {
   LoadedCase loaded = load_half_space_case_of(options);
@@ -52,10 +71,10 @@ std::string track_text(const CaseSpec& spec) {
   return fmt::format("{}", fmt::join(facts, "; "));
 }
 
-Answer solve_steady(const HalfSpaceJob& job, const ShakedownOptions& shakedown) {
+Answer solve_steady(const HalfSpaceJob& job, const BemWords& own) {
   answer_interrupt_with("\nstopped: nothing was written\n");
   const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)), shown());
-  const Wanted wanted{.single_track = shakedown.single_track, .maps = shakedown.maps};
+  const Wanted wanted{.single_track = own.single_track, .maps = own.maps};
   return ask(job.loaded.spec, job.placement, wanted, {.bem = job.bem});
 }
 
@@ -82,13 +101,12 @@ Answer solve_and_show(const HalfSpaceJob& job) {
 constexpr const char* kHalfWritten =
     "\nstopped while the results were written: they are not complete; start again with --force\n";
 
-}  // namespace
-
-ExitCode command_bem(const CommandOptions& options) {
+ExitCode command_bem(const BemWords& own, const CommandOptions& options) {
   const HalfSpaceJob job = job_of(options);
+  if (own.maps) require_strength(job.loaded);
   const bool steady = job.loaded.spec.transient.kind == TransientKind::none;
   Answer answer;
-  if (steady) answer = with_places(job.loaded, [&] { return solve_steady(job, options.shakedown); });
+  if (steady) answer = with_places(job.loaded, [&] { return solve_steady(job, own); });
 
   require_apart(job.out, job.loaded);
   const FolderHold hold = prepare_output_folder(job.out, options.force);
@@ -113,24 +131,28 @@ ExitCode command_bem(const CommandOptions& options) {
   return ok ? ExitCode::ok : ExitCode::failed_checks;
 }
 
-namespace {
-
-void declare_bem(CLI::App& sub, CommandOptions& options) {
+CommandWork declare_bem(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<BemWords>();
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-bem");
   add_cell(sub, options);
   sub.add_flag_callback(
-      "--no-single-track", [&options] { options.shakedown.single_track = false; },
+      "--no-single-track", [own] { own->single_track = false; },
       "Of shakedown leave out the limit for one track, which takes some seconds");
+  sub.add_flag("--maps", own->maps,
+               "Of shakedown also the limits over traction and the strength that every depth asks for, drawn on the "
+               "page; the case gives a strength");
   add_no_report(sub, options);
+  return [own, &options] { return command_bem(*own, options); };
 }
 
 }  // namespace
 
-const Command kBemCommand{
+extern const Command kBemCommand{
     "bem", "Solve a case by half-space theory, in about a second: the files and numbers of `run`, no meshes",
     "Examples:\n  railstrata bem cases/paper/base.toml\n  railstrata bem cases/quick --cell \"0.5 mm\" --out "
-    "results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n",
-    declare_bem, command_bem};
+    "results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n  "
+    "railstrata bem cases/paper/base.toml --maps --set material.rail.grade=R260\n",
+    declare_bem};
 
 }  // namespace railstrata

@@ -2,83 +2,32 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
+#include <memory>
 #include <numbers>
 
-#include "app/axle_report.hpp"
+#include <nlohmann/json.hpp>
+
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
+#include "app/check_receptance.hpp"
+#include "app/check_report.hpp"
 #include "app/common_options.hpp"
 #include "app/mesh_report.hpp"
-#include "app/progress.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "fem/memory_need.hpp"
-#include "io/geometry_json.hpp"
-#include "judge/run_advice.hpp"
+#include "io/output_folder.hpp"
 #include "rules/engine_scope.hpp"
-#include "rules/track_facts.hpp"
 #include "runs/device_at_hand.hpp"
-#include "runs/run_estimate.hpp"
 
 namespace railstrata {
 namespace {
 
-void print_title(const LoadedCase& loaded) {
-  fmt::print("{}\n\n", printable(fmt::format("{}: {}", loaded.file.string(), loaded.spec.title)));
-}
-
-/// y of the contact point on the wheel, m from the tape circle.
-double wheel_y(const Placement& p) {
-  return p.contact.roll == 0 ? p.contact.point.y - p.contact.wheel_offset_y : p.wheel.at(p.contact.wheel_s).position.y;
-}
-
-void print_geometry(const CaseSpec& spec, const Placement& placement) {
-  const RigidContact& c = placement.contact;
-  const HertzContact hertz = hertz_estimate(spec, c);
-  fmt::print("profiles       {} on {}\n", placement.wheel.name(), placement.rail.name());
-  fmt::print("contact point  y = {:.3f} mm, z = {:.3f} mm; on the wheel at y = {:.3f} mm\n", 1e3 * c.point.y,
-             1e3 * c.point.z, 1e3 * wheel_y(placement));
-  fmt::print("contact angle  {:.2f} mrad; rolling radius {:.3f} mm\n", 1e3 * c.angle, 1e3 * c.rolling_radius);
-  const char* name = "track";
-  for (const TrackFact& f : track_facts(spec.geometry)) {
-    fmt::print("{:<14} {}: {} ({})\n", name, f.label, f.value, f.from);
-    name = "";
-  }
-  if (c.rail_turn != 0)
-    fmt::print("rail           {} of {:.3f} mm along rolling at the contact\n", c.rail_turn > 0 ? "roller" : "hollow",
-               1e3 / std::abs(c.rail_turn));
-  if (c.yaw != 0)
-    fmt::print("yaw            {:.3f} mrad; the contact lies {:.3f} mm before the axle\n", 1e3 * c.yaw, 1e3 * c.x);
-  if (c.roll != 0) fmt::print("roll           {:.3f} mrad, field side up\n", 1e3 * c.roll);
-  fmt::print("{}", axle_text(spec, placement));
-  if (spec.vehicle.approach)
-    fmt::print("approach       {:.4g} mm, given: the load is a result, {:.3f} kN by Hertz\n",
-               1e3 * *spec.vehicle.approach, 1e-3 * hertz.load);
-  else
-    fmt::print("static load    {:.3f} kN\n", 1e-3 * static_load(spec));
-  if (spec.geometry.in_line())
-    fmt::print("Hertz          a = {:.2f} mm, p0 = {:.0f} MPa on a line of {:.4g} mm\n", 1e3 * hertz.a, 1e-6 * hertz.p0,
-               2e3 * hertz.b);
-  else
-    fmt::print("Hertz estimate a = {:.2f} mm, b = {:.2f} mm, p0 = {:.0f} MPa (local curvatures only)\n", 1e3 * hertz.a,
-               1e3 * hertz.b, 1e-6 * hertz.p0);
-}
-
-void print_layers(const CaseSpec& spec) {
-  for (const LayerSpec& l : spec.layers) {
-    const std::string young = l.graded() ? fmt::format("{:.4g} to {:.4g}", 1e-9 * l.young_table.front().young,
-                                                       1e-9 * l.young_table.back().young)
-                                         : fmt::format("{:.4g}", 1e-9 * l.material.young);
-    const std::string along =
-        fmt::format("{}{}{}", l.from ? fmt::format(", from {:g} mm", 1e3 * *l.from) : "",
-                    l.to ? fmt::format(", to {:g} mm", 1e3 * *l.to) : "",
-                    l.taper_length > 0 ? fmt::format(", tapered over {:g} mm", 1e3 * l.taper_length) : "");
-    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa{}\n", l.name, body_word(l.on),
-               1e3 * l.thickness, 1e3 * l.width, young, along);
-  }
-}
+struct CheckOptions {
+  bool machines = false;    ///< --machines
+  bool mesh = false;        ///< --mesh
+  bool receptance = false;  ///< --receptance
+  ReceptanceOptions blows;
+};
 
 /// Why a run would be refused here, though the case is sound: the card that it asks for; empty: it would not.
 std::string lacking_here(const LoadedCase& loaded) {
@@ -90,147 +39,18 @@ std::string lacking_here(const LoadedCase& loaded) {
   return {};
 }
 
-void print_card(const RunEstimate& e) {
-  if (!e.card.refused.empty()) return fmt::print("on a card      not: a device takes no {}\n", e.card.refused);
-  if (e.card.cards.empty()) return;
-  std::string times;
-  for (const device::DeviceNeed::OnCard& c : e.card.cards)
-    times += fmt::format("{}{} on {} ({:.2f} TB/s)", times.empty() ? "" : ", ",
-                         duration_text(static_cast<double>(e.steps) * c.step), c.name, 1e-12 * c.bandwidth);
-  fmt::print("on a card      about {}: counted from data sheets, not measured\n", times);
-  fmt::print(
-      "               {:.0f} MB there: fields {:.0f}, elements' forces {:.0f}, tables {:.0f}, contact {:.1f}; "
-      "{:.0f} bytes a step to the host\n",
-      1e-6 * e.card.memory(), 1e-6 * e.card.fields, 1e-6 * e.card.rows, 1e-6 * e.card.tables, 1e-6 * e.card.contact,
-      e.card.copied);
-}
-
-void print_estimate(const Model& m, const RunEstimate& e) {
-  fmt::print("mesh           {} elements, {} nodes\n", m.rail.elements() + m.wheel.elements(),
-             m.rail.nodes() + m.wheel.nodes());
-  fmt::print("stable step    {:.2f} ns (single elements {:.2f} ns, limited by {}); steps of {:.2f} ns\n",
-             1e9 * e.limits.lanczos, 1e9 * e.limits.element, e.limits.where, 1e9 * e.limits.chosen);
-  if (e.limits.added_mass > 0)
-    fmt::print(
-        "mass scaling   {:.3f} kg against stretching across thin rows, on {:.3f} kg of {}; the step without it {:.2f} "
-        "ns\n",
-        e.limits.added_mass, e.limits.scaled_mass, e.limits.scaled_where, 1e9 * e.limits.unscaled);
-  if (e.limits.fine_elements > 0)
-    fmt::print(
-        "local steps    {} stages a step in {} elements, {:.1f} times the force evaluations of one step; the step "
-        "without them {:.2f} ns\n",
-        e.limits.stages, e.limits.fine_elements, e.evaluations, 1e9 * e.limits.unscaled);
-  fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
-  if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
-  for (const RunEstimate::OnRanks& r : e.ranks)
-    fmt::print("on {} ranks     about {}; one has {:.0f} % of the work and gets {:.2f} MB a step; {:.0f} MB each\n",
-               r.need.ranks, duration_text(r.seconds), 100 * r.need.largest_share, 1e-6 * r.need.bytes,
-               1e-6 * r.memory_bytes);
-  if (!e.ranks.empty())
-    fmt::print("ranks          at most {}; times for machines like this one, {:.0f} us and {:.1f} GB/s apart\n",
-               e.ranks.front().need.tiles, 1e6 * RankNetwork{}.latency, 1e-9 * RankNetwork{}.bandwidth);
-  print_card(e);
-}
-
-/// Warnings of the last position, which the result belongs to.
-std::vector<Warning> warnings_of(const Model& m, const RunEstimate& e) {
-  const std::vector<double>& positions = m.spec.run.positions;
-  std::vector<Warning> out =
-      run_advice(m.spec, positions.empty() ? 0.0 : *std::max_element(positions.begin(), positions.end()), e.limits);
-  if (auto memory = memory_advice(m.spec, m.hertz.p0, 2 * std::max(m.hertz.a, m.hertz.b)))
-    out.push_back(std::move(*memory));
-  return out;
-}
-
-nlohmann::ordered_json as_json(const std::vector<Warning>& warnings) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  for (const Warning& w : warnings)
-    out.push_back({{"name", w.name}, {"value", w.value}, {"limit", w.limit}, {"text", w.text}});
-  return out;
-}
-
-nlohmann::ordered_json as_json(const CaseSpec& spec, const Placement& placement) {
-  const RigidContact& c = placement.contact;
-  const HertzContact hertz = hertz_estimate(spec, c);
-  return {{"title", spec.title},
-          {"track", track_json(spec.geometry)},
-          {"contact",
-           {{"x_m", c.x},
-            {"y_m", c.point.y},
-            {"z_m", c.point.z},
-            {"wheel_y_m", wheel_y(placement)},
-            {"angle_rad", c.angle},
-            {"yaw_rad", c.yaw},
-            {"roll_rad", c.roll},
-            {"rolling_radius_m", c.rolling_radius},
-            {"rail_turn_per_m", c.rail_turn}}},
-          {"axle", axle_json(spec, placement)},
-          {"load_N", hertz.load},
-          {"hertz", {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}}}};
-}
-
-nlohmann::ordered_json as_json(const std::vector<RunEstimate::OnRanks>& all) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  for (const RunEstimate::OnRanks& r : all)
-    out.push_back({{"ranks", r.need.ranks},
-                   {"most_ranks", r.need.tiles},
-                   {"largest_share", r.need.largest_share},
-                   {"bytes_a_step", r.need.bytes},
-                   {"memory_bytes_each", r.memory_bytes},
-                   {"rolling_wall_s", r.seconds}});
-  return out;
-}
-
-nlohmann::ordered_json as_json(const device::DeviceNeed& need, long steps) {
-  if (!need.refused.empty()) return {{"refused", need.refused}};
-  if (need.cards.empty()) return nullptr;
-  nlohmann::ordered_json cards = nlohmann::ordered_json::array();
-  for (const device::DeviceNeed::OnCard& c : need.cards)
-    cards.push_back({{"name", c.name},
-                     {"bytes_per_s", c.bandwidth},
-                     {"step_s", c.step},
-                     {"rolling_wall_s", static_cast<double>(steps) * c.step}});
-  return {{"measured", false},           {"memory_bytes", need.memory()},
-          {"of_fields", need.fields},    {"of_element_forces", need.rows},
-          {"of_tables", need.tables},    {"of_contact", need.contact},
-          {"bytes_a_step", need.copied}, {"cards", cards}};
-}
-
-nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
-  nlohmann::ordered_json out = as_json(m.spec, m.placement);
-  out.update({{"elements", m.rail.elements() + m.wheel.elements()},
-              {"nodes", m.rail.nodes() + m.wheel.nodes()},
-              {"stable_step_s", e.limits.lanczos},
-              {"unscaled_step_s", e.limits.unscaled},
-              {"added_mass_kg", e.limits.added_mass},
-              {"local_stages", e.limits.stages},
-              {"fine_elements", e.limits.fine_elements},
-              {"element_step_bound_s", e.limits.element},
-              {"limited_by", e.limits.where},
-              {"step_s", e.limits.chosen},
-              {"steps", e.steps},
-              {"rolling_wall_s", e.seconds},
-              {"memory_bytes", e.memory_bytes},
-              {"on_ranks", as_json(e.ranks)},
-              {"on_a_card", as_json(e.card, e.steps)},
-              {"warnings", as_json(warnings_of(m, e))}});
-  return out;
-}
-
 /// For a case of the half-space engine alone: reports where the bodies touch, and why `run` refuses it.
 ExitCode check_without_mesh(const LoadedCase& loaded, bool json) {
   const Placement placement = place(loaded.spec, loaded.folder());
   for (const std::string& note : placement.notes) spdlog::info("{}", note);
   if (json) {
-    nlohmann::ordered_json out = as_json(loaded.spec, placement);
+    nlohmann::ordered_json out = placement_json(loaded.spec, placement);
     out["not_in_fem"] = nlohmann::ordered_json::array();
     for (const Diagnostic& d : loaded.not_in_fem) out["not_in_fem"].push_back(d.message);
     fmt::print("{}\n", out.dump(2));
     return ExitCode::ok;
   }
-  print_title(loaded);
-  print_geometry(loaded.spec, placement);
-  print_layers(loaded.spec);
+  print_case(loaded, placement);
   fmt::print("\nfor `railstrata bem` alone; `run` refuses it:\n");
   for (const Diagnostic& d : loaded.not_in_fem)
     fmt::print("{}\n", printable(fmt::format("{}: {}", d.where, d.message)));
@@ -262,23 +82,41 @@ Model model_for_run(const LoadedCase& loaded) {
   }
 }
 
-ExitCode command_check(const CommandOptions& options) {
+/// --mesh: rail.vtu and wheel.vtu, in a folder with the case.
+void write_meshes(const CommandOptions& options, const LoadedCase& loaded, const Model& model) {
+  const std::filesystem::path out = output_folder_of(options, loaded, "-mesh");
+  const FolderHold hold = prepare_output_folder(out, options.force);
+  write_origin(out, loaded, options.command_line, options.threads);
+  write_mesh(out / "rail.vtu", model.rail);
+  write_mesh(out / "wheel.vtu", model.wheel);
+  spdlog::info("rail.vtu and wheel.vtu are in {}", out.string());
+}
+
+void require_nothing_to_write(const CommandOptions& options) {
+  if (!options.out.empty() || options.force)
+    throw CaseError("--out and --force: check writes no files by itself",
+                    "add --mesh or --receptance, or leave them out");
+}
+
+ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
+  if (own.receptance) return check_receptance(own.blows, options);
+  if (!own.mesh) require_nothing_to_write(options);
   const LoadedCase loaded = load_case_of(options);
+  if (own.mesh) require_finite_elements(loaded);
   if (!loaded.not_in_fem.empty()) return check_without_mesh(loaded, options.json);
   const Model model = model_for_run(loaded);
   for (const std::string& note : model.placement.notes) spdlog::info("{}", note);
+  if (own.mesh) write_meshes(options, loaded, model);
   require_memory(model);
-  const RunEstimate estimate = estimate_run(model);
+  const RunEstimate estimate = estimate_run(model, own.machines);
   const std::string lacking = lacking_here(loaded);
   if (options.json) {
-    nlohmann::ordered_json out = as_json(model, estimate);
+    nlohmann::ordered_json out = run_json(model, estimate, own.machines);
     if (!lacking.empty()) out["not_here"] = lacking;
     fmt::print("{}\n", out.dump(2));
     return ExitCode::ok;
   }
-  print_title(loaded);
-  print_geometry(loaded.spec, model.placement);
-  print_layers(loaded.spec);
+  print_case(loaded, model.placement);
   print_estimate(model, estimate);
   if (!lacking.empty()) fmt::print("not here       {}\n", printable(lacking));
   for (const Warning& w : warnings_of(model, estimate)) fmt::print("warning        {}: {}\n", w.name, w.text);
@@ -286,12 +124,35 @@ ExitCode command_check(const CommandOptions& options) {
   return ExitCode::ok;
 }
 
+CommandWork declare_check(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<CheckOptions>();
+  add_case(sub, options);
+  sub.add_flag("--machines", own->machines, "Also estimate the time on several processes and on a card");
+  auto* mesh = sub.add_flag("--mesh", own->mesh, "Write the meshes as VTU into a folder");
+  auto* receptance =
+      sub.add_flag("--receptance", own->receptance,
+                   "Compute the displacement over force of the rail on its track, at midspan and over a sleeper, "
+                   "instead: table and page in a folder")
+          ->excludes(mesh);
+  add_output(sub, options, "results/<case name>-mesh or -receptance");
+  sub.add_option("--largest", own->blows.largest, "With --receptance: largest frequency in Hz (default: 3000)")
+      ->check(CLI::Range(20.0, 20000.0))
+      ->needs(receptance);
+  sub.add_option("--time", own->blows.time, "With --receptance: how long a blow is followed (default: \"0.1 s\")")
+      ->needs(receptance);
+  sub.add_flag("--beam", own->blows.beam, "With --receptance: the beam alone, at once, without finite elements")
+      ->needs(receptance);
+  add_no_report(sub, options);
+  return [own, &options] { return command_check(*own, options); };
+}
+
 }  // namespace
 
-const Command kCheckCommand{
+extern const Command kCheckCommand{
     "check", "Read a case and report what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 "
-    "mm\"\n  railstrata check cases/paper/base.toml --json\n",
-    add_case, command_check};
+    "mm\"\n  railstrata check cases/paper/base.toml --json\n  railstrata check cases/quick --mesh --out "
+    "/tmp/mesh\n  railstrata check cases/along/receptance.toml --receptance --beam --set track.preset=medium\n",
+    declare_check};
 
 }  // namespace railstrata

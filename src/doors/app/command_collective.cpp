@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "app/case_list.hpp"
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
+#include "app/collective_wear.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
 #include "app/option_values.hpp"
@@ -135,21 +136,41 @@ ExitCode command_collective(const CommandOptions& options) {
   return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;
 }
 
-void declare_collective(CLI::App& sub, CommandOptions& options) {
+CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
+  const auto wear = std::make_shared<WearOptions>();
   add_case(sub, options);
-  add_output(sub, options, "results/<case name>-collective");
+  add_output(sub, options, "results/<case name>-collective, or -wear-loop");
   add_cell(sub, options);
+  auto* steps = sub.add_option("--steps", wear->steps,
+                               "Take the wear off the rail's profile step by step; end after so many steps");
+  steps->check(CLI::Range(1, 9999));
+  auto* passages = sub.add_option("--passages", wear->passages,
+                                  "The same, to the end after so many passages of the whole collective");
+  passages->check(CLI::Range(1.0, 1e15))->check(finite());
+  auto* most = sub.add_option("--max-wear", wear->max_wear, "Of wear: depth at the deepest place in one step")
+                   ->capture_default_str();
+  auto* resume = sub.add_flag("--resume", wear->resume, "Of wear: go on with the steps of the folder");
   add_no_report(sub, options);
+  return [=, &options] {
+    if (*steps || *passages) return collective_wear(*wear, options);
+    if (*most || *resume)
+      throw CaseError(fmt::format("{} belongs to wear, step by step", *most ? "--max-wear" : "--resume"),
+                      "give --steps 10, or --passages 2e6, or both with it");
+    return command_collective(options);
+  };
 }
 
 }  // namespace
 
-const Command kCollectiveCommand{
+extern const Command kCollectiveCommand{
     "collective",
     "All rows of the case's load collective by half-space theory, and what their passages do to the rail together: "
-    "wear, rolling contact fatigue, shakedown, by position across it",
+    "wear, rolling contact fatigue, shakedown, by position across it; with --steps or --passages the profile wears",
     "Examples:\n  railstrata collective cases/collective/mixed_traffic.toml\n  railstrata collective "
-    "cases/collective/mixed_traffic.toml --set load.0.passages=1e6 --out results/more-freight\n",
-    declare_collective, command_collective};
+    "cases/collective/mixed_traffic.toml --set load.0.passages=1e6 --out results/more-freight\n  railstrata collective "
+    "cases/collective/mixed_traffic.toml --passages 1e5 --max-wear \"0.002 mm\" --out results/worn\n  railstrata "
+    "collective cases/collective/mixed_traffic.toml --passages 2e5 --out results/worn --resume\n\nCtrl-C: of a load or "
+    "a step under way nothing is kept, everything before it is.\n",
+    declare_collective};
 
 }  // namespace railstrata

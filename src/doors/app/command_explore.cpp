@@ -35,21 +35,22 @@ ExitCode command_explore(const CommandOptions& given) {
   return ExitCode::ok;
 }
 
-void declare_explore(CLI::App& sub, CommandOptions& options) {
+CommandWork declare_explore(CLI::App& sub, CommandOptions& options) {
   sub.add_option("case", options.case_file,
                  "Case file, or a folder with case.toml (default: cases/paper/layer_3mm_2E0.toml)");
   add_set(sub, options, "Override a key of the case; once for each key");
   add_out(sub, options, "The page to write, NAME.html (default: explore.html)");
   sub.add_flag("--force", options.force, "Replace a file of this name");
   add_cell(sub, options);
+  return [&options] { return command_explore(options); };
 }
 
 }  // namespace
 
-const Command kExploreCommand{
+extern const Command kExploreCommand{
     "explore",
     "One page with the half-space engine inside: sliders for layers, load and drive, and a contact that follows them",
     "Examples:\n  railstrata explore\n  railstrata explore cases/paper/layer_3mm_2E0.toml --out layer.html\n",
-    declare_explore, command_explore};
+    declare_explore};
 
 }  // namespace railstrata

@@ -3,6 +3,8 @@
 #include <spdlog/version.h>
 #include <CLI/CLI.hpp>
 
+#include <memory>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -17,10 +19,29 @@
 #include "device/card.hpp"
 #include "geometry/profile_names.hpp"
 #include "io/provenance.hpp"
+#include "options/case_schema.hpp"
 #include "record/this_process.hpp"
+#include "report/result_reference.hpp"
+#include "rules/clashes.hpp"
 
 namespace railstrata {
 namespace {
+
+struct InfoOptions {
+  bool schema = false;      ///< --schema: of cases
+  bool results = false;     ///< --results: of results instead
+  bool markdown = false;    ///< --markdown: their reference page instead
+  bool exclusions = false;  ///< --exclusions
+};
+
+void print_schema(const InfoOptions& wanted) {
+  if (wanted.exclusions)
+    fmt::print("{}", exclusions_markdown());
+  else if (wanted.results)
+    fmt::print("{}", wanted.markdown ? results_reference_markdown() : results_reference_json().dump(2) + "\n");
+  else
+    fmt::print("{}", wanted.markdown ? case_reference_markdown() : case_json_schema());
+}
 
 void print_text(const nlohmann::ordered_json& info) {
   for (const auto& [key, value] : info.items()) {
@@ -55,27 +76,35 @@ std::string card() {
   }
 }
 
-ExitCode command_info(const CommandOptions& options) {
+nlohmann::ordered_json info_json() {
   const BuildInfo& build = build_info();
   nlohmann::ordered_json libraries;
   for (const auto& [name, version] : library_versions()) libraries[name] = version;
   libraries["spdlog"] = fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH);
   nlohmann::ordered_json parts;
   for (const auto& [name, state] : build.parts) parts[name] = state;
-  const nlohmann::ordered_json info{{"version", version_text()},
-                                    {"rail_profiles", builtin_profile_names(ProfileKind::rail)},
-                                    {"wheel_profiles", builtin_profile_names(ProfileKind::wheel)},
-                                    {"grades", grade_names()},
-                                    {"compiler", build.compiler},
-                                    {"flags", build.flags},
-                                    {"build_type", build.build_type},
-                                    {"isa", instruction_set()},
-                                    {"cpu", cpu_name()},
-                                    {"cores", std::thread::hardware_concurrency()},
-                                    {"threads", max_threads()},
-                                    {"card", card()},
-                                    {"parts", parts},
-                                    {"libraries", libraries}};
+  return {{"version", version_text()},
+          {"rail_profiles", builtin_profile_names(ProfileKind::rail)},
+          {"wheel_profiles", builtin_profile_names(ProfileKind::wheel)},
+          {"grades", grade_names()},
+          {"compiler", build.compiler},
+          {"flags", build.flags},
+          {"build_type", build.build_type},
+          {"isa", instruction_set()},
+          {"cpu", cpu_name()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"threads", max_threads()},
+          {"card", card()},
+          {"parts", parts},
+          {"libraries", libraries}};
+}
+
+ExitCode command_info(const InfoOptions& wanted, const CommandOptions& options) {
+  if (wanted.schema) {
+    print_schema(wanted);
+    return ExitCode::ok;
+  }
+  const nlohmann::ordered_json info = info_json();
   if (options.json)
     fmt::print("{}\n", info.dump(2));
   else
@@ -83,10 +112,23 @@ ExitCode command_info(const CommandOptions& options) {
   return ExitCode::ok;
 }
 
+CommandWork declare_info(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<InfoOptions>();
+  auto* schema = sub.add_flag("--schema", own->schema, "The JSON schema of case files, for editors");
+  sub.add_flag("--results", own->results, "With --schema: of results, every number of summary.json and every check")
+      ->needs(schema);
+  sub.add_flag("--markdown", own->markdown, "With --schema: the reference page in Markdown")->needs(schema);
+  sub.add_flag("--exclusions", own->exclusions, "With --schema: a page in Markdown, which settings exclude each other")
+      ->needs(schema);
+  return [own, &options] { return command_info(*own, options); };
+}
+
 }  // namespace
 
-const Command kInfoCommand{"info", "Built-in profiles, compiler, instruction set, libraries, threads",
-                           "Examples:\n  railstrata info\n  railstrata info --json\n",
-                           [](CLI::App&, CommandOptions&) {}, command_info};
+extern const Command kInfoCommand{
+    "info", "Version, built-in profiles, steels, libraries, this machine; the schema of case files and results",
+    "Examples:\n  railstrata info\n  railstrata info --json\n  railstrata info --schema > case.schema.json\n  "
+    "railstrata info --schema --results --markdown\n",
+    declare_info};
 
 }  // namespace railstrata

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
@@ -26,6 +27,17 @@ namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct MaterialOptions {
+  fs::path strain, stress;                      ///< --strain, --stress: a path
+  fs::path calibrate, cyclic_curve, monotonic;  ///< --calibrate, --cyclic-curve, --monotonic: tests
+  fs::path shear_yield;                         ///< --shear-yield: points of strained steel
+  int increments = 100;                         ///< --increments
+  int cycles = 1;                               ///< --cycles
+  int backstresses = 0;                         ///< --backstresses; 0: as many as lower the error
+  std::string of = "rail";                      ///< --of
+  std::string depth;                            ///< --depth: a length; empty: the top
+};
 constexpr std::size_t kShownCycles = 5;
 
 fs::path card_of(const CommandOptions& options) {
@@ -104,8 +116,7 @@ nlohmann::ordered_json as_json(const MaterialRun& run, const fs::path& out, cons
   return json;
 }
 
-ExitCode drive(const CommandOptions& options, const LoadedCase& loaded) {
-  const MaterialOptions& o = options.material;
+ExitCode drive(const MaterialOptions& o, const CommandOptions& options, const LoadedCase& loaded) {
   const ChosenMaterial which = choose_material(loaded, o.of);
   const ChosenLaw law = law_of(loaded, which, depth_of(o.depth));
   const PlasticMaterial& material = law.material;
@@ -144,8 +155,7 @@ ExitCode drive(const CommandOptions& options, const LoadedCase& loaded) {
   return ExitCode::ok;
 }
 
-ExitCode calibrate(const CommandOptions& options, const LoadedCase& loaded) {
-  const MaterialOptions& o = options.material;
+ExitCode calibrate(const MaterialOptions& o, const CommandOptions& options, const LoadedCase& loaded) {
   const ChosenMaterial which = choose_material(loaded, o.of);
   MaterialTests tests{o.calibrate, o.cyclic_curve, o.monotonic, o.shear_yield, o.backstresses};
   for (fs::path* file : {&tests.loop, &tests.amplitudes, &tests.monotonic, &tests.shear_yield})
@@ -185,8 +195,7 @@ ExitCode calibrate(const CommandOptions& options, const LoadedCase& loaded) {
   return ExitCode::ok;
 }
 
-ExitCode command_material(const CommandOptions& options) {
-  const MaterialOptions& o = options.material;
+ExitCode command_material(const MaterialOptions& o, const CommandOptions& options) {
   const bool path = !o.strain.empty() || !o.stress.empty(),
              fit = !o.calibrate.empty() || !o.cyclic_curve.empty() || !o.shear_yield.empty();
   if (path == fit)
@@ -199,11 +208,12 @@ ExitCode command_material(const CommandOptions& options) {
                     "give --calibrate LOOP.csv or --cyclic-curve CURVE.csv with it");
   // A case's notes concern its contact, which is not computed here.
   const LoadedCase loaded = load_case(card_of(options), options.overrides);
-  return path ? drive(options, loaded) : calibrate(options, loaded);
+  return path ? drive(o, options, loaded) : calibrate(o, options, loaded);
 }
 
-void declare_material(CLI::App& sub, CommandOptions& options) {
-  MaterialOptions& m = options.material;
+CommandWork declare_material(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<MaterialOptions>();
+  MaterialOptions& m = *own;
   sub.add_option("card", options.case_file, "Case file with the material, e.g. one with [material.rail] alone")
       ->required();
   add_set(sub, options, "Override a key of the card; once for each key");
@@ -234,17 +244,18 @@ void declare_material(CLI::App& sub, CommandOptions& options) {
   sub.add_option("--depth", m.depth, "Of a material graded with depth: where (default: its top)");
   add_out(sub, options, "The table to write, NAME.csv, or the card of a fit, NAME.toml; the picture is NAME.svg");
   sub.add_flag("--force", options.force, "Replace a file that this command has not written");
+  return [own, &options] { return command_material(*own, options); };
 }
 
 }  // namespace
 
-const Command kMaterialCommand{
+extern const Command kMaterialCommand{
     "material", "A material law along a path of strain or stress, or fitted to a test: tables, a ready card, a picture",
     "Examples:\n  railstrata material cases/material/r260.toml --strain cases/material/strain_path.csv --increments "
     "200 --out loops.csv\n  railstrata material cases/material/r260.toml --stress cases/material/ratchetting.csv "
     "--cycles 50 --out ratchetting.csv\n  railstrata material cases/material/r260.toml --calibrate "
     "cases/material/loop.csv --monotonic cases/material/tension.csv --out fitted.toml\n\nCtrl-C: nothing is "
     "written.\n",
-    declare_material, command_material};
+    declare_material};
 
 }  // namespace railstrata

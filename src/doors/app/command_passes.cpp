@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <memory>
+
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
@@ -12,6 +14,15 @@
 
 namespace railstrata {
 namespace {
+
+struct PassesOptions {
+  std::string engine = "bem";               ///< --engine
+  int passes = 20;                          ///< --passes, since the first one
+  bool resume = false;                      ///< --resume
+  std::string checkpoint_every = "10 min";  ///< --checkpoint-every: a wall time; fem
+  std::string roll_length;                  ///< --roll-length: a length; empty: chosen; fem
+  std::string wheels = "new";               ///< --wheels; fem
+};
 
 /// m; 0: chosen.
 double roll_length(const PassesOptions& options) {
@@ -30,62 +41,64 @@ void require_stationary(const PassesOptions& options) {
                     "take it out, or add --engine fem");
 }
 
-PassOrder order_of(const CommandOptions& options, const LoadedCase& loaded) {
+PassOrder order_of(const PassesOptions& own, const CommandOptions& options, const LoadedCase& loaded) {
   PassOrder order;
-  static_cast<JobOrder&>(order) = job_order_of(options, loaded, "-passes", options.passes.resume);
-  order.passes = options.passes.passes;
+  static_cast<JobOrder&>(order) = job_order_of(options, loaded, "-passes", own.resume);
+  order.passes = own.passes;
   return order;
 }
 
-ExitCode command_rolled_passes(const CommandOptions& options) {
+ExitCode command_rolled_passes(const PassesOptions& own, const CommandOptions& options) {
   if (!options.cell.empty())
     throw CaseError("--cell: finite elements have no cells",
                     "take it out, and give mesh.element_size, or --engine bem");
-  CommandOptions own = options;  // with run.plasticity, so that what it asks of others is checked
-  own.overrides.emplace_back("run.plasticity=true");
-  own.overrides.emplace_back("run.rolling=true");
-  LoadedCase loaded = load_case_of(own, CaseUse::yielding);
+  CommandOptions plastic = options;  // with run.plasticity, so that what it asks of others is checked
+  plastic.overrides.emplace_back("run.plasticity=true");
+  plastic.overrides.emplace_back("run.rolling=true");
+  LoadedCase loaded = load_case_of(plastic, CaseUse::yielding);
   require_finite_elements(loaded);
-  PassOrder order = order_of(options, loaded);
-  order.roll_length = roll_length(options.passes);
-  order.checkpoint_every = wall_time("--checkpoint-every", options.passes.checkpoint_every);
+  PassOrder order = order_of(own, options, loaded);
+  order.roll_length = roll_length(own);
+  order.checkpoint_every = wall_time("--checkpoint-every", own.checkpoint_every);
   return code_of(rolled_passes_in_folder(std::move(loaded), order, control_by_signals()).end);
 }
 
-ExitCode command_passes(const CommandOptions& options) {
-  if (options.passes.engine == engine_word(Engine::fem)) return command_rolled_passes(options);
-  require_stationary(options.passes);
+ExitCode command_passes(const PassesOptions& own, const CommandOptions& options) {
+  if (own.engine == engine_word(Engine::fem)) return command_rolled_passes(own, options);
+  require_stationary(own);
   LoadedCase loaded = load_half_space_case_of(options, CaseUse::yielding);
-  PassOrder order = order_of(options, loaded);
+  PassOrder order = order_of(own, options, loaded);
   order.cell = cell_size(options.cell);
   return code_of(passes_in_folder(std::move(loaded), order, control_by_signals()).end);
 }
 
-void declare_passes(CLI::App& sub, CommandOptions& options) {
+CommandWork declare_passes(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<PassesOptions>();
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-passes");
-  sub.add_option("--engine", options.passes.engine, "bem: stationary method on half-spaces; fem: every pass is rolled")
+  sub.add_option("--engine", own->engine, "bem: stationary method on half-spaces; fem: every pass is rolled")
       ->check(CLI::IsMember(engine_words()))
       ->capture_default_str();
   add_cell(sub, options);
-  sub.add_option("--passes", options.passes.passes, "End after so many passes of a wheel, since the first one")
+  sub.add_option("--passes", own->passes, "End after so many passes of a wheel, since the first one")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  sub.add_flag("--resume", options.passes.resume, "Go on with the passes of the folder: the same bits as in one go");
+  sub.add_flag("--resume", own->resume, "Go on with the passes of the folder: the same bits as in one go");
   add_no_report(sub, options);
-  sub.add_option("--checkpoint-every", options.passes.checkpoint_every,
+  sub.add_option("--checkpoint-every", own->checkpoint_every,
                  "fem: save the pass under way this often (default: \"10 min\"; 0: only when stopped)");
   sub.add_option(
-      "--roll-length", options.passes.roll_length,
+      "--roll-length", own->roll_length,
       "fem: rolled in a pass (default: 12 half-lengths of the patch); stations in its middle are the result");
-  sub.add_option("--wheels", options.passes.wheels, "fem: of every pass: new")
+  sub.add_option("--wheels", own->wheels, "fem: of every pass: new")
       ->check(CLI::IsMember({"new", "same"}))
       ->capture_default_str();
+  return [own, &options] { return command_passes(*own, options); };
 }
 
 }  // namespace
 
-const Command kPassesCommand{
+extern const Command kPassesCommand{
     "passes",
     "Wheel after wheel over a rail that yields: residual stress, plastic strain of every pass, and whether it settles "
     "or ratchets",
@@ -94,6 +107,6 @@ const Command kPassesCommand{
     "passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" --passes 200 --out "
     "results/yields\n  railstrata passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" "
     "--passes 400 --out results/yields --resume\n\nCtrl-C: the pass under way is given up, those before it are kept.\n",
-    declare_passes, command_passes};
+    declare_passes};
 
 }  // namespace railstrata

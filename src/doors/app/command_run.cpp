@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include <memory>
 #include <utility>
 
 #include "app/case_of.hpp"
@@ -16,6 +17,12 @@
 
 namespace railstrata {
 namespace {
+
+struct RunOptions {
+  std::filesystem::path resume;             ///< --resume: a result folder with a checkpoint
+  std::string checkpoint_every = "10 min";  ///< --checkpoint-every: a wall time
+  std::string max_time = "never";           ///< --max-time: a wall time
+};
 
 // Throws CaseError for what does not go together with --resume.
 void require_resume_alone(const CommandOptions& options) {
@@ -35,21 +42,20 @@ void warn_of_shared_processors(int threads) {
 }
 
 // Runs on ranks other than 0: no output.
-ExitCode run_along(const CommandOptions& options, const FemOptions& fem) {
+ExitCode run_along(const std::filesystem::path& resumed, const CommandOptions& options, const FemOptions& fem) {
   spdlog::set_level(spdlog::level::off);
-  if (!options.run.resume.empty()) require_resume_alone(options);
-  RankedRun run = options.run.resume.empty() ? join_run(load_case_of(options), fem.ranks)
-                                             : join_resumed_run(options.run.resume, fem.ranks);
+  if (!resumed.empty()) require_resume_alone(options);
+  RankedRun run = resumed.empty() ? join_run(load_case_of(options), fem.ranks) : join_resumed_run(resumed, fem.ranks);
   follow_run(run, fem);
   return ExitCode::ok;
 }
 
-ExitCode run_and_report(const CommandOptions& options, const FemOptions& fem) {
-  const bool resume = !options.run.resume.empty();
+ExitCode run_and_report(const std::filesystem::path& resumed, const CommandOptions& options, const FemOptions& fem) {
+  const bool resume = !resumed.empty();
   if (resume) require_resume_alone(options);
-  LoadedCase loaded = resume ? case_to_resume(options.run.resume) : load_case_of(options);
+  LoadedCase loaded = resume ? case_to_resume(resumed) : load_case_of(options);
   JobOrder order = job_order_of(options, loaded, "", resume);
-  if (resume) order.folder = options.run.resume;
+  if (resume) order.folder = resumed;
   RunJob job(std::move(loaded), order, fem, control());
   warn_of_shared_processors(options.threads);
   const auto show = [&] {
@@ -62,21 +68,20 @@ ExitCode run_and_report(const CommandOptions& options, const FemOptions& fem) {
   return code_of(end);
 }
 
-}  // namespace
-
-ExitCode command_run(const CommandOptions& options) {
+ExitCode command_run(const RunOptions& own, const CommandOptions& options) {
   FemOptions fem;
   fem.control = &control_by_signals();
-  fem.times.checkpoint_every = wall_time("--checkpoint-every", options.run.checkpoint_every);
-  fem.times.limit = wall_time("--max-time", options.run.max_time);
-  if (options.run.resume.empty() && options.case_file.empty())
+  fem.times.checkpoint_every = wall_time("--checkpoint-every", own.checkpoint_every);
+  fem.times.limit = wall_time("--max-time", own.max_time);
+  if (own.resume.empty() && options.case_file.empty())
     throw CaseError("run: no case was named",
                     "name a case file, or go on with an interrupted run: railstrata run --resume FOLDER");
   MpiRanks mpi;
   fem.ranks = mpi.ranks();
   try {
     if (mpi.any_asked(fem.control->stop)) throw Interrupted("stopped before the run began; nothing was written");
-    const ExitCode code = fem.ranks.is_root() ? run_and_report(options, fem) : run_along(options, fem);
+    const ExitCode code =
+        fem.ranks.is_root() ? run_and_report(own.resume, options, fem) : run_along(own.resume, options, fem);
     mpi.leave();
     return code;
   } catch (const EnvironmentError&) {  // of this rank, or what it saw of another
@@ -87,33 +92,30 @@ ExitCode command_run(const CommandOptions& options) {
   }
 }
 
-namespace {
-
-void declare_run(CLI::App& sub, CommandOptions& options) {
+CommandWork declare_run(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<RunOptions>();
   add_case_and_output(sub, options);
   sub.get_option("case")->required(false);
-  sub.add_option("--resume", options.run.resume,
+  sub.add_option("--resume", own->resume,
                  "Go on with the interrupted run of this result folder: the same bits as in one go")
       ->type_name("FOLDER");
-  sub.add_option("--checkpoint-every", options.run.checkpoint_every,
+  sub.add_option("--checkpoint-every", own->checkpoint_every,
                  "Wall time between checkpoints (default: \"10 min\"; 0: only when stopped)");
-  sub.add_option("--max-time", options.run.max_time,
+  sub.add_option("--max-time", own->max_time,
                  "Stop in time for a batch limit, with a checkpoint: \"110 min\" (exit code 5)");
   add_no_report(sub, options);
+  return [own, &options] { return command_run(*own, options); };
 }
 
 }  // namespace
 
-const Command kRunCommand{
-    "run",
-    "Run a case: static preload, rolling, results",
+extern const Command kRunCommand{
+    "run", "Run a case: static preload, rolling, results",
     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n "
     " railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n"
     "  railstrata run cases/paper/base.toml --max-time \"110 min\"; railstrata run --resume results/base\n\n"
     "Ctrl-C, SIGTERM: finish the step, write a checkpoint, print how to go on (a second one quits at once). SIGUSR1: "
     "write a checkpoint, go on.\n",
-    declare_run,
-    command_run,
-    true};
+    declare_run, true};
 
 }  // namespace railstrata

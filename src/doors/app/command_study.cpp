@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
@@ -38,10 +39,10 @@ fs::path folder_of(const CommandOptions& options, const LoadedStudy& study) {
 }
 
 /// Less than a second would hold living ones for dead: their renewals are tenths of it.
-double lease_of(const CommandOptions& options) {
-  const double lease = wall_time("--lease", options.study.lease);
+double lease_of(const StudyOptions& own) {
+  const double lease = wall_time("--lease", own.lease);
   if (lease < 1)
-    throw CaseError(fmt::format("--lease {}: too short", options.study.lease), "one second or more; minutes, usually");
+    throw CaseError(fmt::format("--lease {}: too short", own.lease), "one second or more; minutes, usually");
   return lease;
 }
 
@@ -83,35 +84,35 @@ ExitCode list_cases(const CommandOptions& options, const fs::path& out, std::vec
 }
 
 /// --list and --batch.
-ExitCode report_cases(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
-                      std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
+ExitCode report_cases(const StudyOptions& own, const CommandOptions& options, const LoadedStudy& study,
+                      const fs::path& out, std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
   find_results(out, cases);
   const std::vector<CaseRow> rows = study_rows(out, cases);
   const std::vector<ListedCase> listed = listed_cases(cases, rows, ours, study.spec.cell);
-  options.study.list ? print_cases(listed, options, study.file, out) : print_batch(listed, options, study.file, out);
+  own.list ? print_cases(listed, options, study.file, out) : print_batch(listed, own, options, study.file, out);
   return ExitCode::ok;
 }
 
-ExitCode command_study(const CommandOptions& options) {
+ExitCode command_study(const StudyOptions& own, const CommandOptions& options) {
   const LoadedStudy study = study_of(options);
   cell_size(study.spec.cell);  // what is wrong is reported before the first case
   Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
-  const Shard shard = parse_shard(options.study.shard);
-  const double lease = lease_of(options);
+  const Shard shard = parse_shard(own.shard);
+  const double lease = lease_of(own);
   std::vector<StudyCase> cases = plan_study(study, options.overrides);
   for (const std::string& key : varied_and_set(study, options.overrides))
     spdlog::warn("--set {}: the study varies it; cases named after its values have the one that is set", key);
-  std::vector<bool> ours = chosen(study, cases, engine_of(options.study.engine), options.study.groups, shard);
-  if (options.study.only > 0) ours = only(cases, options.study.only, ours);
+  std::vector<bool> ours = chosen(study, cases, engine_of(own.engine), own.groups, shard);
+  if (own.only > 0) ours = only(cases, own.only, ours);
   const fs::path out = folder_of(options, study);
-  if (options.study.list || !options.study.batch.empty()) return report_cases(options, study, out, cases, ours);
-  if (options.study.dry_run) return list_cases(options, out, cases, ours);
+  if (own.list || !own.batch.empty()) return report_cases(own, options, study, out, cases, ours);
+  if (own.dry_run) return list_cases(options, out, cases, ours);
 
   StudyOrder order{{out, false, options.force, options.page, {options.command_line, options.threads}},
                    options.overrides,
-                   options.study.jobs,
+                   own.jobs,
                    lease,
-                   options.study.wait};
+                   own.wait};
   start_children_alone();
   const auto show = [&](const std::vector<CaseRow>& rows) {
     print_list(rows, options.json);
@@ -121,44 +122,45 @@ ExitCode command_study(const CommandOptions& options) {
                                  control_by_signals(), show));
 }
 
-void declare_study(CLI::App& sub, CommandOptions& options) {
+CommandWork declare_study(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<StudyOptions>();
   sub.add_option("study", options.case_file, "Study file, or a folder with study.toml")->required();
   add_set(sub, options, "Override a key in all cases: --set mesh.element_size=\"2 mm\"; once for each key");
   add_out(
       sub, options,
       "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
   sub.add_flag("--force", options.force, "Write into a folder that is not empty and holds no study");
-  sub.add_option("--jobs", options.study.jobs, "Cases at a time; they share the threads (default: one thread a case)")
+  sub.add_option("--jobs", own->jobs, "Cases at a time; they share the threads (default: one thread a case)")
       ->check(CLI::Range(1, 1024));
-  sub.add_option("--engine", options.study.engine, fmt::format("Only the cases of one engine: {}", engines_text()))
+  sub.add_option("--engine", own->engine, fmt::format("Only the cases of one engine: {}", engines_text()))
       ->check(CLI::IsMember(engine_words()));
-  add_repeated(sub, "--group", options.study.groups, "NAME", "Only the cases of this group; once for each group");
-  sub.add_option("--shard", options.study.shard,
+  add_repeated(sub, "--group", own->groups, "NAME", "Only the cases of this group; once for each group");
+  sub.add_option("--shard", own->shard,
                  "i/n: only every n-th case from the i-th on, for n machines that share the folder");
-  auto* list = sub.add_flag("--list", options.study.list,
+  auto* list = sub.add_flag("--list", own->list,
                             "List the cases with index, state and estimates of time and memory; compute nothing. With "
                             "--json also key and command");
-  sub.add_option("--batch", options.study.batch,
+  sub.add_option("--batch", own->batch,
                  "Print a job script for the cases to do, with time and memory from the estimates: slurm")
       ->check(CLI::IsMember({"slurm"}))
       ->excludes(list);
-  sub.add_option("--only", options.study.only, "Only the case of this index, as --list counts")
-      ->check(CLI::Range(1, 1000000));
+  sub.add_option("--only", own->only, "Only the case of this index, as --list counts")->check(CLI::Range(1, 1000000));
   sub.add_flag_callback(
-      "--no-wait", [&options] { options.study.wait = false; },
+      "--no-wait", [own] { own->wait = false; },
       "End when all that is left is being computed by other processes; else wait for it, and take over from "
       "those that die");
-  sub.add_option("--lease", options.study.lease,
+  sub.add_option("--lease", own->lease,
                  "A process that has not touched the claim of its case for so long is held for dead (by the clock of "
                  "the file server)")
       ->capture_default_str();
-  sub.add_flag("--dry-run", options.study.dry_run, "List the cases and what is done of them; compute nothing");
+  sub.add_flag("--dry-run", own->dry_run, "List the cases and what is done of them; compute nothing");
   add_no_report(sub, options);
+  return [own, &options] { return command_study(*own, options); };
 }
 
 }  // namespace
 
-const Command kStudyCommand{
+extern const Command kStudyCommand{
     "study",
     "Many cases from one file, by both engines, several at a time; goes on where it stopped; a table and a page over "
     "all of them",
@@ -166,8 +168,6 @@ const Command kStudyCommand{
     "--engine bem --out results/study\n  railstrata study cases/paper/study.toml --out results/study --jobs 2 "
     "--threads 2\n  railstrata study cases/paper/study.toml --out /shared/study --shard 3/8     # one of eight "
     "machines\n",
-    declare_study,
-    command_study,
-    true};
+    declare_study, true};
 
 }  // namespace railstrata

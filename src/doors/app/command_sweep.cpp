@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -23,6 +24,11 @@
 
 namespace railstrata {
 namespace {
+
+struct SweepWords {
+  std::vector<std::string> vary;  ///< --vary
+  bool stresses = false;          ///< --stresses
+};
 
 /// Notes of cases that the case itself does not have, each once.
 void warn_of_notes(const LoadedCase& base, const std::vector<SweepCase>& cases) {
@@ -62,8 +68,8 @@ void print_table(const CaseTable& table, const std::vector<SweepCase>& cases) {
   print_warnings(cases);
 }
 
-ExitCode command_sweep(const CommandOptions& options) {
-  const std::vector<Axis> axes = parse_axes("--vary", options.sweep.vary);
+ExitCode command_sweep(const SweepWords& own, const CommandOptions& options) {
+  const std::vector<Axis> axes = parse_axes("--vary", own.vary);
   const LoadedCase base = load_half_space_case_of(options);
   std::vector<SweepCase> cases = plan_sweep(base, options.overrides, axes);
   warn_of_notes(base, cases);
@@ -71,8 +77,8 @@ ExitCode command_sweep(const CommandOptions& options) {
   SweepOptions sweep;
   sweep.bem.cell = cell_size(options.cell);
   sweep.bem.cache = &cache;
-  sweep.stresses = options.sweep.stresses;
-  const std::vector<ResultColumn> columns = result_columns(options.sweep.stresses);
+  sweep.stresses = own.stresses;
+  const std::vector<ResultColumn> columns = result_columns(own.stresses);
 
   const std::filesystem::path out = output_folder_of(options, base, "-sweep");
   const FolderHold hold = prepare_output_folder(out, options.force);
@@ -113,27 +119,28 @@ ExitCode command_sweep(const CommandOptions& options) {
   return faults > 0 ? ExitCode::failed_checks : ExitCode::ok;
 }
 
-void declare_sweep(CLI::App& sub, CommandOptions& options) {
+CommandWork declare_sweep(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<SweepWords>();
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-sweep");
   add_cell(sub, options);
   add_repeated(
-      sub, "--vary", options.sweep.vary, "KEY=VALUES",
+      sub, "--vary", own->vary, "KEY=VALUES",
       "A key and its values: --vary layer.0.young_ratio=0.5,1,2; once for each key: every combination is solved")
       ->required();
-  sub.add_flag("--stresses", options.sweep.stresses,
-               "Largest stresses in the rail too (takes longer than the contact)");
+  sub.add_flag("--stresses", own->stresses, "Largest stresses in the rail too (takes longer than the contact)");
   add_no_report(sub, options);
+  return [own, &options] { return command_sweep(*own, options); };
 }
 
 }  // namespace
 
-const Command kSweepCommand{
+extern const Command kSweepCommand{
     "sweep", "Half-space solutions over every combination of values, one table out",
     "Examples:\n  railstrata sweep cases/paper/layer_3mm_2E0.toml --vary layer.0.thickness=\"1 mm,2 mm,3 mm\" --vary "
     "layer.0.young_ratio=0.5,1,2\n"
     "  railstrata sweep cases/paper/base.toml --vary drive.traction_coefficient=0.1,0.2,0.3 --stresses --out "
     "results/traction\n",
-    declare_sweep, command_sweep};
+    declare_sweep};
 
 }  // namespace railstrata

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <set>
 
 #include "app/commands.hpp"
@@ -18,6 +19,12 @@ namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct ValidateOptions {
+  std::vector<std::string> sets;
+  bool all = false;  ///< --all
+  fs::path docs;     ///< --docs; empty: none
+};
 
 constexpr const char* kShipped = "cases/validation";
 
@@ -77,8 +84,8 @@ Validation solved(const ValidationSet& set, const CommandOptions& options) {
   return validate(set, {bem, &control_by_signals()});
 }
 
-ExitCode command_validate(const CommandOptions& options) {
-  const std::vector<fs::path> folders = folders_of(options.validate);
+ExitCode command_validate(const ValidateOptions& wanted, const CommandOptions& options) {
+  const std::vector<fs::path> folders = folders_of(wanted);
   if (folders.empty()) {
     print_sets();
     return ExitCode::ok;
@@ -100,27 +107,30 @@ ExitCode command_validate(const CommandOptions& options) {
     print_verdict(all.back());
   }
   write_whole_file(out / "report.html", validations_page(all));
-  if (!options.validate.docs.empty()) write_validation_docs(options.validate.docs, all);
+  if (!wanted.docs.empty()) write_validation_docs(wanted.docs, all);
   spdlog::info("everything on one page: {}", (out / "report.html").string());
   const bool agrees =
       std::all_of(all.begin(), all.end(), [](const Validation& v) { return v.agreement <= Agreement::within_bar; });
   return agrees ? ExitCode::ok : ExitCode::failed_checks;
 }
 
-void declare_validate(CLI::App& sub, CommandOptions& options) {
-  sub.add_option("sets", options.validate.sets, "Names of shipped sets, or folders with validation.toml; none: a list");
-  sub.add_flag("--all", options.validate.all, "Every set that comes with the program");
-  sub.add_option("--docs", options.validate.docs, "Also write validation.md and its pictures into this folder");
+CommandWork declare_validate(CLI::App& sub, CommandOptions& options) {
+  const auto own = std::make_shared<ValidateOptions>();
+  sub.add_option("sets", own->sets, "Names of shipped sets, or folders with validation.toml; none: a list");
+  sub.add_flag("--all", own->all, "Every set that comes with the program");
+  sub.add_option("--docs", own->docs, "Also write validation.md and its pictures into this folder");
   add_output(sub, options, "results/validate");
   add_cell(sub, options);
+  return [own, &options] { return command_validate(*own, options); };
 }
 
 }  // namespace
 
-const Command kValidateCommand{"validate", "Answers held against measurements, other programs and closed forms",
-                               "Examples:\n  railstrata validate\n  railstrata validate locomotive\n  railstrata "
-                               "validate my_rig --out results/my_rig\n"
-                               "  railstrata validate --all\n",
-                               declare_validate, command_validate};
+extern const Command kValidateCommand{
+    "validate", "Answers held against measurements, other programs and closed forms",
+    "Examples:\n  railstrata validate\n  railstrata validate locomotive\n  railstrata "
+    "validate my_rig --out results/my_rig\n"
+    "  railstrata validate --all\n",
+    declare_validate};
 
 }  // namespace railstrata

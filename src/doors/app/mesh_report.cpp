@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+
+#include "mesh/unstructured.hpp"
+#include "record/vtk.hpp"
 
 namespace railstrata {
 namespace {
@@ -31,6 +35,19 @@ std::vector<MeshRow> mesh_rows(const Model& model) {
   return rows;
 }
 
+nlohmann::ordered_json mesh_json(const std::vector<MeshRow>& rows) {
+  auto out = nlohmann::ordered_json::array();
+  for (const MeshRow& r : rows)
+    out.push_back({{"body", r.body},
+                   {"block", r.quality.block},
+                   {"elements", r.quality.elements},
+                   {"scaled_jacobian_min", r.quality.scaled_jacobian_min},
+                   {"aspect_max", r.quality.aspect_max},
+                   {"edge_min_m", r.quality.edge_min},
+                   {"edge_over_wave_speed_s", r.step}});
+  return out;
+}
+
 std::string mesh_table(const std::vector<MeshRow>& rows) {
   std::string out = fmt::format("{:<6} {:<14} {:>10} {:>12} {:>10} {:>12} {:>12}\n", "body", "block", "elements",
                                 "Jacobian", "aspect", "edge/mm", "edge/c/ns");
@@ -41,6 +58,17 @@ std::string mesh_table(const std::vector<MeshRow>& rows) {
                        row->quality.elements, row->quality.scaled_jacobian_min, row->quality.aspect_max,
                        1e3 * row->quality.edge_min, 1e9 * row->step, row == limiting ? "  limits the step" : "");
   return out;
+}
+
+void write_mesh(const std::filesystem::path& file, const SweptBody& body) {
+  HexMesh mesh = unstructured(body);
+  VtkHexahedra out;
+  out.points = std::move(mesh.points);
+  out.cells = std::move(mesh.cells);
+  out.cell_fields = {{"material", 1, std::vector<std::int32_t>(mesh.material.begin(), mesh.material.end())},
+                     {"block", 1, std::vector<std::int32_t>(mesh.block.begin(), mesh.block.end())},
+                     {"scaled_jacobian", 1, std::move(mesh.scaled_jacobian)}};
+  write_vtu(file, out);
 }
 
 }  // namespace railstrata

@@ -1,7 +1,10 @@
 #pragma once
-// The text of `check` and `mesh` about a model's meshes.
+// What `check` reports and writes of a model's meshes.
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "mesh/quality.hpp"
 #include "model/model.hpp"
@@ -20,5 +23,9 @@ std::vector<MeshRow> mesh_rows(const Model& model);
 
 /// The rows as an aligned table.
 std::string mesh_table(const std::vector<MeshRow>& rows);
+nlohmann::ordered_json mesh_json(const std::vector<MeshRow>& rows);
+
+/// A VTU file with materials, blocks and scaled Jacobians.
+void write_mesh(const std::filesystem::path& file, const SweptBody& body);
 
 }  // namespace railstrata

@@ -17,7 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/commands.hpp"
+#include "app/command_table.hpp"
 #include "app/mpi_ranks.hpp"
 #include "app/processors.hpp"
 #include "app/surroundings.hpp"
@@ -31,35 +31,45 @@
 namespace railstrata {
 namespace {
 
-/// In the order of the help; the manual, whose pages they are, stands last.
-constexpr const Command* kCommands[] = {
-    &kDemoCommand,       &kCheckCommand,    &kMeshCommand,       &kRunCommand,        &kBemCommand,
-    &kShakedownCommand,  &kMaterialCommand, &kPassesCommand,     &kCompareCommand,    &kCreepCurveCommand,
-    &kCreepTableCommand, &kUsetabCommand,   &kSweepCommand,      &kValidateCommand,   &kCollectiveCommand,
-    &kWearLoopCommand,   &kStudyCommand,    &kReceptanceCommand, &kReportCommand,     &kExploreCommand,
-    &kExportCommand,     &kSchemaCommand,   &kInfoCommand,       &kCompletionCommand, &kManualCommand};
-
 std::vector<std::string> command_names() {
   std::vector<std::string> names;
-  for (const Command* c : kCommands) names.emplace_back(c->name);
+  for (const Command* c : commands()) names.emplace_back(c->name);
   return names;
 }
 
-/// CLI11 calls an unknown command "extra arguments"; this finds the word that was meant.
-void check_command_word(const std::vector<std::string>& words) {
+/// Place of the command among the words; 0: there is none.
+std::size_t place_of_command(const std::vector<std::string>& words) {
   for (std::size_t i = 1; i < words.size(); ++i) {
-    if (words[i] == "-j" || words[i] == "--threads") {
+    if (words[i] == "-j" || words[i] == "--threads")
       ++i;
-      continue;
-    }
-    if (words[i].starts_with("-")) continue;
-    const std::vector<std::string> names = command_names();
-    if (std::find(names.begin(), names.end(), words[i]) != names.end()) return;
-    const std::string meant = nearest_word(words[i], names);
-    throw CaseError(fmt::format("unknown command \"{}\"", words[i]),
+    else if (!words[i].starts_with("-"))
+      return i;
+  }
+  return 0;
+}
+
+/// Replaces an old name of a command by today's words and returns a note of it. CLI11 calls an unknown command "extra
+/// arguments"; this finds the word that was meant.
+std::string use_todays_name(std::vector<std::string>& words) {
+  const std::size_t place = place_of_command(words);
+  if (place == 0) return {};
+  const std::string word = words[place];
+  const std::vector<std::string> names = command_names();
+  if (std::find(names.begin(), names.end(), word) != names.end()) return {};
+  const OldName* old = old_name(word);
+  if (old != nullptr && old->now.empty())
+    throw CaseError(fmt::format("there is no command {} any more", word),
+                    "railstrata help lists the commands, railstrata COMMAND --help the options of one");
+  if (old == nullptr) {
+    const std::string meant = nearest_word(word, names);
+    throw CaseError(fmt::format("unknown command \"{}\"", word),
                     fmt::format("{}commands: {}", meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
                                 fmt::join(names, ", ")));
   }
+  const std::vector<std::string> now = CLI::detail::split(std::string(old->now), ' ');
+  words.erase(words.begin() + static_cast<std::ptrdiff_t>(place));
+  words.insert(words.begin() + static_cast<std::ptrdiff_t>(place), now.begin(), now.end());
+  return fmt::format("`railstrata {}` is now `railstrata {}`", word, old->now);
 }
 
 /// The text of a line of the log.
@@ -135,18 +145,20 @@ int parse_and_run(const std::vector<std::string>& given, CommandOptions& options
   app.add_flag("--json", options.json, "Results on standard output as JSON");
   app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
   app.add_flag("-v,--verbose", verbose, "More messages");
-  for (const Command* c : kCommands) {
+  std::vector<CommandWork> work;
+  for (const Command* c : commands()) {
     CLI::App* sub = app.add_subcommand(c->name, c->what);
     sub->footer(c->examples);
-    c->declare(*sub, options);
+    work.push_back(c->declare(*sub, options));
   }
   require_utf8(given);
   if (given.size() == 1) {  // no mistake to name, and yet nothing done: what there is, and the code of a mistake
     say(stdout, app.help());
     return static_cast<int>(ExitCode::user);
   }
-  const std::vector<std::string> words = with_help_spelled_out(given);
-  check_command_word(words);
+  std::vector<std::string> words = with_help_spelled_out(given);
+  const std::string renamed = use_todays_name(words);
+  options.command_line = words;
   try {
     std::vector<std::string> reversed(words.rbegin(), words.rend() - 1);
     app.parse(reversed);
@@ -157,10 +169,12 @@ int parse_and_run(const std::vector<std::string>& given, CommandOptions& options
   }
   set_up_log(quiet, verbose);
   set_threads(options.threads);
-  for (const Command* c : kCommands) {
-    if (!app.got_subcommand(c->name)) continue;
-    if (!c->among_ranks) refuse_ranks(c->name);
-    return static_cast<int>(c->run(options));
+  if (!renamed.empty()) spdlog::warn("{}", renamed);
+  for (std::size_t k = 0; k < work.size(); ++k) {
+    const Command& command = *commands()[k];
+    if (!app.got_subcommand(command.name)) continue;
+    if (!command.among_ranks) refuse_ranks(command.name);
+    return static_cast<int>(work[k]());
   }
   return static_cast<int>(ExitCode::user);
 }
@@ -170,9 +184,8 @@ int parse_and_run(const std::vector<std::string>& given, CommandOptions& options
 int run_program(int argc, const char* const* argv) {
   settle_in();
   CommandOptions options;
-  options.command_line.assign(argv, argv + argc);
   try {
-    const int code = parse_and_run(options.command_line, options);
+    const int code = parse_and_run({argv, argv + argc}, options);
     if (std::fflush(stdout) != 0)
       throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
     if (std::ferror(stdout)) throw std::system_error(EIO, std::generic_category(), "cannot write to standard output");

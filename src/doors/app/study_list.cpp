@@ -95,8 +95,8 @@ void print_cases(const std::vector<ListedCase>& cases, const CommandOptions& opt
                c.study_case->name);
 }
 
-void print_batch(const std::vector<ListedCase>& cases, const CommandOptions& options, const fs::path& study,
-                 const fs::path& out) {
+void print_batch(const std::vector<ListedCase>& cases, const StudyOptions& own, const CommandOptions& options,
+                 const fs::path& study, const fs::path& out) {
   BatchJob job{.program = program_file().string(),
                .study = whole_path(study),
                .out = whole_path(out),
@@ -106,8 +106,8 @@ void print_batch(const std::vector<ListedCase>& cases, const CommandOptions& opt
                .half_spaces = false,
                .most = {}};
   for (const std::string& o : options.overrides) job.options.insert(job.options.end(), {"--set", o});
-  for (const std::string& g : options.study.groups) job.options.insert(job.options.end(), {"--group", g});
-  if (options.study.shard != "1/1") job.options.insert(job.options.end(), {"--shard", options.study.shard});
+  for (const std::string& g : own.groups) job.options.insert(job.options.end(), {"--group", g});
+  if (own.shard != "1/1") job.options.insert(job.options.end(), {"--shard", own.shard});
   double half_space_seconds = 0;
   for (const ListedCase& c : cases) {
     if (c.state == "done") continue;

@@ -10,6 +10,19 @@
 
 namespace railstrata {
 
+struct StudyOptions {
+  int jobs = 0;                     ///< --jobs; 0: as many as threads
+  std::string shard = "1/1";        ///< --shard
+  std::string engine;               ///< --engine; empty: all
+  std::vector<std::string> groups;  ///< --group; empty: all
+  bool dry_run = false;             ///< --dry-run
+  std::string lease = "5 min";      ///< --lease: a time
+  bool list = false;                ///< --list
+  std::string batch;                ///< --batch: the word of a batch system
+  int only = 0;                     ///< --only: from 1; 0: all
+  bool wait = true;                 ///< --no-wait: for cases that others compute
+};
+
 /// A case with its place in the list of all, from 1.
 struct ListedCase {
   int index = 0;
@@ -28,7 +41,7 @@ void print_cases(const std::vector<ListedCase>& cases, const CommandOptions& opt
                  const std::filesystem::path& study, const std::filesystem::path& out);
 
 /// --batch slurm: the script.
-void print_batch(const std::vector<ListedCase>& cases, const CommandOptions& options,
+void print_batch(const std::vector<ListedCase>& cases, const StudyOptions& own, const CommandOptions& options,
                  const std::filesystem::path& study, const std::filesystem::path& out);
 
 }  // namespace railstrata

@@ -209,7 +209,7 @@ RS_API int rs_stress(const rs_contact* contact, int body, const double* xyz, siz
  * profile of this kind, or the case's place has no contact with it. */
 RS_API int rs_set_profile(rs_contact* contact, int body, const double* yz, size_t n, rs_error* error);
 
-/* A creep-force table of `railstrata creep-table` (creep_table.h5): numbers over axes, some ten microseconds and less
+/* A creep-force table of `railstrata creep --axis` (creep_table.h5): numbers over axes, some ten microseconds and less
  * an answer. Several threads may ask one table at a time. */
 typedef struct rs_table rs_table;
 

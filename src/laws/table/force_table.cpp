@@ -51,7 +51,7 @@ std::optional<std::size_t> index_of(const std::vector<Part>& parts, const char* 
 }
 
 void check_scaling(const ForceTable& table, const TableScaling& scaling) {
-  const std::string remedy = "compute the table again with railstrata creep-table --scaled";
+  const std::string remedy = "compute the table again with railstrata creep --scaled";
   if (table.axes.size() < kScaledAxes)
     throw CaseError(fmt::format("a scaled table with {} axes", table.axes.size()), remedy);
   const auto count = [&](std::size_t k) { return static_cast<int>(table.axes[k].at.size()); };

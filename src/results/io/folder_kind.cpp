@@ -33,14 +33,28 @@ std::vector<std::string> command_line_of(const fs::path& folder) {
   return words;
 }
 
-/// The command that has written the folder ("run", "study"), by its provenance.json; empty if that has none.
-std::string command_of(const fs::path& folder) {
-  for (const std::string& word : command_line_of(folder))
-    for (const char* command :
-         {"run", "bem", "study", "sweep", "creep-curve", "receptance", "collective", "passes", "mesh"})
-      if (word == command) return command;
-  return {};
-}
+/// A folder of another kind than a result of one case, recognised by a file in it.
+struct Kind {
+  const char *file, *what, *remedy;
+};
+constexpr Kind kKinds[] = {
+    {"study.csv", "this is a study",
+     "its page is report.html in it; for one case give its folder, GROUP/CASE/fem or GROUP/CASE/bem below it"},
+    {"sweep.csv", "this is a sweep",
+     "its table is sweep.csv in it; for one of its cases: railstrata bem CASE --set KEY=VALUE"},
+    {"creep_curve.csv", "this is a creep curve",
+     "its table is creep_curve.csv in it; for a page on the case: railstrata bem CASE"},
+    {"creep_table.csv", "this is a creep-force table",
+     "its table is creep_table.csv in it; for a page on the case: railstrata bem CASE"},
+    {"receptance.csv", "this is a receptance of the track",
+     "its table is receptance.csv in it; for a page on the case: railstrata run CASE"},
+    {"collective.csv", "this is a load collective",
+     "its page is report.html; the folder shown_load has the load that it shows in full"},
+    {"wear_loop.csv", "this is the wear of a load collective", "its page is report.html in it"},
+    {"passes.csv", "these are passes over a yielding rail",
+     "its tables are passes.csv and residual.csv in it; for a page on the case: railstrata bem CASE"},
+    {"compare.json", "this is a comparison",
+     "its picture is compare.svg; for a page give the two folders that it compares"}};
 
 /// The first folder, by name, right below this one that holds a finished result; empty if none does.
 fs::path result_below(const fs::path& folder) {
@@ -53,12 +67,12 @@ fs::path result_below(const fs::path& folder) {
   return found.empty() ? fs::path() : found.front();
 }
 
-Diagnostic begun(const fs::path& folder, const std::string& command) {
+Diagnostic begun(const fs::path& folder) {
   const std::string word = shell_word(folder.string()), name = folder.string();
   if (fs::exists(checkpoint_file(folder)) || fs::exists(previous_checkpoint_file(folder)))
     return {"", fmt::format("{}: this run is not finished: it has a checkpoint but no summary.json", name),
             fmt::format("railstrata run --resume {}", word)};
-  return {"", fmt::format("{}: this folder was begun by `railstrata {}` and has no results yet", name, command),
+  return {"", fmt::format("{}: this folder was begun and has no results yet", name),
           fmt::format("wait until it has ended; if it was stopped, start it again: {}", command_again(folder))};
 }
 
@@ -81,33 +95,12 @@ Diagnostic no_result_here(const fs::path& folder) {
   if (!fs::is_directory(folder, error))
     return {"", fmt::format("{} is not a result folder: it is a file", name),
             "give a folder that `railstrata run` or `railstrata bem` has written"};
-  const std::string command = command_of(folder);
-  if (command == "study" || has(folder, "study.csv"))
-    return {"", fmt::format("{}: this is a study, not the result of one case", name),
-            fmt::format("its page is report.html in it, written by `railstrata study FILE --out {}`; for one case give "
-                        "its folder, GROUP/CASE/fem or GROUP/CASE/bem below it",
-                        word)};
-  if (command == "sweep" || has(folder, "sweep.csv"))
-    return {"", fmt::format("{}: this is a sweep, not the result of one case", name),
-            "its table is sweep.csv in it; for one of its cases: railstrata bem CASE --set KEY=VALUE"};
-  if (command == "creep-curve" || has(folder, "creep_curve.csv"))
-    return {"", fmt::format("{}: this is a creep curve, not the result of one case", name),
-            "its table is creep_curve.csv in it; for a page on the case: railstrata bem CASE"};
-  if (command == "receptance" || has(folder, "receptance.csv"))
-    return {"", fmt::format("{}: this is a receptance of the track, not the result of one case", name),
-            "its table is receptance.csv in it; for a page on the case: railstrata run CASE"};
-  if (command == "collective" || has(folder, "collective.csv"))
-    return {"", fmt::format("{}: this is a load collective, not the result of one case", name),
-            "its page is report.html; the folder shown_load has the load that it shows in full"};
-  if (command == "passes" || has(folder, "passes.csv"))
-    return {"", fmt::format("{}: these are passes over a yielding rail, not the result of one case", name),
-            "its tables are passes.csv and residual.csv in it; for a page on the case: railstrata bem CASE"};
-  if (has(folder, "compare.json"))
-    return {"", fmt::format("{}: this is a comparison, not the result of one case", name),
-            "its picture is compare.svg; for a page give the two folders that it compares"};
-  if (command == "run" || command == "bem" || has(folder, "checkpoint.h5")) return begun(folder, command);
-  if (command == "mesh")
-    return {"", fmt::format("{}: these are meshes, written by `railstrata mesh`", name), "railstrata run CASE"};
+  for (const Kind& kind : kKinds)
+    if (has(folder, kind.file))
+      return {"", fmt::format("{}: {}, not the result of one case", name, kind.what), kind.remedy};
+  if (has(folder, "rail.vtu") && !has(folder, "history.csv"))
+    return {"", fmt::format("{}: these are meshes", name), "railstrata run CASE"};
+  if (has(folder, "provenance.json") || has(folder, "checkpoint.h5")) return begun(folder);
   if (const fs::path below = result_below(folder); !below.empty())
     return {"", fmt::format("{} is not a result folder: it has no summary.json, but folders in it have one", name),
             fmt::format("give a folder that has one, for example {}", shell_word(below.string()))};

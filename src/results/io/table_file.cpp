@@ -19,7 +19,7 @@ void write_force_table(const std::filesystem::path& file, const ForceTable& tabl
 
 ForceTable read_force_table(const std::filesystem::path& file) {
   require_table_files();
-  const std::string remedy = "name a creep_table.h5 of railstrata creep-table";
+  const std::string remedy = "name a creep_table.h5 of railstrata creep --axis";
   if (!std::filesystem::is_regular_file(file)) throw CaseError("there is no such file", remedy, file.string());
   const std::optional<ForceTable> out = table_in_file(file);
   if (!out) throw CaseError("is no creep-force table", remedy, file.string());

@@ -1,7 +1,7 @@
 #pragma once
 // The checks and warnings of a result: their limits and their words. This is the only place of either: both engines'
 // checks, the comparison of the engines, the study, the page, the screen, docs/results-reference.md and
-// `railstrata schema --results`, which tools read, all take them from here.
+// `railstrata info --schema --results`, which tools read, all take them from here.
 #include <array>
 #include <limits>
 #include <numbers>

@@ -152,7 +152,8 @@ std::string check_rows(CheckKind kind, std::string_view text, Cells&& cells) {
 constexpr std::string_view kRoundOff =
     "\nScreen and page show 0 for remainders of solvers and round-off: forces below 1e-7 of the normal force, "
     "tractions,\nmoments, displacements and work likewise, creepages below 1e-10, spin below 1e-8 1/m, and the value "
-    "of a check below\n1e-6 of its limit. Files keep every digit; `schema --results` gives the rule of each number "
+    "of a check below\n1e-6 of its limit. Files keep every digit; `info --schema --results` gives the rule of each "
+    "number "
     "(`round_off`).\n";
 
 constexpr std::string_view kSeveralPatches =
@@ -197,7 +198,7 @@ constexpr std::string_view kPlasticPlace =
 
 std::string results_reference_markdown() {
   std::string out =
-      "# Results reference\n\n<!-- Written by `railstrata schema --results --markdown` from "
+      "# Results reference\n\n<!-- Written by `railstrata info --schema --results --markdown` from "
       "src/results/result/result_table.cpp and src/results/judge/check_limits.hpp; a test holds this page against the "
       "program. -->\n\n`summary.json` of a result folder holds these numbers in SI units, with the same keys from both "
       "engines; a number that\ndoes not apply is null. The key ends with the unit. Tables (`sweep.csv`, `study.csv`) "

@@ -1,8 +1,8 @@
 #pragma once
 // The numbers of a result: one row for each. The keys of summary.json, the columns of the tables of `sweep` and
-// `study`, the text on the screen, the page, docs/results-reference.md and `railstrata schema --results` all come from
-// these rows, so that a new number is a member of result/summary.hpp or result/patch.hpp with its computation, and one
-// row here.
+// `study`, the text on the screen, the page, docs/results-reference.md and `railstrata info --schema --results` all
+// come from these rows, so that a new number is a member of result/summary.hpp or result/patch.hpp with its
+// computation, and one row here.
 //
 // The table stands in this room because it is the lowest one that knows a Summary; io, report, study and app see it.
 #include <functional>

@@ -124,7 +124,8 @@ ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const Collectiv
   if (*deepest <= kMostWearOfOneProfile) return out;
   out.tone = "open";
   out.text += fmt::format(
-      "; {:.0f} µm after all {:.0f} passages assumes an unworn profile; use `railstrata wear-loop`, which removes the "
+      "; {:.0f} µm after all {:.0f} passages assumes an unworn profile; use `railstrata collective --steps`, which "
+      "removes the "
       "wear step by step, for a forecast",
       micro, passages);
   return out;

@@ -216,7 +216,7 @@ NumberAxis number_axis(const std::string& option, const std::string& text) {
     const std::vector<std::string> words = axis_words();
     const std::string near = nearest_word(out.word, words);
     throw CaseError(fmt::format("{}: unknown word or key {}", name, out.word),
-                    fmt::format("{}words: {}; keys: railstrata schema",
+                    fmt::format("{}words: {}; keys: railstrata info --schema",
                                 near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(words, ", ")));
   }
   AxisNumbers numbers(name, *found);

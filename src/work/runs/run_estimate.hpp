@@ -28,6 +28,7 @@ struct RunEstimate {
   std::vector<OnRanks> ranks;  ///< 2 and 4, as far as the mesh can be cut; none of a static case
 };
 
-RunEstimate estimate_run(const Model& model);
+/// elsewhere: also for a card and for several processes.
+RunEstimate estimate_run(const Model& model, bool elsewhere = false);
 
 }  // namespace railstrata

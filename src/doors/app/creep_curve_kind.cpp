@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
-#include "app/common_options.hpp"
+#include "app/creep_kinds.hpp"
 #include "app/option_values.hpp"
 #include "app/waiting.hpp"
 #include "ask/half_space_need.hpp"
@@ -64,8 +62,9 @@ std::vector<std::string> notes_of(const CaseSpec& spec) {
   return out;
 }
 
-ExitCode command_creep_curve(const CommandOptions& options) {
-  const CreepCurveOptions& wanted = options.creep_curve;
+}  // namespace
+
+ExitCode creep_curve_in_folder(const CreepCurveOptions& wanted, const CommandOptions& options) {
   const CurveAxis axis = axis_of(wanted);
   const std::vector<double> varied = curve_values(axis, axis.largest, wanted.points, wanted.both_sides);
   const LoadedCase loaded = load_half_space_case_of(options, CaseUse::steady_rolling);
@@ -100,33 +99,5 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
 }
-
-void declare_creep_curve(CLI::App& sub, CommandOptions& options) {
-  add_case(sub, options);
-  add_output(sub, options, "results/<case name>-creep-curve");
-  add_cell(sub, options);
-  sub.add_option("--of", options.creep_curve.of,
-                 "What varies: creepage (longitudinal, default), lateral_creepage or spin; the rest is as in the case")
-      ->check(CLI::IsMember(creep_curve_words()));
-  sub.add_option("--largest", options.creep_curve.largest, "Largest creepage (default: 0.02), or spin in 1/m (5)")
-      ->check(CLI::Range(1e-6, 1000.0))
-      ->check(finite());
-  sub.add_option("--points", options.creep_curve.points,
-                 "Creepages, spaced geometrically over two and a half decades (default: 21)")
-      ->check(CLI::Range(2, 1000));
-  sub.add_flag("--both-sides", options.creep_curve.both_sides,
-               "The curve through zero: driving and braking, slip to the gauge and to the field side");
-  add_no_report(sub, options);
-}
-
-}  // namespace
-
-const Command kCreepCurveCommand{
-    "creep-curve",
-    "Force against longitudinal or lateral creepage or spin, by the full half-space theory and by the fast ones",
-    "Examples:\n  railstrata creep-curve cases/paper/base.toml\n  railstrata creep-curve cases/quick --largest 0.01 "
-    "--points 11 --cell \"0.5 mm\" --out results/creep\n  railstrata creep-curve cases/paper/layer_3mm_2E0.toml --of "
-    "lateral_creepage --both-sides --set drive.traction_coefficient=0\n",
-    declare_creep_curve, command_creep_curve};
 
 }  // namespace railstrata

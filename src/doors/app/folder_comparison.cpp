@@ -1,6 +1,7 @@
+#include "app/folder_comparison.hpp"
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,19 +10,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/commands.hpp"
-#include "app/common_options.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
-#include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "io/result_doubts.hpp"
-#include "io/result_folder.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
 #include "report/comparison_picture.hpp"
-#include "result/compare.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {
@@ -178,50 +174,40 @@ std::string last_name(const fs::path& folder) {
   return fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
 }
 
-ExitCode command_compare(const CommandOptions& options) {
-  const ResultFolder a = read_result_folder(options.case_file), b = read_result_folder(options.reference);
-  const fs::path out =
-      options.out.empty() ? fs::path("results") / fmt::format("{}-against-{}", last_name(a.folder), last_name(b.folder))
-                          : options.out;
-  for (const ResultFolder* side : {&a, &b})
-    for (const ResultDoubt& doubt : result_doubts(*side)) spdlog::warn("{}: {}", side->folder.string(), doubt.text);
-  const FieldComparison comparison = compare_fields_of(a, b);
-  const std::vector<Row> rows = rows_of(a, b);
-  const nlohmann::ordered_json json = as_json(a, b, rows, comparison);
-
-  const FolderHold hold = prepare_output_folder(out, options.force);
-  const std::vector<std::string> origin{
-      fmt::format("RailStrata {}", version_text()),
-      fmt::format("a: {} ({}); b: {} ({})", a.folder.string(), a.engine, b.folder.string(), b.engine),
-      "x from the axle in the rolling direction, y towards the field side; q: magnitude of the traction"};
-  const std::string text = json_text(json, 2) + "\n";
-  write_whole_file(out / "compare.json", text);
-  write_whole_file(out / "compare.csv", csv_text(rows));
-  write_fields(out / "fields.csv", origin, comparison);
-  write_whole_file(out / "compare.svg",
-                   comparison_svg({"A: " + last_name(a.folder) + " (" + a.engine + ")", a.field},
-                                  {"B: " + last_name(b.folder) + " (" + b.engine + ")", b.field}, comparison));
-  if (options.json)
-    fmt::print("{}", text);
-  else
-    print_table(a, b, rows, comparison);
-  for (const std::string& note : notes_of(a, b)) spdlog::info("{}", note);
-  spdlog::info("results are in {}", out.string());
-  return ExitCode::ok;
-}
-
-void declare_compare(CLI::App& sub, CommandOptions& options) {
-  sub.add_option("a", options.case_file, "Result folder A")->required();
-  sub.add_option("b", options.reference, "Result folder B: differences are relative to it")->required();
-  add_output(sub, options, "results/<folder A>-against-<folder B>");
-}
-
 }  // namespace
 
-const Command kCompareCommand{
-    "compare", "Two results, of either engine, on one grid: a table, the differences of the fields, a picture",
-    "Examples:\n  railstrata compare results/quick results/quick-bem\n  railstrata compare results/thin results/thick "
-    "--out results/thin-against-thick\n",
-    declare_compare, command_compare};
+fs::path comparison_folder(const fs::path& a, const fs::path& b) {
+  return fs::path("results") / fmt::format("{}-against-{}", last_name(a), last_name(b));
+}
+
+FolderComparison::FolderComparison(const fs::path& folder_a, const fs::path& folder_b)
+    : a_(read_result_folder(folder_a)), b_(read_result_folder(folder_b)) {
+  for (const ResultFolder* side : {&a_, &b_})
+    for (const ResultDoubt& doubt : result_doubts(*side)) spdlog::warn("{}: {}", side->folder.string(), doubt.text);
+  fields_ = compare_fields_of(a_, b_);
+}
+
+void FolderComparison::write(const fs::path& out) const {
+  const std::vector<std::string> origin{
+      fmt::format("RailStrata {}", version_text()),
+      fmt::format("a: {} ({}); b: {} ({})", a_.folder.string(), a_.engine, b_.folder.string(), b_.engine),
+      "x from the axle in the rolling direction, y towards the field side; q: magnitude of the traction"};
+  const std::vector<Row> rows = rows_of(a_, b_);
+  write_whole_file(out / "compare.json", json_text(as_json(a_, b_, rows, fields_), 2) + "\n");
+  write_whole_file(out / "compare.csv", csv_text(rows));
+  write_fields(out / "fields.csv", origin, fields_);
+  write_whole_file(out / "compare.svg",
+                   comparison_svg({"A: " + last_name(a_.folder) + " (" + a_.engine + ")", a_.field},
+                                  {"B: " + last_name(b_.folder) + " (" + b_.engine + ")", b_.field}, fields_));
+}
+
+void FolderComparison::print(bool json) const {
+  const std::vector<Row> rows = rows_of(a_, b_);
+  if (json)
+    fmt::print("{}\n", json_text(as_json(a_, b_, rows, fields_), 2));
+  else
+    print_table(a_, b_, rows, fields_);
+  for (const std::string& note : notes_of(a_, b_)) spdlog::info("{}", note);
+}
 
 }  // namespace railstrata

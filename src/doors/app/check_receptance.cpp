@@ -1,12 +1,11 @@
+#include "app/check_receptance.hpp"
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
-#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/waiting.hpp"
 #include "core/faults.hpp"
@@ -35,11 +34,12 @@ double blow_time(const std::string& text) {
   throw CaseError(fmt::format("--time {} is out of range", text), "write a time from 1 ms to 10 s, e.g. \"0.1 s\"");
 }
 
-ExitCode command_receptance(const CommandOptions& options) {
+}  // namespace
+
+ExitCode check_receptance(const ReceptanceOptions& wanted, const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
   const std::filesystem::path out = output_folder_of(options, loaded, "-receptance");
   answer_interrupt_with("\nstopped: nothing was written\n");
-  const ReceptanceOptions& wanted = options.receptance;
   const double time = blow_time(wanted.time);
   std::vector<BlowEnergy> blows;
   const Receptance receptance = with_places(loaded, [&] {
@@ -71,23 +71,5 @@ ExitCode command_receptance(const CommandOptions& options) {
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
 }
-
-void declare_receptance(CLI::App& sub, CommandOptions& options) {
-  add_case(sub, options);
-  add_output(sub, options, "results/<case name>-receptance");
-  sub.add_option("--largest", options.receptance.largest, "Largest frequency in Hz (default: 3000)")
-      ->check(CLI::Range(20.0, 20000.0));
-  sub.add_option("--time", options.receptance.time, "How long a blow is followed (default: \"0.1 s\")");
-  sub.add_flag("--beam", options.receptance.beam, "The beam alone, at once, without finite elements");
-  add_no_report(sub, options);
-}
-
-}  // namespace
-
-const Command kReceptanceCommand{
-    "receptance", "Displacement over force of the rail on its track, at midspan and over a sleeper",
-    "Examples:\n  railstrata receptance cases/along/receptance.toml\n  railstrata receptance "
-    "cases/along/receptance.toml --beam --set track.preset=medium --largest 2000\n",
-    declare_receptance, command_receptance};
 
 }  // namespace railstrata

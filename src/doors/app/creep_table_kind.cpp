@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,9 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
-#include "app/common_options.hpp"
 #include "app/control.hpp"
+#include "app/creep_kinds.hpp"
 #include "app/option_values.hpp"
 #include "creep/creep_table_job.hpp"
 #include "record/csv.hpp"
@@ -54,19 +52,21 @@ void print(const CreepTable& table, const TableError& error) {
   for (const std::string& fault : table.faults()) spdlog::warn("{}", fault);
 }
 
-ExitCode command_creep_table(const CommandOptions& options) {
-  std::vector<NumberAxis> axes = parse_number_axes("--axis", options.creep_table.axes);
+}  // namespace
+
+ExitCode creep_table_in_folder(const CreepTableWords& wanted, const CommandOptions& options) {
+  std::vector<NumberAxis> axes = parse_number_axes("--axis", wanted.axes);
   const LoadedCase base = load_half_space_case_of(options, CaseUse::steady_rolling);
   if (!base.spec.run.rolling)
     spdlog::warn("run.rolling = false has no effect: a creep table is of steady rolling, with the case's friction");
   if (base.spec.transient.kind != TransientKind::none)
     spdlog::warn("[transient] has no effect: a creep table is of steady rolling");
-  CreepTableOrder order{job_order_of(options, base, "-creep-table", options.creep_table.resume),
+  CreepTableOrder order{job_order_of(options, base, "-creep-table", wanted.resume),
                         options.overrides,
                         std::move(axes),
-                        scaled_counts(options.creep_table.scaled),
+                        scaled_counts(wanted.scaled),
                         cell_size(options.cell),
-                        options.creep_table.places};
+                        wanted.places};
   const auto show = [&](const CreepTable& table, const TableError& error, const nlohmann::ordered_json& json) {
     if (options.json)
       fmt::print("{}\n", json.dump(2));
@@ -77,36 +77,5 @@ ExitCode command_creep_table(const CommandOptions& options) {
   };
   return code_of(carry_out_creep_table(base, order, control_by_signals(), show));
 }
-
-void declare_creep_table(CLI::App& sub, CommandOptions& options) {
-  add_case(sub, options);
-  add_output(sub, options, "results/<case name>-creep-table");
-  add_cell(sub, options);
-  add_repeated(sub, "--axis", options.creep_table.axes, "WORD=VALUES",
-               "An axis: creepage_x, creepage_y, spin, load, friction, lateral_shift, yaw or a key of the case; values "
-               "\"v1,v2,...\", \"from:to:count\" or, dense about 0, \"+-largest:count\"")
-      ->required();
-  sub.add_option(
-         "--scaled", options.creep_table.scaled,
-         "A table in scaled creepages, with so many angles of creepage, angles of spin and sizes (12:17:13); of "
-         "the axes creepage_x, creepage_y and spin the ends count")
-      ->type_name("ANGLES:SPINS:SIZES");
-  sub.add_option("--places", options.creep_table.places,
-                 "Places where interpolation is compared with a solution (default: 200; 0: none)")
-      ->check(CLI::Range(0, 100'000));
-  sub.add_flag("--resume", options.creep_table.resume, "Go on with a table that was stopped");
-}
-
-}  // namespace
-
-const Command kCreepTableCommand{
-    "creep-table", "Table of creep forces over axes of your choice, for vehicle codes: HDF5, CSV and a reader in C",
-    "Examples:\n  railstrata creep-table cases/paper/base.toml --axis creepage_x=+-0.02:21 --axis "
-    "creepage_y=+-0.02:21 "
-    "--axis spin=\"-0.5:0.5 1/m:5\" --axis load=\"40 kN,80 kN,120 kN\" --out results/table\n  railstrata creep-table "
-    "cases/paper/base.toml --scaled 12:17:13 --axis creepage_x=-0.02,0.02 --axis creepage_y=-0.02,0.02 --axis "
-    "spin=\"-0.5,0.5 1/m\" --axis load=\"40 kN,80 kN,120 kN\" --out results/scaled-table\n  railstrata creep-table "
-    "cases/paper/layer_3mm_2E0.toml --axis layer.0.thickness=\"1 mm,2 mm,3 mm\" --axis creepage_x=+-0.01:15\n",
-    declare_creep_table, command_creep_table};
 
 }  // namespace railstrata

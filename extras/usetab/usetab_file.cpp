@@ -1,10 +1,8 @@
+#include "usetab/usetab_file.hpp"
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <CLI/CLI.hpp>
 
-#include "app/case_of.hpp"
-#include "app/commands.hpp"
-#include "app/common_options.hpp"
 #include "app/control.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
@@ -12,14 +10,13 @@
 #include "usetab/usetab.hpp"
 
 namespace railstrata {
-namespace {
 
-ExitCode command_usetab(const CommandOptions& options) {
+ExitCode write_usetab(int cells, const CommandOptions& options) {
   const std::filesystem::path out = options.out.empty() ? "results/usetab" : options.out;
   const FolderHold hold = prepare_output_folder(out, options.force);
   const UsetabAxes axes = usetab_axes();
   UsetabOptions how;
-  how.cells = options.usetab_cells;
+  how.cells = cells;
   how.control = &control_by_signals();
   std::string text = usetab_head(axes, how.cells, fmt::format("RailStrata {}", build_info().version));
   std::size_t done = 0;
@@ -41,18 +38,5 @@ ExitCode command_usetab(const CommandOptions& options) {
   spdlog::info("the table is {}", (out / "tabcon").string());
   return ExitCode::ok;
 }
-
-void declare_usetab(CLI::App& sub, CommandOptions& options) {
-  add_output(sub, options, "results/usetab");
-  sub.add_option("--cells", options.usetab_cells, "Cells along either axis of the ellipse (default: 20)")
-      ->check(CLI::Range(6, 100));
-}
-
-}  // namespace
-
-const Command kUsetabCommand{
-    "usetab", "Kalker's table of creep forces of ellipses of steel, as programs with a USETAB reader take it",
-    "Examples:\n  railstrata usetab --out results/usetab\n  railstrata usetab --cells 30\n", declare_usetab,
-    command_usetab};
 
 }  // namespace railstrata
