@@ -3,8 +3,8 @@
 
 usage: check_expect.py CASE RESULTS            CASE: a case file, or a folder with case.toml; RESULTS: the run's folder
        check_expect.py CASE --run BINARY       runs the case first, in a folder of its own, and wants exit code 0; one
-                                               with a [transient] table, a line contact or a yawed wheel on a roller
-                                               by half-spaces, one with [[load]] as a collective, whose numbers stand
+                                               of the folder contact, with a [transient] table, a line contact or a
+                                               yawed wheel on a roller by half-spaces, one with [[load]] as a collective, whose numbers stand
                                                in collective.json, one with [collective] too, on coarse cells and
                                                without passes for its lives, one with [passes] as a few passes on
                                                coarse cells: passes.json
@@ -99,7 +99,8 @@ def command_for(case):
     tables = tomllib.loads(case.read_text())
     geometry = tables.get("geometry", {})
     yawed_on_roller = {"yaw", "rail_radius"} <= set(geometry)
-    by_half_spaces = "transient" in tables or geometry.get("contact") == "line" or yawed_on_roller
+    by_half_spaces = (case.absolute().parent.name == "contact" or "transient" in tables or yawed_on_roller or
+                      geometry.get("contact") == "line")
     if "collective" in tables:
         return ["collective", "--set", "life.passes=0", "--cell", "1 mm"]
     if "passes" in tables:
