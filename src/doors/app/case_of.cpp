@@ -45,7 +45,7 @@ LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use) {
   with_places(loaded, [&] { require_half_spaces(loaded.spec); });
   const RunSpec& run = loaded.spec.run;
   if (run.rolling && run.device != ComputeDevice::cpu)  // else a note of the case reports it
-    spdlog::warn("run.device has no effect: half-spaces are computed on processors");
+    spdlog::warn("run.device is ignored: half-spaces are computed on the CPU");
   return loaded;
 }
 

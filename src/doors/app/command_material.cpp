@@ -151,7 +151,7 @@ ExitCode drive(const MaterialOptions& o, const CommandOptions& options, const Lo
         which.name, law_text(material), run.states.size(), o.increments, kToPercent * run.states.back().history[6],
         kToMega * run.states.back().dissipated, run.cycles.size() > 1 ? cycles_text(run) : "");
   }
-  spdlog::info("the table is {}, the picture beside it", out.string());
+  spdlog::info("the table is {}, its picture in the same folder", out.string());
   return ExitCode::ok;
 }
 
@@ -191,7 +191,7 @@ ExitCode calibrate(const MaterialOptions& o, const CommandOptions& options, cons
   } else {
     fmt::print("{}", card);
   }
-  spdlog::info("the card is {}, the picture of the fit beside it", out.string());
+  spdlog::info("the card is {}, the picture of the fit in the same folder", out.string());
   return ExitCode::ok;
 }
 

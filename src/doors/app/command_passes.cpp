@@ -37,7 +37,7 @@ void require_stationary(const PassesOptions& options) {
   if (!options.roll_length.empty())
     throw CaseError("--roll-length: the stationary method rolls no length", "take it out, or add --engine fem");
   if (options.wheels != "new")
-    throw CaseError("--wheels: the wheel of the stationary method is elastic, and the same for ever",
+    throw CaseError("--wheels: the stationary method has one elastic wheel for all passes",
                     "take it out, or add --engine fem");
 }
 

@@ -150,7 +150,7 @@ CommandWork declare_study(CLI::App& sub, CommandOptions& options) {
       "End when all that is left is being computed by other processes; else wait for it, and take over from "
       "those that die");
   sub.add_option("--lease", own->lease,
-                 "A process that has not touched the claim of its case for so long is held for dead (by the clock of "
+                 "A process that has not touched the claim of its case for so long counts as dead (by the clock of "
                  "the file server)")
       ->capture_default_str();
   sub.add_flag("--dry-run", own->dry_run, "List the cases and what is done of them; compute nothing");

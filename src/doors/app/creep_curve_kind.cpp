@@ -56,9 +56,9 @@ nlohmann::ordered_json as_json(const std::string& title, const std::vector<CsvCo
 std::vector<std::string> notes_of(const CaseSpec& spec) {
   std::vector<std::string> out;
   if (spec.transient.kind != TransientKind::none)
-    out.emplace_back("[transient] has no effect: a creep curve is of steady rolling");
+    out.emplace_back("[transient] is ignored: creep curves assume steady rolling");
   if (!spec.run.rolling)
-    out.emplace_back("run.rolling = false has no effect: a creep curve is of steady rolling, with the case's friction");
+    out.emplace_back("run.rolling = false is ignored: creep curves assume steady rolling, with the case's friction");
   return out;
 }
 

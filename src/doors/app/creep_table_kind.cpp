@@ -58,9 +58,9 @@ ExitCode creep_table_in_folder(const CreepTableWords& wanted, const CommandOptio
   std::vector<NumberAxis> axes = parse_number_axes("--axis", wanted.axes);
   const LoadedCase base = load_half_space_case_of(options, CaseUse::steady_rolling);
   if (!base.spec.run.rolling)
-    spdlog::warn("run.rolling = false has no effect: a creep table is of steady rolling, with the case's friction");
+    spdlog::warn("run.rolling = false is ignored: creep tables assume steady rolling, with the case's friction");
   if (base.spec.transient.kind != TransientKind::none)
-    spdlog::warn("[transient] has no effect: a creep table is of steady rolling");
+    spdlog::warn("[transient] is ignored: creep tables assume steady rolling");
   CreepTableOrder order{job_order_of(options, base, "-creep-table", wanted.resume),
                         options.overrides,
                         std::move(axes),

@@ -125,8 +125,7 @@ ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const Collectiv
   out.tone = "open";
   out.text += fmt::format(
       "; {:.0f} µm after all {:.0f} passages assumes an unworn profile; use `railstrata collective --steps`, which "
-      "removes the "
-      "wear step by step, for a forecast",
+      "removes the wear step by step, for a forecast",
       micro, passages);
   return out;
 }
