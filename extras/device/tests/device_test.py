@@ -117,7 +117,7 @@ class Refused(FromOutside):
             rc, _, err = railstrata(words[0], case, *words[1:], "--cell", "1 mm", "--no-report", "--out",
                                     self.folder / words[0])
             self.assertIn(rc, (0, 1), err)
-            self.assertIn("run.device has no effect: half-spaces are computed on processors", err)
+            self.assertIn("run.device is ignored: half-spaces are computed on the CPU", err)
 
 
 class Emulated(FromOutside):
