@@ -201,7 +201,7 @@ SolidModel solid_model(const Model& m) {
   if (contact.yaw != 0) turn_about_axle(out.wheel, out.axle, contact.yaw);
   const VehicleSpec& v = m.spec.vehicle;
   out.gravity = v.gravity;
-  out.axle_load = (v.wheel_mass + v.sprung_mass - meshed_mass(out.wheel)) * v.gravity;
+  out.axle_load = v.load() - meshed_mass(out.wheel) * v.gravity;
   out.static_load = m.load;
   out.approach = m.hertz.approach;
   out.p_max = m.hertz.p0;

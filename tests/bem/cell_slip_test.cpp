@@ -118,7 +118,7 @@ TEST(CellSlip, FrictionTakesWhatForcesCreepagesMomentAndSpinPutIn) {
   for (const auto& [thickness, ratio] : {std::pair(0.0, 1.0), std::pair(2e-3, 2.0), std::pair(2e-3, 0.5)}) {
     const CaseSpec spec = on_a_layer(thickness, ratio);
     const Placement placement = place(spec, {});
-    const double weight = static_load(spec);
+    const double weight = spec.vehicle.load();
     CasePatch patch = make_case_patch(spec, placement, {}, {.load = weight, .approach = {}});
     for (const Driven& d : {Driven{0.2, 0, 0}, {0.45, 0, 0}, {0, 0, 0.6}, {0.2, 5e-4, -0.3}})
       for (const LeadingEdge edge : kEdges) {

@@ -65,14 +65,14 @@ TEST(SeveralPatches, TwoEqualOnesShareTheLoadInHalves) {
   const BemResult both = solve_bem(spec, two_crowns(0, 0), BemOptions{});
   ASSERT_EQ(both.further.size(), 1U);
   const BemPatch& other = both.further[0];
-  const double weight = static_load(spec);
+  const double weight = spec.vehicle.load();
   EXPECT_NEAR(both.force.normal / other.force.normal, 1, 1e-6);
   EXPECT_NEAR(both.force.x / other.force.x, 1, 1e-6);
   EXPECT_NEAR(both.force.normal / weight, 0.5, 1e-6);
   EXPECT_NEAR(both.contact.point.y + other.contact.point.y, 0, 1e-9);
 
   CaseSpec half = spec;
-  half.vehicle.sprung_mass = 0.5 * weight / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  half.vehicle.set_load(0.5 * weight);
   half.geometry.rail_profile = "arc:R=100 mm";
   half.geometry.wheel_profile = "flat";
   half.geometry.cant = 0;
@@ -90,7 +90,7 @@ TEST(SeveralPatches, TwoEqualOnesShareTheLoadInHalves) {
 // N/(pi E* 2c).
 TEST(SeveralPatches, ALowerCrownTakesWhatHertzGivesIt) {
   const CaseSpec spec = driven(0);
-  const double weight = static_load(spec), modulus = contact_modulus({210e9, 0.3}, {210e9, 0.3});
+  const double weight = spec.vehicle.load(), modulus = contact_modulus({210e9, 0.3}, {210e9, 0.3});
   const double radius = CaseSpec{}.geometry.wheel_radius;
   const auto load_at = [&](double approach) {
     const HertzContact under = hertz_contact(0.5 / radius, 0.5 / kCrown, modulus, weight);
@@ -121,10 +121,10 @@ TEST(SlowSeveralPatches, TheSecondStartsFromNoLoad) {
   bool ended = false;
   for (double cant = 0; cant < 6e-3; cant += 0.25e-3) {
     const BemResult r = solve_bem(spec, two_crowns(cant, 0), coarse());
-    const double second = r.further.empty() ? 0.0 : r.further[0].force.normal / static_load(spec);
+    const double second = r.further.empty() ? 0.0 : r.further[0].force.normal / spec.vehicle.load();
     EXPECT_LT(second, previous + 1e-6) << cant;
     EXPECT_GT(second, previous - 0.09) << cant;
-    EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-5) << cant;
+    EXPECT_NEAR(-force_on_rail(r).z / spec.vehicle.load(), 1, 1e-5) << cant;
     if (second == 0 && previous > 0) {
       EXPECT_LT(previous, 0.03) << cant;
     }
@@ -142,7 +142,7 @@ TEST(SeveralPatches, OnDifferentRadiiTheirForcesAreOppositeWithoutTraction) {
   const bool first_larger = r.contact.rolling_radius > r.further[0].contact.rolling_radius;
   const BemPatch &larger = first_larger ? static_cast<const BemPatch&>(r) : r.further[0],
                  &smaller = first_larger ? r.further[0] : r;
-  const double weight = static_load(spec);
+  const double weight = spec.vehicle.load();
   EXPECT_NEAR(larger.contact.rolling_radius - smaller.contact.rolling_radius,
               2 * kHalfDistance * std::sin(std::atan(0.05)), 1e-6);
   EXPECT_NEAR((larger.force.x + smaller.force.x) / weight, 0, 1e-6);
@@ -159,7 +159,7 @@ double flange_load(const CaseSpec& spec, const BemResult& r) {
   if (r.contact.angle > 0.3) sum += r.force.normal;
   for (const BemPatch& p : r.further)
     if (p.contact.angle > 0.3) sum += p.force.normal;
-  return sum / static_load(spec);
+  return sum / spec.vehicle.load();
 }
 
 /// A patch that was solved in another plane than the first one; null: there is none.
@@ -189,8 +189,8 @@ TEST(SlowSeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
     EXPECT_LT(load, previous + 0.18) << shift;
     if (in_another_plane(r)) {
       ++shared;
-      EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-6) << shift;
-      EXPECT_NEAR(force_on_rail(r).x / static_load(spec), -0.02, 1e-6) << shift;
+      EXPECT_NEAR(-force_on_rail(r).z / spec.vehicle.load(), 1, 1e-6) << shift;
+      EXPECT_NEAR(force_on_rail(r).x / spec.vehicle.load(), -0.02, 1e-6) << shift;
       if (first == 0) first = load;
     }
     previous = load;
@@ -298,7 +298,7 @@ TEST(SeveralPatches, InOnePlaneAreTakenApartWhereTheyAreNotConnected) {
     ASSERT_TRUE(r.field.p[k] == 0 || other.field.p[k] == 0);
     ASSERT_EQ(r.field.p[k] + other.field.p[k], r.together->p[k]);
   }
-  EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-4);
+  EXPECT_NEAR(-force_on_rail(r).z / spec.vehicle.load(), 1, 1e-4);
   // the wheel turns as a whole
   EXPECT_NEAR((1 - r.rigid_slip.x) / r.place.rolling_radius, (1 - other.rigid_slip.x) / other.place.rolling_radius,
               1e-12);
@@ -319,7 +319,7 @@ TEST(SeveralPatches, InOnePlaneAreTheSameWhicheverIsFirst) {
     return solve_bem(spec, place(spec, {}), options);
   };
   const BemResult before = solved(low), after = solved(high);
-  const double load = static_load(tread_and_corner(low));
+  const double load = tread_and_corner(low).vehicle.load();
   const Vec3 force = force_on_rail(before), change = force_on_rail(after) - force;
   EXPECT_NEAR(change.y, 0, 1e-4 * load);
   EXPECT_NEAR(before.contact.angle, after.contact.angle, 1e-4);
@@ -357,7 +357,7 @@ TEST(SeveralPatches, CreepagesOfTheWheelAreTheSameWhicheverIsFirst) {
     EXPECT_EQ(one.further.size(), 1U);
     const Placement after = at(high);
     const Vec3 d = force_on_rail(solve_bem(spec, after, options)) - force_on_rail(one);
-    return std::hypot(d.x, d.y) / static_load(spec);
+    return std::hypot(d.x, d.y) / spec.vehicle.load();
   };
   EXPECT_LT(change(CreepageOf::wheel), 2e-4);
   EXPECT_GT(change(CreepageOf::contact), 0.05);
@@ -382,7 +382,7 @@ double lateral_friction(const BemResult& r) {
 TEST(SeveralPatches, AGivenLateralForceIsSharedByEqualOnesUnderOneCreepage) {
   CaseSpec spec = driven(0.1);
   spec.drive.lateral_traction_coefficient = -0.08;
-  const double weight = static_load(spec);
+  const double weight = spec.vehicle.load();
   const BemResult r = solve_bem(spec, level_crowns(0), coarse());
   ASSERT_EQ(r.further.size(), 1U);
   EXPECT_NEAR(lateral_friction(r) / weight, 0.08, 1e-6);
@@ -390,7 +390,7 @@ TEST(SeveralPatches, AGivenLateralForceIsSharedByEqualOnesUnderOneCreepage) {
   EXPECT_NEAR(-force_on_rail(r).z / weight, 1, 1e-6);
   EXPECT_NEAR(r.force.tangential / weight, 0.04, 1e-4);
   EXPECT_NEAR(r.rigid_slip.y, r.further[0].rigid_slip.y, 1e-12);
-  spec.vehicle.sprung_mass = 0.5 * weight / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  spec.vehicle.set_load(0.5 * weight);
   const BemResult one = solve_bem(spec, two_crowns(0.025, 0), coarse());  // the other crown 0.6 mm too low
   ASSERT_TRUE(one.further.empty());
   EXPECT_NEAR(r.rigid_slip.y / one.rigid_slip.y, 1, 0.01);
@@ -405,7 +405,7 @@ TEST(SeveralPatches, AGivenLateralForceClosesOverInclinedOnes) {
   spec.geometry.cant = 0.05;
   spec.geometry.lateral_shift = 9.65e-3;
   spec.drive.lateral_traction_coefficient = -0.05;
-  const double weight = static_load(spec);
+  const double weight = spec.vehicle.load();
   const Placement p = place(spec, {});
   BemOptions options;
   options.cell = 1e-3;
@@ -432,8 +432,8 @@ TEST(SeveralPatches, TractionBeyondBothIsRefusedAndLayersAreCoupled) {
   spec.layers[0].material.young = 2 * 210e9;
   const BemResult r = solve_bem(spec, level_crowns(0.05), coarse());
   ASSERT_EQ(r.further.size(), 1U);
-  EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-6);
-  EXPECT_NEAR(force_on_rail(r).x / (-0.05 * static_load(spec)), 1, 2e-5);
+  EXPECT_NEAR(-force_on_rail(r).z / spec.vehicle.load(), 1, 1e-6);
+  EXPECT_NEAR(force_on_rail(r).x / (-0.05 * spec.vehicle.load()), 1, 2e-5);
 }
 
 }  // namespace

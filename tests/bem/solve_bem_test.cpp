@@ -22,8 +22,8 @@ TEST(SolveBem, PaperBaseCase) {
   const CaseSpec spec = paper_base();
   const BemResult r = solve_bem(spec, place(spec, {}));
   EXPECT_NEAR(r.patch.largest_pressure / 1074e6, 1, 0.007);
-  EXPECT_NEAR(r.force.x / (-0.2 * static_load(spec)), 1, 1e-5);
-  EXPECT_NEAR(-r.force.z / static_load(spec), 1, 1e-5);
+  EXPECT_NEAR(r.force.x / (-0.2 * spec.vehicle.load()), 1, 1e-5);
+  EXPECT_NEAR(-r.force.z / spec.vehicle.load(), 1, 1e-5);
   EXPECT_GT(r.patch.slip_area / r.patch.area, 0.20);
   EXPECT_LT(r.patch.slip_area / r.patch.area, 0.30);
   EXPECT_LT(r.rigid_slip.x, -1.2e-3);
@@ -46,7 +46,7 @@ TEST(SolveBem, NormalAndLateralForceTogetherBearTheWeightAtSteepContactAngles) {
     const Placement placement = place(spec, {});
     const BemResult r = solve_bem(spec, placement, options);
     EXPECT_GT(r.contact.angle, 0.1);
-    const double weight = static_load(spec), c = std::cos(r.contact.angle), s = std::sin(r.contact.angle);
+    const double weight = spec.vehicle.load(), c = std::cos(r.contact.angle), s = std::sin(r.contact.angle);
     EXPECT_NEAR((r.force.normal * c - r.force.tangential * s) / weight, 1, 1e-5) << shift;
     EXPECT_NEAR(-r.force.z / weight, 1, 1e-5) << shift;
     EXPECT_NEAR(r.force.x / (-0.05 * weight), 1, 1e-5) << shift;
@@ -67,7 +67,7 @@ TEST(SolveBem, FrictionThatCarriesMostOfTheWeightLeavesAPositiveNormalForce) {
     spec.drive.friction_coefficient = friction;
     spec.drive.traction_coefficient = 0;
     const BemResult r = solve_bem(spec, place(spec, {}), options);
-    EXPECT_NEAR(-r.force.z / static_load(spec), 1, 1e-5) << friction;
+    EXPECT_NEAR(-r.force.z / spec.vehicle.load(), 1, 1e-5) << friction;
     EXPECT_LT(r.force.normal, before);
     EXPECT_GT(r.force.normal, 0);
     before = r.force.normal;
@@ -89,7 +89,7 @@ TEST(SolveBem, SpinWithTheSurfacesOwnAnglesHasContactsLateralFriction) {
     m->young = 2 * 82e9 * 1.28;
     m->poisson = 0.28;
   }
-  spec.vehicle.sprung_mass = 85e3 / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  spec.vehicle.set_load(85e3);
   spec.drive.traction_coefficient = 0;
   spec.drive.friction_coefficient = 0.3;
   const auto lateral_friction = [&](SpinAngle angle) {
@@ -276,7 +276,7 @@ TEST(SolveBem, ConvergesForThinAndThickSoftAndStiffLayersOnEitherBody) {
           layer.material = {ratio * 210e9, nu, 7800, {}};
           spec.layers = {layer};
           const BemResult r = solve_bem(spec, place(spec, {}), options);
-          EXPECT_NEAR(r.force.x / (-0.2 * static_load(spec)), 1, 1e-4)
+          EXPECT_NEAR(r.force.x / (-0.2 * spec.vehicle.load()), 1, 1e-4)
               << body_word(on) << nu << ' ' << ratio << ' ' << h;
         }
 }

@@ -119,7 +119,7 @@ TEST(Guards, AWheelFliesOverAHollowAndComesDown) {
     least = std::min(least, std::abs(row.forces.z));
     most = std::max(most, std::abs(row.forces.z));
   }
-  const double load = static_load(spec);
+  const double load = spec.vehicle.load();
   EXPECT_EQ(least, 0);
   EXPECT_GT(most, 1.3 * load);
   EXPECT_GT(std::abs(run.history.back().forces.z), 0.3 * load) << "it has landed";

@@ -32,7 +32,7 @@ bool holds(const Summary& s, const std::string& name) {
 TEST(BemSummary, OfCrossedCylindersIsHertzs) {
   const CaseSpec spec = crossed_cylinders();
   const Summary s = whole_summary(spec, solve_bem(spec, place(spec, {}), cells(0.25e-3)));
-  const double load = static_load(spec), modulus = 210e9 / (2 * (1 - 0.09)),
+  const double load = spec.vehicle.load(), modulus = 210e9 / (2 * (1 - 0.09)),
                a = std::cbrt(3 * load * 0.42 / (4 * modulus)), p0 = 1.5 * load / (std::numbers::pi * a * a);
   EXPECT_NEAR(s.contact.patch.p_max / p0, 1, 2e-3);
   EXPECT_NEAR(s.contact.patch.length / (2 * a), 1, 0.01);
@@ -66,7 +66,7 @@ TEST(BemSummary, OfPatchesHasThatOfTheLargestPressureAndTheForcesOfAll) {
   const Summary s = bem_contact_summary(spec, r);
   ASSERT_EQ(s.patches.size(), 3U);
   const ContactSummary &first = s.patches[0].contact, &second = s.patches[1].contact;
-  const double load = static_load(spec);
+  const double load = spec.vehicle.load();
   EXPECT_GT(first.patch.p_max, second.patch.p_max);
   EXPECT_EQ(s.contact.patch.p_max, first.patch.p_max);
   EXPECT_EQ(s.contact.contact_angle, first.contact_angle);
@@ -86,8 +86,8 @@ TEST(BemSummary, ForcesOfADrivingWheelActOnTheWheelAndItsCreepageIsNegative) {
   CaseSpec spec;
   spec.geometry.lateral_shift = 1.5e-3;
   const Summary s = bem_contact_summary(spec, solve_bem(spec, place(spec, {}), cells(0.5e-3)));
-  EXPECT_NEAR(s.contact.F_x / (0.2 * static_load(spec)), 1, 1e-5);
-  EXPECT_NEAR(s.contact.F_z / static_load(spec), 1, 1e-5);
+  EXPECT_NEAR(s.contact.F_x / (0.2 * spec.vehicle.load()), 1, 1e-5);
+  EXPECT_NEAR(s.contact.F_z / spec.vehicle.load(), 1, 1e-5);
   EXPECT_LT(s.contact.creepage_x, 0);
   EXPECT_LT(s.contact.spin_per_m, 0) << "the contact plane rises to the field side";
   EXPECT_TRUE(holds(s, "F_z_relative_to_weight"));

@@ -22,7 +22,7 @@ CaseSpec cylinder() {
   g.rail_shape = RailShape::block;
   g.wheel_radius = 0.5;
   g.cant = 0;
-  spec.vehicle.sprung_mass = 90622.865 / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  spec.vehicle.set_load(90622.865);
   spec.drive.traction_coefficient = 0.2;
   return spec;
 }

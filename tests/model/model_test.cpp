@@ -128,7 +128,7 @@ TEST(StaticLoad, IsTheWeightOfWheelAndSprungMass) {
   spec.vehicle.wheel_mass = 700;
   spec.vehicle.sprung_mass = 9300;
   spec.vehicle.gravity = 9.8;
-  EXPECT_DOUBLE_EQ(static_load(spec), 98000);
+  EXPECT_DOUBLE_EQ(spec.vehicle.load(), 98000);
 }
 
 // Two equal principal curvatures 1/R: a = (3 F R/(4 E*))^(1/3), p0 = 3 F/(2 pi a^2), approach a^2/R [Johnson1985 eqs.
@@ -147,7 +147,7 @@ TEST(HertzEstimate, OfCrossedCylindersIsTheSpheres) {
   CaseSpec spec = crossed_cylinders();
   spec.wheel_material.young = 2 * kYoung;
   const HertzContact h = hertz_estimate(spec, place(spec, {}).contact);
-  const double modulus = 1 / ((1 - 0.09) / kYoung + (1 - 0.09) / (2 * kYoung)), F = static_load(spec);
+  const double modulus = 1 / ((1 - 0.09) / kYoung + (1 - 0.09) / (2 * kYoung)), F = spec.vehicle.load();
   const double a = std::cbrt(0.75 * F * kRadius / modulus);
   EXPECT_NEAR(h.a / a, 1, 1e-5);
   EXPECT_NEAR(h.b / a, 1, 1e-5);

@@ -686,9 +686,7 @@ TEST(Overrides, GiveAllLayersAsAList) {
   EXPECT_TRUE(error_of("", {"layer=3"}).starts_with("--set layer=3: layer must be a list of tables\n"));
 }
 
-double load_of(const CaseSpec& spec) {
-  return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
-}
+double load_of(const CaseSpec& spec) { return spec.vehicle.load(); }
 
 TEST(CaseFile, ALoadIsAForceOrAMassAndSetsTheSprungMass) {
   const auto spec = [](const std::string& text) { return parse_case("[vehicle]\n" + text, "a.toml").spec; };

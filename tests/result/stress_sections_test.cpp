@@ -28,8 +28,8 @@ std::vector<double> borders(const std::vector<double>& centres) {
 TEST(StressSections, HoldTheStressesOnTheAxisOfAHertzianContact) {
   const CaseSpec spec = crossed_cylinders();
   const BemResult r = solve_bem(spec, place(spec, {}), {});
-  const double a = std::cbrt(3 * static_load(spec) * 0.42 / (4 * 210e9 / (2 * (1 - 0.09)))),
-               p0 = 1.5 * static_load(spec) / (std::numbers::pi * a * a);
+  const double a = std::cbrt(3 * spec.vehicle.load() * 0.42 / (4 * 210e9 / (2 * (1 - 0.09)))),
+               p0 = 1.5 * spec.vehicle.load() / (std::numbers::pi * a * a);
   for (const StressSections& s : {rail_sections(r, 0, 0, 2 * a), wheel_sections(r, 0, 0, 2 * a)})
     for (const StressSection* plane : {&s.longitudinal, &s.cross}) {
       const std::size_t n = plane->along.size(), middle = n / 2;

@@ -197,15 +197,11 @@ double lateral_friction_share(const CaseSpec& spec) {
   return along > 0 ? spec.friction.lateral_coefficient.value_or(along) / along : 1;
 }
 
-double static_load(const CaseSpec& spec) {
-  return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
-}
-
 namespace {
 
 /// A line contact as an ellipse whose semi-axis across is half the line. Without an approach.
 HertzContact line_estimate(const CaseSpec& spec, const RigidContact& c, double modulus) {
-  const double load = static_load(spec), length = *spec.geometry.line_length;
+  const double load = spec.vehicle.load(), length = *spec.geometry.line_length;
   const LineHertz line = hertz_line(0.5 * c.curvature_rolling, modulus, load / length);
   return {line.a, 0.5 * length, line.p0, std::numeric_limits<double>::quiet_NaN(), load};
 }
@@ -220,7 +216,7 @@ HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
   const auto under = [&](double load) {
     return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, load);
   };
-  if (!spec.vehicle.approach) return under(static_load(spec));
+  if (!spec.vehicle.approach) return under(spec.vehicle.load());
   constexpr double kAnyLoad = 1e5;
   return under(kAnyLoad * std::pow(*spec.vehicle.approach / under(kAnyLoad).approach, 1.5));
 }
@@ -311,7 +307,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
           materials_of(spec, BodyId::wheel, spec.wheel_material),
           {},
           {},
-          static_load(spec),
+          spec.vehicle.load(),
           {},
           0};
   m.rail_at_surface = materials_at_surface(spec, BodyId::rail, m.rail_materials);

@@ -24,9 +24,6 @@ struct Placement {
 /// Built-in names are tried first, then files relative to `folder`. Throws CaseError.
 Placement place(const CaseSpec& spec, const std::filesystem::path& folder);
 
-/// Static weight on the rail, G = (wheel + sprung mass) g, N.
-double static_load(const CaseSpec& spec);
-
 /// The laws of friction that a case asks for.
 FallingFriction falling_friction(const CaseSpec& spec);
 ThirdBody third_body(const CaseSpec& spec);

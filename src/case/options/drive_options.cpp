@@ -11,16 +11,15 @@ using C = CaseSpec;
 using V = VehicleSpec;
 using D = DriveSpec;
 
-/// A load is given by the sprung mass that makes it.
 double sprung_mass_under(const CaseSpec& spec, std::size_t, double wheel_load) {
-  return wheel_load / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  VehicleSpec loaded = spec.vehicle;
+  loaded.set_load(wheel_load);
+  return loaded.sprung_mass;
 }
 double sprung_mass_under_axle(const CaseSpec& spec, std::size_t index, double axle_load) {
   return sprung_mass_under(spec, index, 0.5 * axle_load);
 }
-double over_static_load(const CaseSpec& spec, std::size_t, double force) {
-  return force / ((spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity);
-}
+double over_static_load(const CaseSpec& spec, std::size_t, double force) { return force / spec.vehicle.load(); }
 constexpr std::string_view kMoreLoad = "give more load, or less vehicle.wheel_mass",
                            kLessForce = "give less force, or more load";
 

@@ -18,9 +18,8 @@ bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(i
 
 /// Each axle has this wheel and another like it: N = MGT / (2 wheel loads).
 double passages_of(const CaseSpec& spec, std::size_t index, double million_tonnes) {
-  const VehicleSpec& v = spec.vehicle;
-  const double wheel = spec.loads.at(index).wheel_load.value_or((v.wheel_mass + v.sprung_mass) * v.gravity);
-  return 1e6 * million_tonnes / gross_tonnes(wheel, v.gravity);
+  const double wheel = spec.loads.at(index).wheel_load.value_or(spec.vehicle.load());
+  return 1e6 * million_tonnes / gross_tonnes(wheel, spec.vehicle.gravity);
 }
 
 bool follows_passes(const CaseSpec& spec, std::size_t) { return spec.life.passes > 0; }

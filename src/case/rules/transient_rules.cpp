@@ -85,7 +85,7 @@ class TransientRules {
   /// Linear between the rows: what holds in two rows holds between them.
   void check_friction() {
     const DriveSpec& d = spec_.drive;
-    const double g = (spec_.vehicle.wheel_mass + spec_.vehicle.sprung_mass) * spec_.vehicle.gravity;
+    const double g = spec_.vehicle.load();
     const std::size_t rows = columns_.empty() ? 1 : columns_[0].values.size();
     const bool drives_x = rolls() && t_.creepage.empty(), drives_y = rolls() && t_.lateral_creepage.empty();
     for (std::size_t i = 0; i < rows; ++i) {

@@ -18,6 +18,13 @@ struct VehicleSpec {
   std::optional<double> approach;  ///< m, of the bodies along the contact normal: then the load is a result
   bool couple_sprung_mass = true;  ///< the sprung mass rides along with the axle in x (else it only moves vertically
                                    ///< and does not add inertia to it)
+  /// N, of the wheel on the rail at rest, G = (wheel_mass + sprung_mass) gravity.
+  double load() const { return (wheel_mass + sprung_mass) * gravity; }
+  /// N, by the sprung mass that makes it; instead of an approach.
+  void set_load(double force) {
+    sprung_mass = force / gravity - wheel_mass;
+    approach.reset();
+  }
 };
 
 /// What the creepages of a case are of.

@@ -149,10 +149,7 @@ void put(const UnitTable::Cell& cell, const Option& option, CaseSpec& spec, std:
 CaseSpec with_load(const CaseSpec& spec, const LoadSpec& load) {
   CaseSpec out = spec;
   out.loads.clear();
-  if (load.wheel_load) {
-    out.vehicle.sprung_mass = *load.wheel_load / spec.vehicle.gravity - spec.vehicle.wheel_mass;
-    out.vehicle.approach.reset();
-  }
+  if (load.wheel_load) out.vehicle.set_load(*load.wheel_load);
   take(load.lateral_shift, out.geometry.lateral_shift);
   take(load.yaw, out.geometry.yaw);
   take(load.roll, out.geometry.roll);

@@ -58,7 +58,7 @@ void print_geometry(const CaseSpec& spec, const Placement& placement) {
     fmt::print("approach       {:.4g} mm, given: the load is a result, {:.3f} kN by Hertz\n",
                1e3 * *spec.vehicle.approach, 1e-3 * hertz.load);
   else
-    fmt::print("static load    {:.3f} kN\n", 1e-3 * static_load(spec));
+    fmt::print("static load    {:.3f} kN\n", 1e-3 * spec.vehicle.load());
   if (spec.geometry.in_line())
     fmt::print("Hertz          a = {:.2f} mm, p0 = {:.0f} MPa on a line of {:.4g} mm\n", 1e3 * hertz.a, 1e-6 * hertz.p0,
                2e3 * hertz.b);

@@ -42,7 +42,7 @@ void continue_traction(double share, const TangentialSolution& before, Tangentia
 
 NextStart::Coordinates NextStart::coordinates(const CaseSpec& spec) {
   constexpr double kCreepage = 1e-3, kTurn = 1e-2, kApproach = 0.1e-3;
-  const double load = static_load(spec);
+  const double load = spec.vehicle.load();
   return {spec.geometry.lateral_shift / kMilli,
           spec.geometry.yaw / kTurn,
           spec.geometry.roll / kTurn,

@@ -71,17 +71,17 @@ double number(double value, std::string_view name, bool positive) {
                   positive ? "give a force above 0 N" : "give a finite force in N");
 }
 
-/// The load as a mass on the wheel; other drives of the direction are taken back.
+/// The load, all of it sprung (the wheel's mass would count in finite elements alone); other drives of the direction
+/// are taken back.
 void put_forces(const rs_state& s, CaseSpec& spec) {
   if (s.given & RS_LOAD) {
-    spec.vehicle.approach.reset();
-    spec.vehicle.sprung_mass = 0;
-    spec.vehicle.wheel_mass = number(s.load, "load", true) / spec.vehicle.gravity;
+    spec.vehicle.wheel_mass = 0;
+    spec.vehicle.set_load(number(s.load, "load", true));
   }
   if ((s.given & (RS_FORCE_X | RS_FORCE_Y)) && spec.vehicle.approach)
     throw CaseError("forces cannot be given together with an approach: the load that bears them is a result",
                     "give creepages, or a load", "vehicle.approach");
-  const double load = (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
+  const double load = spec.vehicle.load();
   if (s.given & RS_FORCE_X) {
     spec.drive.creepage.reset();
     spec.drive.traction_coefficient = number(s.force_x, "force_x", false) / load;
@@ -142,7 +142,7 @@ double value_in(const CaseSpec& spec, const Member& m, double absent) {
 Input input_of(const rs_state& s, unsigned bit, const CaseSpec& spec, const BemResult& result) {
   constexpr double kOfLoad = 1e-6;
   refuse_results(bit, spec);
-  const double load = (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
+  const double load = spec.vehicle.load();
   const auto force = [&](double rs_state::*member, double value) {
     return Input{member, s.given & bit ? s.*member : value, kOfLoad * load};
   };

@@ -137,7 +137,7 @@ void begin_stiffening(rs_wheelset& set) {
     if (set.stiffening[k].scale > 0) continue;
     const rs_contact& c = *set.wheels[k].contact;
     const double approach = hertz_estimate(c.loaded.spec, set.wheels[k].touching()).approach;
-    set.stiffening[k].scale = static_load(c.loaded.spec) / std::pow(approach, 1.5);
+    set.stiffening[k].scale = c.loaded.spec.vehicle.load() / std::pow(approach, 1.5);
   }
 }
 

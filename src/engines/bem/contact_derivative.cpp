@@ -34,7 +34,7 @@ ContactDerivatives::ContactDerivatives(const CaseSpec& spec, const Placement& pl
       options_(options),
       solved_(solved),
       patch_(case_patch_on(solved.grid, spec, placement, options, target_of(spec, solved.solution.normal.load))) {
-  drive_contact(spec, placement.contact, static_load(spec), patch_.contact);
+  drive_contact(spec, placement.contact, spec.vehicle.load(), patch_.contact);
 }
 
 bool ContactDerivatives::linear() const {
@@ -54,7 +54,7 @@ CasePatch ContactDerivatives::beside(const PlacedCase& there, double normal) con
   } else {
     out = case_patch_on(solved_.grid, there.spec, there.placement, options_, target);
   }
-  drive_contact(there.spec, there.placement.contact, static_load(there.spec), out.contact);
+  drive_contact(there.spec, there.placement.contact, there.spec.vehicle.load(), out.contact);
   return out;
 }
 
@@ -81,7 +81,7 @@ ContactDerivative ContactDerivatives::by(const PlacedCase& more, const PlacedCas
   ContactDerivative out;
   out.angle = slope(more.placement.contact.angle, less.placement.contact.angle);
   if (!spec_.vehicle.approach) {
-    const double by_normal = by_weight(), missing = slope(static_load(more.spec), static_load(less.spec)) +
+    const double by_normal = by_weight(), missing = slope(more.spec.vehicle.load(), less.spec.vehicle.load()) +
                                                     (normal * sine + lateral * cosine) * out.angle +
                                                     d.tangential.force_y * sine;
     add(d, missing / (cosine - by_normal * sine), *by_load_);

@@ -35,8 +35,8 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
   const std::optional<double>& approach = spec.vehicle.approach;
   CasePatch patch = make_case_patch(
       spec, placement, options,
-      approach ? NormalTarget{{}, approach} : NormalTarget{normal_load(static_load(spec), 0, placement.contact), {}});
-  const double weight = approach ? std::cos(placement.contact.angle) * patch.frictionless.load : static_load(spec);
+      approach ? NormalTarget{{}, approach} : NormalTarget{normal_load(spec.vehicle.load(), 0, placement.contact), {}});
+  const double weight = approach ? std::cos(placement.contact.angle) * patch.frictionless.load : spec.vehicle.load();
   const RollingEllipse ellipse = rolling_ellipse(hertz_estimate(spec, placement.contact), patch.contact.friction,
                                                  patch.wheel.substrate, patch.rail.substrate);
   const double hertz_bound = ellipse.friction * ellipse.contact.load;

@@ -21,7 +21,7 @@ std::size_t rows_of(const TransientSpec& t) {
 
 LoadHistory::LoadHistory(const CaseSpec& spec, const RigidContact& contact)
     : spec_(spec),
-      static_load_(static_load(spec)),
+      static_load_(spec.vehicle.load()),
       spin_(spin_at(spec, contact)),
       lateral_creepage_(spec.drive.lateral_creepage.value_or(yaw_creepage(contact))),
       rolls_(spec.transient.kind == TransientKind::rolling) {
@@ -103,7 +103,7 @@ double LoadHistory::largest_load() const {
 CaseSpec case_of_moment(const CaseSpec& spec, const LoadedMoment& moment) {
   CaseSpec out = spec;
   out.transient = {};
-  out.vehicle.sprung_mass = moment.load / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  out.vehicle.set_load(moment.load);
   DriveSpec& drive = out.drive;
   drive.creepage = drive.lateral_creepage = drive.lateral_traction_coefficient = std::nullopt;
   if (moment.x.force)

@@ -105,7 +105,7 @@ class WheelOnPatches {
         first_(first),
         members_(std::move(members)),
         options_(options),
-        weight_(static_load(spec)),
+        weight_(spec.vehicle.load()),
         modulus_(modulus_of(spec)),
         along_{spec.drive.creepage.value_or(0), 0},
         across_{spec.drive.lateral_creepage.value_or(yaw_creepage(first)), 0} {
@@ -422,7 +422,7 @@ SharedLoad one_patch(const CaseSpec& spec, const Placement& placement, std::vect
     if (contacts.size() == 1 || spec.vehicle.approach) break;
     const double before = descent;
     const CasePatch patch = make_case_patch(
-        spec, own, options, {.load = normal_load(static_load(spec), 0, own.contact), .approach = {}}, out.room);
+        spec, own, options, {.load = normal_load(spec.vehicle.load(), 0, own.contact), .approach = {}}, out.room);
     descent = patch.frictionless.approach / std::cos(own.contact.angle) + placement.contact.axle_height -
               own.contact.axle_height;
     if (std::abs(descent - before) <= kSettled * before) break;

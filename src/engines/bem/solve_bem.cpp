@@ -287,7 +287,7 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const OnePatch& one, con
 }
 
 SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  const double load = static_load(spec);
+  const double load = spec.vehicle.load();
   check_friction(spec, load, normal_load(load, 0, placement.contact));
   LoadedPatch alone = balance_vertical_load(spec, {placement, {}, placement.contact}, options, load);
   SharedLoad shared;

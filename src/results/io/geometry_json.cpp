@@ -48,8 +48,7 @@ Json hertz_json(const HertzContact& hertz) {
 
 /// Without layers, under this load.
 HertzContact hertz_under(CaseSpec spec, const LoadedContact& patch) {
-  spec.vehicle.approach.reset();
-  spec.vehicle.sprung_mass = patch.load / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  spec.vehicle.set_load(patch.load);
   return hertz_estimate(spec, patch.contact);
 }
 

@@ -52,7 +52,7 @@ Check bem_check(std::string_view name, double value) { return at_most(name, valu
 
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
   const bool load_given = !spec.vehicle.approach;
-  const double load = load_given ? static_load(spec) : -force_on_rail(r).z;
+  const double load = load_given ? spec.vehicle.load() : -force_on_rail(r).z;
   double force_x = 0, force_y = 0, reached = 0, cut_off = 0, film = 0;
   for (const BemPatch* p : patches_of(r)) {
     const PatchMeasures m = measure_patch(p->field);

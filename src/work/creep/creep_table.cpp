@@ -321,7 +321,7 @@ void CreepTable::find_scaling(const CreepTableOptions& options) {
   TableScaling& scaling = *table_.scaling;
   for (const Outer& outer : outer_)
     if (outer.spec) {
-      scaling.load = static_load(*outer.spec);
+      scaling.load = outer.spec->vehicle.load();
       scaling.friction = outer.spec->drive.friction_coefficient;
     }
   std::vector<CreepStiffness> found(outer_.size(), {NAN, NAN, NAN});
