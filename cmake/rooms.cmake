@@ -115,6 +115,12 @@ else()
   set_source_files_properties(${CMAKE_SOURCE_DIR}/src/laws/fft/fft_kiss.cpp PROPERTIES COMPILE_OPTIONS -ffast-math)
 endif()
 
+# The live contact computes in every time step of a vehicle, in a room that else asks others.
+foreach(source next_start patch_forces wheelset)
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/work/ask/${source}.cpp PROPERTIES
+    COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+endforeach()
+
 # Sources with the kernels of the explicit step. g++ before 13 takes a Zen 4 for a Zen 3 and schedules for vectors of
 # half the width: the kernel loses up to 15 %. The option stays on these files alone, because it also decides where
 # products and sums are fused, which shows in the last bits of a result.

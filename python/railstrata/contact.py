@@ -6,8 +6,6 @@ import warnings
 from dataclasses import dataclass
 from typing import Any, Optional
 
-import numpy as np
-
 from . import _bridge
 from ._bridge import Array
 from .case import AnyCase, Length, _case_of, _metres, _thread_count
@@ -18,13 +16,13 @@ from .patch import Patch
 @dataclass(frozen=True)
 class ContactForces:
     """What a contact gives, SI; NaN: does not apply. Of several patches: forces of all, the rest of the one with the
-    largest pressure.
+    largest pressure. remarks: the checks that do not hold, and notes.
 
-    force: N, (F_x, F_y, F_z) on the wheel, model frame. normal_force, lateral_force: N, along the contact normal and
-    across it, on the wheel. spin_moment: N m, on the wheel about the contact normal. creepage_x, creepage_y: as given,
-    or found for the forces. spin: 1/m. approach: m. contact_angle: rad. p_max, q_max: Pa. patch_area, slip_area: m².
-    dissipation: W. patches: contacts that share the load. cells: with pressure, of the first patch. iterations:
-    products with the influence matrix. ok: whether every check holds; remarks: those that do not, and notes.
+    force: N, on the wheel, model frame. normal_force, lateral_force: N, along the contact normal and across it, on the
+    wheel. spin_moment: N m, on the wheel about the contact normal. creepage_x, creepage_y: as given, or found for the
+    forces. spin: 1/m. approach: m. contact_angle: rad. p_max, q_max: Pa. patch_area, slip_area: m². dissipation: W, in
+    the patch. patches: contacts that share the load. cells: with pressure, of the first patch. iterations: products
+    with the influence matrix. ok: every check of the result holds; the remarks name those that do not.
     """
 
     force: tuple[float, float, float]
@@ -52,11 +50,11 @@ class ContactForces:
 class PatchForces:
     """One of the patches that share the load, SI, in the model's axes.
 
-    force: N, on the wheel. moment: N m, of its tractions on the wheel about the point asked for. normal_force,
-    lateral_force: N, along the normal of the plane that it was solved in and across it. spin_moment: N m, about that
-    normal through `point`. approach: m. point: m, where the rigid bodies touch. on_wheel, on_rail: m, y and z of it in
-    the profiles' own axes. contact_angle: rad, of the profiles there. rolling_radius: m. p_max: Pa. patch_area: m².
-    dissipation: W. cells: with pressure.
+    force: N, on the wheel. moment: N m, of its tractions on the wheel, sum of (r - about) x dF. normal_force,
+    lateral_force: N, along the plane's normal and across it, on the wheel. spin_moment: N m, on the wheel about the
+    plane's normal through `point`. approach: m, along that normal. point: m, where the rigid bodies touch. on_wheel,
+    on_rail: m, y and z of it in the profiles' own axes, y to the field side. contact_angle: rad, of the common tangent
+    to y. rolling_radius: m. p_max: Pa. patch_area: m². dissipation: W. cells: with pressure.
     """
 
     force: tuple[float, float, float]
@@ -119,46 +117,40 @@ class Contact:
         return self._given[0]
 
     def solve(
-        self, *, load: Optional[float] = None, approach: Optional[float] = None,
-        lateral_shift: Optional[float] = None, yaw: Optional[float] = None, roll: Optional[float] = None,
-        speed: Optional[float] = None, friction: Optional[float] = None, creepage_x: Optional[float] = None,
-        creepage_y: Optional[float] = None, spin: Optional[float] = None, force_x: Optional[float] = None,
-        force_y: Optional[float] = None,
+        self, *, load: Optional[float] = None, approach: Optional[float] = None, lateral_shift: Optional[float] = None,
+        yaw: Optional[float] = None, roll: Optional[float] = None, speed: Optional[float] = None,
+        friction: Optional[float] = None, creepage_x: Optional[float] = None, creepage_y: Optional[float] = None,
+        spin: Optional[float] = None, force_x: Optional[float] = None, force_y: Optional[float] = None,
     ) -> ContactForces:
         """Solves the case with what is given changed; all else is as in the case, not as in the last call.
 
-        load: N, vertical, on the rail; or approach: m, of the bodies along the contact normal: the load is a result.
-        lateral_shift: m, of the wheel to the field side. yaw, roll: tangents of the angle of attack and of the
-        wheelset's roll. speed: m/s. friction: coefficient at rest. creepage_x: (V - omega r) / V, negative drives, or
-        force_x: N, on the wheel. creepage_y, or force_y: N, lateral friction on the wheel in the contact plane. spin:
-        1/m; without it that of the geometry. Ranges are those of the keys (docs/case-reference.md). Raises CaseError
-        (out of range, both of a pair, no contact, forces beyond friction), NumericalError, MachineError, Ctrl-C stops
-        it; warns with CheckWarning where a check fails.
+        Ranges are those of the keys (docs/case-reference.md). Raises CaseError (out of range, both of a pair, no
+        contact, forces beyond friction), NumericalError, MachineError, Ctrl-C stops it; warns with CheckWarning where a
+        check fails.
+
+        load: N, vertical, on the rail; or approach. approach: m, of the bodies along the contact normal: the load is a
+        result. lateral_shift: m, of the wheel to the field side. yaw, roll: tangents of the angle of attack and of the
+        wheelset's roll. speed: m/s. friction: coefficient at rest. creepage_x: (V - omega r) / V, negative drives; or
+        force_x. creepage_y: lateral, in the contact plane; or force_y. spin: 1/m; without it that of the geometry.
+        force_x: N, longitudinal, on the wheel. force_y: N, lateral friction on the wheel, in the contact plane.
         """
-        given = {
-            "load": load, "approach": approach, "lateral_shift": lateral_shift, "yaw": yaw, "roll": roll,
-            "speed": speed, "friction": friction, "creepage_x": creepage_x, "creepage_y": creepage_y, "spin": spin,
-            "force_x": force_x, "force_y": force_y,
-        }
+        given = {name: value for name, value in locals().items() if name != "self" and value is not None}
         solved = _bridge.work(
             "solve_contact", contact=self._contact, threads=self._given[2],
-            state={name: _number(value, name) for name, value in given.items() if value is not None},
+            state={name: _number(value, name) for name, value in given.items()},
         )
-        found = dict(solved["forces"])
-        found["force"] = tuple(map(float, found["force"]))
+        found = {name: _plain(value) for name, value in solved["forces"].items()}
+        force, ok = tuple(found.pop(f"force_{axis}") for axis in "xyz"), found.pop("checks_hold")
         remarks = tuple(solved["remarks"].splitlines())
-        numbers = {name: float(value) if isinstance(value, str) else value for name, value in found.items()}
-        if not numbers["ok"]:
+        if not ok:
             for remark in (r for r in remarks if r.startswith("check ")):
                 warnings.warn(remark, CheckWarning, stacklevel=2)
-        return ContactForces(**numbers, remarks=remarks)
+        return ContactForces(force=force, **found, ok=ok, remarks=remarks)
 
     def patch(self, index: int = 0) -> Patch:
         """A patch of the last solution, that of the largest pressure first: copies, (stations, columns). CaseError: no
         solution, no such patch."""
-        found = _bridge.call("patch_of_contact", contact=self._contact, patch=index)
-        arrays = {name: found[name] for name in ("x", "y", "z", "area", "p", "q_x", "q_y", "slip_x", "slip_y")}
-        return Patch({**arrays, "state": found["state"].astype(np.uint8), "slip_is_distance": False})
+        return Patch(_bridge.call("patch_of_contact", contact=self._contact, patch=index)["patch"])
 
     def patch_forces(self, index: int = 0, about: Any = (0.0, 0.0, 0.0)) -> PatchForces:
         """What a patch of the last solution carries, that of the largest pressure first; tread and gauge corner apart

@@ -11,8 +11,6 @@ _WORDS = (
     ("choose another folder with --out", "choose another folder"), ("with --force", "with force=True"),
     ("what --set gives", "what the changes give"), ("the --set", "the changes"), ("the --cell", "the cell"),
     ("the --roll-length", "the roll_length"), ("with --engine fem", 'with engine="fem"'),
-    ("set one of the two bits", "give one of the two"), ("rs_state.given has both", "a state has one of"),
-    ("rs_state gives", "the state gives"), ("rs_state.", ""), ("call rs_solve first", "call solve first"),
 )
 
 
@@ -24,10 +22,9 @@ def _change(found: re.Match[str]) -> str:
 
 
 def _in_python(text: str) -> str:
-    """Messages that name options of the program, or members of the C interface, in the words of this package."""
+    """Messages that name options of the program in the words of this package."""
     for option, argument in _WORDS:
         text = text.replace(option, argument)
-    text = re.sub(r"\bRS_(LOAD|APPROACH|CREEPAGE_[XY]|FORCE_[XY])\b", lambda bit: bit[1].lower(), text)
     return _SET.sub(_change, text)
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Mapping, Optional, Sequence
 
 from . import _bridge
-from .case import AnyCase, Length, Value, _case_of, _metres, _overrides, _thread_count
+from .case import AnyCase, Length, Value, _case_of, _metres, _thread_count
 from .contact import _number, _plain
 
 Pair = Sequence[float]
@@ -16,16 +16,17 @@ _Triple = tuple[float, float, float]
 class WheelForces:
     """One wheel of a wheelset, SI, in the track's axes (x along, y to the left, z up).
 
-    force: N, on the wheel. moment: N m, of the contact on the wheelset about its centre. normal_force, lateral_force:
-    N, along the contact normal and across it, on the wheel. spin_moment: N m, about the contact normal. approach: m,
-    below 0 lifted. point: m, of the contact that touches first, from the middle of the track below the centre.
-    on_wheel, on_rail: m, y and z of it in the profiles' own axes, y to the field side. contact_angle: rad.
-    rolling_radius: m. p_max: Pa. patch_area: m². dissipation: W. patches, cells: 0 of a lifted wheel. ok: whether
-    every check holds.
+    force: N, on the wheel. moment: N m, of the contact on the wheelset, about its centre. normal_force, lateral_force:
+    N, along the contact normal and across it, on the wheel. spin_moment: N m, on the wheel about the contact normal.
+    creepage_x, creepage_y: of the contact that touches first. spin: 1/m, of that contact. approach: m, along the normal
+    of the contact that touches first; < 0: lifted. point: m, the contact that touches first, from the middle of the
+    track below the centre. on_wheel, on_rail: m, y and z of it in the profiles' own axes, y to the field side.
+    contact_angle: rad, of the common tangent to y. rolling_radius: m. p_max: Pa. patch_area: m². dissipation: W, in the
+    patch. patches, cells: 0: lifted, which is an answer. ok: every check of the result holds.
     """
 
-    force: _Triple
-    moment: _Triple
+    force: tuple[float, float, float]
+    moment: tuple[float, float, float]
     normal_force: float
     lateral_force: float
     spin_moment: float
@@ -33,7 +34,7 @@ class WheelForces:
     creepage_y: float
     spin: float
     approach: float
-    point: _Triple
+    point: tuple[float, float, float]
     on_wheel: tuple[float, float]
     on_rail: tuple[float, float]
     contact_angle: float
@@ -60,6 +61,17 @@ class WheelsetForces:
     solutions: int
 
 
+def _pair(values: Any, what: str) -> list[float]:
+    if len(values) != 2:
+        raise ValueError(f"{what}: two numbers are wanted, of the left and the right rail")
+    return [_number(value, what) for value in values]
+
+
+def _wheel_forces(found: Mapping[str, Any]) -> WheelForces:
+    numbers = {name: _plain(value) for name, value in found.items()}
+    return WheelForces(ok=numbers.pop("checks_hold"), **numbers)
+
+
 class Wheelset:
     """Two wheels on one axle and their rails, solved again and again for other motions (docs/vehicle.md).
 
@@ -77,8 +89,9 @@ class Wheelset:
     def __init__(self, case: AnyCase, cell: Length = 0.25e-3, *, right: Optional[Mapping[str, Value]] = None,
                  threads: int = 0) -> None:
         self._given = (_case_of(case), _metres(cell, "cell"), dict(right or {}), _thread_count(threads))
-        self._wheelset = _bridge.call("open_wheelset", case=self._given[0]._loaded, cell=self._given[1],
-                                      right=_overrides(self._given[2]))
+        case, of_right = self._given[0], self._given[2]
+        self._wheelset = _bridge.call("open_wheelset", case=case._loaded, cell=self._given[1],
+                                      right=(case.with_(of_right) if of_right else case)._loaded)
 
     @property
     def case(self) -> Any:
@@ -86,35 +99,28 @@ class Wheelset:
         return self._given[0]
 
     def solve(
-        self, *, speed: float, load: Optional[float] = None, z: Optional[float] = None, roll: Optional[float] = None,
+        self, *, speed: float, z: Optional[float] = None, roll: Optional[float] = None, load: Optional[float] = None,
         y: float = 0, yaw: float = 0, y_rate: float = 0, z_rate: float = 0, yaw_rate: float = 0, roll_rate: float = 0,
         pitch_rate: float = 0, roll_moment: float = 0, rail_y: Pair = (0, 0), rail_z: Pair = (0, 0),
         rail_roll: Pair = (0, 0), rail_y_rate: Pair = (0, 0), rail_z_rate: Pair = (0, 0),
     ) -> WheelsetForces:
         """Solves a state of motion.
 
-        Given are load (N, on the axle, down): z and roll are found, under a roll_moment (N m, on the axle about x);
-        load and roll: z is found; or z and roll: loads are results. speed: m/s along the track. y, z: m, of the axle's
-        centre. yaw, roll: rad. Rates: m/s and rad/s, pitch_rate of the axle beyond speed/r0. rail_...: of the left and
-        the right rail: displacements in m and rad, rates of their material. Raises CaseError (out of range, no answer),
-        NumericalError, MachineError; Ctrl-C stops it.
+        Given are load (z and roll are found, under a roll_moment), load and roll (z is found), or z and roll (loads are
+        results). Pairs are of the left and the right rail. Raises CaseError (out of range, no answer), NumericalError,
+        MachineError; Ctrl-C stops it.
+
+        y, z, yaw, roll: m, rad. speed: m/s along the track, > 0. y_rate, z_rate: m/s. yaw_rate, roll_rate: rad/s; on
+        the inside of a curve of radius R yaw_rate has speed / R besides. pitch_rate: rad/s, of the axle beyond speed /
+        r0: > 0 drives. load: N, on the axle, down. roll_moment: N m, on the axle about x; with a load and no roll.
+        rail_y, rail_z: m, of the left and the right rail: irregularity, deflection. rail_roll: rad, about x through the
+        origins of their profiles. rail_y_rate, rail_z_rate: m/s, of the rails' material: deflection, not irregularity.
         """
-        numbers = {
-            "speed": speed, "load": load, "z": z, "roll": roll, "y": y, "yaw": yaw, "y_rate": y_rate, "z_rate": z_rate,
-            "yaw_rate": yaw_rate, "roll_rate": roll_rate, "pitch_rate": pitch_rate, "roll_moment": roll_moment,
-        }
-        pairs = {"rail_y": rail_y, "rail_z": rail_z, "rail_roll": rail_roll, "rail_y_rate": rail_y_rate,
-                 "rail_z_rate": rail_z_rate}
-        state: dict[str, Any] = {name: _number(value, name) for name, value in numbers.items() if value is not None}
-        for name, pair in pairs.items():
-            if len(pair) != 2:
-                raise ValueError(f"{name}: two numbers are wanted, of the left and the right rail")
-            state[name] = [_number(value, name) for value in pair]
+        given = {name: value for name, value in locals().items() if name != "self" and value is not None}
+        state = {name: (_pair if name.startswith("rail_") else _number)(value, name) for name, value in given.items()}
         found = _bridge.work("solve_wheelset", wheelset=self._wheelset, threads=self._given[3], state=state)
         numbers_of_all = {name: _plain(found[name]) for name in ("z", "roll", "force", "moment", "solutions")}
-        left, right = (WheelForces(**{name: _plain(value) for name, value in found[side].items()})
-                       for side in ("left", "right"))
-        return WheelsetForces(**numbers_of_all, left=left, right=right)
+        return WheelsetForces(**numbers_of_all, left=_wheel_forces(found["left"]), right=_wheel_forces(found["right"]))
 
     def keep(self) -> None:
         """Remembers where the next solution starts from, before trial steps of an integrator."""

@@ -10,14 +10,14 @@ namespace railstrata {
 
 inline const std::string kQuick = source_dir() / "cases/quick/case.toml";
 
-struct Contact {
-  explicit Contact(const std::vector<const char*>& overrides = {})
+struct Handle {
+  explicit Handle(const std::vector<const char*>& overrides = {})
       : handle(rs_contact_new(kQuick.c_str(), overrides.data(), static_cast<int>(overrides.size()), &error)) {
     rs_set_cell(handle, 0.5e-3, nullptr);
   }
-  ~Contact() { rs_contact_free(handle); }
-  Contact(const Contact&) = delete;
-  Contact& operator=(const Contact&) = delete;
+  ~Handle() { rs_contact_free(handle); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
   int solve(const rs_state& state) { return rs_solve(handle, &state, &forces, &error); }
   rs_error error{};
   rs_contact* handle;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 TEST(CInterface, HasTheNumbersOfTheCppOne) {
-  Contact contact;
+  Handle contact;
   ASSERT_NE(contact.handle, nullptr) << contact.error.message;
   ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, &contact.error), RS_OK) << contact.error.message;
   HalfSpaceSettings settings;
@@ -36,7 +36,7 @@ TEST(CInterface, HasTheNumbersOfTheCppOne) {
 }
 
 TEST(CInterface, StatesHaveTheNumbersOfTheirCases) {
-  Contact contact, other({"geometry.lateral_shift=0.5 mm", "drive.creepage=-0.0008", "drive.spin=0.1 1/m",
+  Handle contact, other({"geometry.lateral_shift=0.5 mm", "drive.creepage=-0.0008", "drive.spin=0.1 1/m",
                           "drive.lateral_creepage=0.0005", "drive.speed=20 m/s", "drive.friction_coefficient=0.4",
                           "vehicle.wheel_load=70 kN"});
   ASSERT_NE(other.handle, nullptr) << other.error.message;
@@ -58,7 +58,7 @@ TEST(CInterface, StatesHaveTheNumbersOfTheirCases) {
 }
 
 TEST(CInterface, GivenForcesComeOutAndTheNextStateKnowsNothingOfThem) {
-  Contact contact;
+  Handle contact;
   rs_state pulled = state_of(RS_FORCE_X | RS_FORCE_Y);
   pulled.force_x = 12e3;
   pulled.force_y = -4e3;
@@ -75,7 +75,7 @@ TEST(CInterface, GivenForcesComeOutAndTheNextStateKnowsNothingOfThem) {
 }
 
 TEST(CInterface, AnApproachGivesTheLoadThatGaveIt) {
-  Contact contact;
+  Handle contact;
   rs_state loaded = state_of(RS_LOAD | RS_CREEPAGE_X);
   loaded.load = 80e3;
   ASSERT_EQ(contact.solve(loaded), RS_OK) << contact.error.message;
@@ -86,7 +86,7 @@ TEST(CInterface, AnApproachGivesTheLoadThatGaveIt) {
 }
 
 TEST(CInterface, StressesAreInEquilibriumWithThePressureAtTheSurface) {
-  Contact contact;
+  Handle contact;
   ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, nullptr), RS_OK);
   const double xyz[] = {0, 0, 0, 0, 0, 1e-3};
   double s[12];
@@ -99,7 +99,7 @@ TEST(CInterface, StressesAreInEquilibriumWithThePressureAtTheSurface) {
 }
 
 TEST(CInterface, ADriveOfACaseAtRestIsRefused) {
-  Contact contact({"run.rolling=false"});
+  Handle contact({"run.rolling=false"});
   rs_state state = state_of(RS_CREEPAGE_X);
   state.creepage_x = 1e-3;
   EXPECT_EQ(contact.solve(state), RS_CASE);
@@ -110,13 +110,13 @@ TEST(CInterface, ADriveOfACaseAtRestIsRefused) {
 }
 
 TEST(CInterface, SolutionsThatStartFromTheOneBeforeAgreeWithNewOnes) {
-  Contact warm;
+  Handle warm;
   rs_state state = state_of(RS_LATERAL_SHIFT | RS_CREEPAGE_X);
   for (const double shift : {-1e-3, -0.9e-3, -0.8e-3, 2e-3, 2.1e-3}) {
     state.lateral_shift = shift;
     state.creepage_x = -1e-3 + 0.1 * shift;
     ASSERT_EQ(warm.solve(state), RS_OK) << warm.error.message;
-    Contact cold;
+    Handle cold;
     ASSERT_EQ(cold.solve(state), RS_OK);
     EXPECT_NEAR(warm.forces.force_x, cold.forces.force_x, 2e-5 * std::abs(cold.forces.force_x)) << shift;
     EXPECT_NEAR(warm.forces.p_max, cold.forces.p_max, 2e-5 * cold.forces.p_max) << shift;
@@ -128,7 +128,7 @@ TEST(CInterface, SolutionsThatStartFromTheOneBeforeAgreeWithNewOnes) {
 }
 
 TEST(CInterface, SolutionsAlongALineAndAfterAJumpAgreeWithNewOnes) {
-  Contact warm, again;
+  Handle warm, again;
   const auto steps = [](double from, double step, int count) {
     std::vector<double> out;
     for (int k = 0; k < count; ++k) out.push_back(from + k * step);
@@ -144,7 +144,7 @@ TEST(CInterface, SolutionsAlongALineAndAfterAJumpAgreeWithNewOnes) {
     state.load = 85e3 + 1e6 * shift;
     ASSERT_EQ(warm.solve(state), RS_OK) << warm.error.message;
     ASSERT_EQ(again.solve(state), RS_OK) << again.error.message;
-    Contact cold;
+    Handle cold;
     ASSERT_EQ(cold.solve(state), RS_OK) << cold.error.message;
     for (const auto member : {&rs_forces::force_x, &rs_forces::p_max, &rs_forces::q_max, &rs_forces::approach,
                               &rs_forces::normal_force, &rs_forces::dissipation}) {
@@ -172,7 +172,7 @@ TEST(CInterface, FaultsHaveACodeAndAText) {
   EXPECT_EQ(rs_contact_from_text("[mesh]\nelement_size = 1\n", nullptr, 0, &error), nullptr);
   EXPECT_EQ(error.code, RS_CASE);
 
-  Contact contact;
+  Handle contact;
   int nx = 0;
   EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, nullptr), RS_CASE);  // nothing is solved yet
   EXPECT_EQ(rs_set_cell(contact.handle, kNaN, nullptr), RS_CASE);
@@ -181,7 +181,7 @@ TEST(CInterface, FaultsHaveACodeAndAText) {
 }
 
 TEST(CInterface, StatesThatCannotBeAreRefusedAndLeaveNoSolution) {
-  Contact contact;
+  Handle contact;
   ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, nullptr), RS_OK);
   const auto refused = [&](rs_state state, const std::string& word, int wanted = RS_CASE) {
     const int code = contact.solve(state);
@@ -211,7 +211,7 @@ TEST(CInterface, StatesThatCannotBeAreRefusedAndLeaveNoSolution) {
 }
 
 TEST(CInterface, AWheelThatIsLiftedHasNoForces) {
-  Contact contact;
+  Handle contact;
   rs_state state = state_of(RS_APPROACH | RS_CREEPAGE_X);
   state.creepage_x = 1e-3;
   for (const double approach : {1e-5, 0.0, -1e-6}) {
@@ -242,7 +242,7 @@ TEST(CInterface, AWheelThatIsLiftedHasNoForces) {
 
 /// A contact under two loads, the second from the solution of the first; its longitudinal forces.
 std::vector<double> two_loads(double load) {
-  Contact contact;
+  Handle contact;
   std::vector<double> out;
   for (const double share : {1.0, 1.05}) {
     rs_state state = state_of(RS_LOAD);

@@ -40,7 +40,7 @@ constexpr Output kOutputs[] = {{&rs_derivatives::force_x, &rs_forces::force_x, 1
                                {&rs_derivatives::lateral_force, &rs_forces::lateral_force, 100},
                                {&rs_derivatives::approach, &rs_forces::approach, 1e-6}};
 
-rs_forces solved(Contact& contact, const rs_state& state) {
+rs_forces solved(Handle& contact, const rs_state& state) {
   rs_forget(contact.handle);
   EXPECT_EQ(contact.solve(state), RS_OK) << contact.error.message;
   return contact.forces;
@@ -54,7 +54,7 @@ struct Deviations {
 
 /// By each output: of a central difference, or, as derivatives jump where a cell comes into contact or begins to slip,
 /// of the side without a jump.
-std::vector<double> wrong_by(Contact& contact, const rs_state& state, const rs_forces& here, const Input& in,
+std::vector<double> wrong_by(Handle& contact, const rs_state& state, const rs_forces& here, const Input& in,
                              const rs_derivatives& slope, double step) {
   rs_state up = state, down = state;
   up.*in.member += step;
@@ -72,7 +72,7 @@ std::vector<double> wrong_by(Contact& contact, const rs_state& state, const rs_f
 }
 
 /// Two jumps on both sides are told apart by a smaller step.
-void compare(Contact& contact, const rs_state& state, Deviations& out) {
+void compare(Handle& contact, const rs_state& state, Deviations& out) {
   constexpr double kClose = 1e-4;
   const rs_forces here = solved(contact, state);
   std::vector<unsigned> bits;
@@ -113,7 +113,7 @@ rs_state random_state(std::mt19937& random) {
 
 /// Random states of a contact.
 Deviations deviations(const std::vector<const char*>& overrides, int states) {
-  Contact contact(overrides);
+  Handle contact(overrides);
   EXPECT_NE(contact.handle, nullptr) << contact.error.message;
   rs_set_tolerance(contact.handle, 1e-12, nullptr);
   std::mt19937 random(1);

@@ -11,7 +11,7 @@
 namespace railstrata {
 namespace {
 
-rs_patch patch_of(const Contact& contact, int patch, const double* about = nullptr) {
+rs_patch patch_of(const Handle& contact, int patch, const double* about = nullptr) {
   rs_patch out{};
   out.size = sizeof(out);
   rs_error error{};
@@ -28,7 +28,7 @@ rs_state pulling(double shift) {
 }
 
 TEST(CPatchForces, AddUpAndTurnAboutAnyPoint) {
-  Contact contact;
+  Handle contact;
   ASSERT_EQ(contact.solve(pulling(2e-3)), RS_OK) << contact.error.message;
   double sum[3] = {0, 0, 0};
   for (int k = 0; k < contact.forces.patches; ++k)
@@ -49,7 +49,7 @@ TEST(CPatchForces, AddUpAndTurnAboutAnyPoint) {
 }
 
 TEST(CPatchForces, NameThePlacesOnBothProfiles) {
-  Contact contact({"geometry.cant=0"});
+  Handle contact({"geometry.cant=0"});
   ASSERT_EQ(contact.solve(pulling(1e-3)), RS_OK) << contact.error.message;
   const rs_patch p = patch_of(contact, 0);
   EXPECT_NEAR(p.on_rail[0], p.point[1], 1e-15);
@@ -62,7 +62,7 @@ TEST(CPatchForces, NameThePlacesOnBothProfiles) {
 
 // S1002 on UIC60 on tread and gauge corner, 4 mm apart and solved in one plane.
 TEST(CPatchForces, OfTreadAndGaugeCornerAreApart) {
-  Contact contact(
+  Handle contact(
       {"geometry.wheel_profile=\"S1002\"", "geometry.rail_profile=\"UIC60\"", "geometry.wheel_radius=\"460 mm\""});
   rs_set_cell(contact.handle, 1e-3, nullptr);
   ASSERT_EQ(contact.solve(pulling(5.3e-3)), RS_OK) << contact.error.message;
@@ -79,7 +79,7 @@ TEST(CPatchForces, OfTreadAndGaugeCornerAreApart) {
 }
 
 TEST(CPatchForces, RefuseWhatIsNotThere) {
-  Contact contact;
+  Handle contact;
   rs_patch out{};
   out.size = sizeof(out);
   EXPECT_EQ(rs_patch_forces(contact.handle, 0, nullptr, &out, &contact.error), RS_CASE);
@@ -112,7 +112,7 @@ TEST(CProfiles, FromAnArrayAreThoseOfAFile) {
     for (std::size_t k = 0; k < head.size(); k += 2) out << head[k] << ' ' << head[k + 1] << '\n';
   }
   const std::string from_file = "geometry.rail_profile=" + file;
-  Contact wanted({from_file.c_str()}), contact;
+  Handle wanted({from_file.c_str()}), contact;
   ASSERT_EQ(contact.solve(pulling(0)), RS_OK);
   const double before = contact.forces.p_max;
   ASSERT_EQ(rs_set_profile(contact.handle, RS_RAIL, head.data(), head.size() / 2, &contact.error), RS_OK)
@@ -129,7 +129,7 @@ TEST(CProfiles, FromAnArrayAreThoseOfAFile) {
 }
 
 TEST(CProfiles, RefuseAnArrayThatIsNone) {
-  Contact contact;
+  Handle contact;
   const double points[] = {0, 0, 1e-3, 0};
   EXPECT_EQ(rs_set_profile(contact.handle, RS_RAIL, points, 2, &contact.error), RS_CASE);
   EXPECT_NE(std::string(contact.error.message).find("too few"), std::string::npos) << contact.error.message;

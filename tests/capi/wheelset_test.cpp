@@ -129,9 +129,9 @@ TEST(Wheelset, WhatIsNoNumberIsAMistakeWithItsName) {
   rate.y_rate = std::nan("");
   rail.rail_z[RS_RIGHT] = std::nan("");
   EXPECT_EQ(set.solve(rate), RS_CASE);
-  EXPECT_NE(std::string(set.error.message).find("rs_wheelset_state.y_rate = nan"), std::string::npos);
+  EXPECT_NE(std::string(set.error.message).find("y_rate = nan"), std::string::npos);
   EXPECT_EQ(set.solve(rail), RS_CASE);
-  EXPECT_NE(std::string(set.error.message).find("rs_wheelset_state.rail_z[1] = nan"), std::string::npos);
+  EXPECT_NE(std::string(set.error.message).find("rail_z[1] = nan"), std::string::npos);
 }
 
 TEST(Wheelset, StatesOfARunAllHaveAnAnswer) {

@@ -62,7 +62,7 @@ def test_what_is_given_wrongly_is_told_in_the_words_of_the_call(contact):
         with pytest.raises(kind, match=words) as caught:
             contact.solve(**wrong)
         assert "rs_" not in str(caught.value) and "RS_" not in str(caught.value)
-    with pytest.raises(rs.CaseError, match="there is no solution.*\n.*call solve first"):
+    with pytest.raises(rs.CaseError, match="there is no solution.*\n.*solve a state first"):
         contact.patch()
     contact.solve()
     with pytest.raises(rs.CaseError, match="no patch 7"):

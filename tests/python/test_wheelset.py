@@ -46,7 +46,7 @@ def test_the_right_wheel_may_differ_and_a_copy_is_made_anew():
 
 
 def test_mistakes_have_a_reason(wheelset):
-    with pytest.raises(rs.CaseError, match="RS_WHEELSET_LOAD"):
+    with pytest.raises(rs.CaseError, match="z and roll"):
         wheelset.solve(speed=20)
     with pytest.raises(rs.CaseError, match="speed"):
         wheelset.solve(speed=0, load=160e3)

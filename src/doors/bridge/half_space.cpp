@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -56,24 +56,6 @@ Subsurface interior(const HalfSpaceRun& run, const std::string& body, std::size_
   return wheel_interior(run.answer.result.wheel, run.patch(patch));
 }
 
-void put(const Sym3& s, double* out) {
-  const double numbers[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
-  std::copy(numbers, numbers + 6, out);
-}
-
-std::vector<Vec3> points_of(const Array& given) {
-  if (given.shape.size() != 2 || given.shape[1] != 3)
-    throw std::invalid_argument("points: an array of shape (n, 3) is wanted");
-  std::vector<Vec3> out;
-  for (std::size_t k = 0; k < given.shape[0]; ++k) {
-    const double* row = given.data + 3 * k;
-    if (!std::isfinite(row[0]) || !std::isfinite(row[1]) || !std::isfinite(row[2]))
-      throw std::invalid_argument("points: row " + std::to_string(k) + " is not a number");
-    out.push_back({row[0], row[1], row[2]});
-  }
-  return out;
-}
-
 std::size_t patch_asked(const Call& call) { return static_cast<std::size_t>(call.whole("patch")); }
 
 /// (n, 6) stresses at (n, 3) points.
@@ -82,9 +64,9 @@ void stresses_at(Call& call) {
   const StopRequest wish(&call.control.stop);
   const std::vector<InteriorPoint> found = interior(*run, call.text("body"), patch_asked(call))
                                                .at(points_of(call.array("points")), call.flag("below_interface"));
-  std::vector<double> out(6 * found.size());
-  for (std::size_t k = 0; k < found.size(); ++k) put(found[k].stress, &out[6 * k]);
-  call.answer["stresses"] = call.kept(std::move(out), {found.size(), 6});
+  std::vector<Sym3> out;
+  for (const InteriorPoint& point : found) out.push_back(point.stress);
+  answer_stresses(call, out);
 }
 
 /// (6, nx, ny) stresses in the cells of the patch's grid at a depth.
@@ -98,8 +80,7 @@ void stress_plane(Call& call) {
   const Subsurface inside = interior(*run, call.text("body"), patch_asked(call));
   const StatePlane plane = inside.plane(depth);
   for (std::size_t k = 0; k < grid.size(); ++k) {
-    double numbers[6];
-    put(inside.stress(plane, k, below_interface), numbers);
+    const std::array<double, 6> numbers = components(inside.stress(plane, k, below_interface));
     for (std::size_t c = 0; c < 6; ++c) out[c * grid.size() + k] = numbers[c];
   }
   call.answer["stresses"] =

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "ask/contact.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata::capi {
@@ -19,22 +20,6 @@ inline int fail(rs_error* error, int code, std::string_view text) {
   std::copy_n(text.data(), n, error->message);
   error->message[n] = '\0';
   return code;
-}
-
-/// Physics has no answer for inputs that are in range.
-struct NoAnswer : CaseError {
-  using CaseError::CaseError;
-  explicit NoAnswer(const CaseError& e) : CaseError(e) {}
-};
-
-/// Calls `work`, which has the inputs that were looked at before: a CaseError is physics then.
-template <class Work>
-void answer(Work&& work) {
-  try {
-    work();
-  } catch (const CaseError& e) {
-    throw NoAnswer(e);
-  }
 }
 
 /// Calls `work`; the code of what it throws, with its text in `error`. No exception leaves.

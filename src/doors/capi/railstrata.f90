@@ -5,8 +5,8 @@ module railstrata
   implicit none
   integer(c_int), parameter :: rs_ok = 0, rs_left = 0, rs_right = 1, rs_rail = 0, rs_wheel_body = 1
   integer(c_int), parameter :: rs_load = 1, rs_approach = 2, rs_lateral_shift = 4, rs_yaw = 8, rs_roll = 16, &
-                               rs_speed = 32, rs_friction = 64, rs_creepage_x = 128, rs_creepage_y = 256, &
-                               rs_spin = 512, rs_force_x = 1024, rs_force_y = 2048
+    rs_speed = 32, rs_friction = 64, rs_creepage_x = 128, rs_creepage_y = 256, rs_spin = 512, rs_force_x = 1024, &
+    rs_force_y = 2048
   integer(c_int), parameter :: rs_x = 0, rs_y = 1, rs_z = 2, rs_area = 3, rs_pressure = 4, rs_traction_x = 5, &
                                rs_traction_y = 6, rs_slip_x = 7, rs_slip_y = 8, rs_point_state = 9
   integer(c_int), parameter :: rs_wheelset_z = 1, rs_wheelset_roll = 2, rs_wheelset_load = 4
@@ -20,41 +20,40 @@ module railstrata
     integer(c_size_t) :: size
     integer(c_int) :: given = 0
     real(c_double) :: load = 0, approach = 0, lateral_shift = 0, yaw = 0, roll = 0, speed = 0, friction = 0, &
-                      creepage_x = 0, creepage_y = 0, spin = 0, force_x = 0, force_y = 0
+      creepage_x = 0, creepage_y = 0, spin = 0, force_x = 0, force_y = 0
   end type
 
   type, bind(c) :: rs_forces
     integer(c_size_t) :: size
     real(c_double) :: force_x, force_y, force_z, normal_force, lateral_force, spin_moment, creepage_x, creepage_y, &
-                      spin, approach, contact_angle, p_max, q_max, patch_area, slip_area, dissipation
+      spin, approach, contact_angle, p_max, q_max, patch_area, slip_area, dissipation
     integer(c_int) :: patches, cells, iterations, checks_hold
   end type
 
   type, bind(c) :: rs_derivatives
     integer(c_size_t) :: size
     real(c_double) :: force_x, force_y, force_z, normal_force, lateral_force, spin_moment, creepage_x, creepage_y, &
-                      spin, approach, contact_angle
+      spin, approach, contact_angle
   end type
 
   type, bind(c) :: rs_patch
     integer(c_size_t) :: size
     real(c_double) :: force(3), moment(3), normal_force, lateral_force, spin_moment, approach, point(3), on_wheel(2), &
-                      on_rail(2), contact_angle, rolling_radius, p_max, patch_area, dissipation
+      on_rail(2), contact_angle, rolling_radius, p_max, patch_area, dissipation
     integer(c_int) :: cells, reserved
   end type
 
   type, bind(c) :: rs_wheelset_state
     integer(c_size_t) :: size
-    integer(c_int) :: given
-    real(c_double) :: y = 0, z = 0, yaw = 0, roll = 0, speed = 0, y_rate = 0, z_rate = 0, yaw_rate = 0, &
-                      roll_rate = 0, pitch_rate = 0, load = 0, roll_moment = 0
-    real(c_double), dimension(2) :: rail_y = 0, rail_z = 0, rail_roll = 0, rail_y_rate = 0, rail_z_rate = 0
+    integer(c_int) :: given = 0
+    real(c_double) :: y = 0, z = 0, yaw = 0, roll = 0, speed = 0, y_rate = 0, z_rate = 0, yaw_rate = 0, roll_rate = 0, &
+      pitch_rate = 0, load = 0, roll_moment = 0, rail_y(2) = 0, rail_z(2) = 0, rail_roll(2) = 0, rail_y_rate(2) = 0, &
+      rail_z_rate(2) = 0
   end type
 
   type, bind(c) :: rs_wheel
     real(c_double) :: force(3), moment(3), normal_force, lateral_force, spin_moment, creepage_x, creepage_y, spin, &
-                      approach, point(3), on_wheel(2), on_rail(2), contact_angle, rolling_radius, p_max, &
-                      patch_area, dissipation
+      approach, point(3), on_wheel(2), on_rail(2), contact_angle, rolling_radius, p_max, patch_area, dissipation
     integer(c_int) :: patches, cells, checks_hold, reserved
   end type
 

@@ -72,16 +72,16 @@ RS_API void rs_contact_free(rs_contact* contact);
 typedef struct rs_state {
   size_t size;          /* sizeof(rs_state): the library may know more members than the caller */
   unsigned given;       /* RS_LOAD | ... */
-  double load;          /* N, vertical load on the rail; or */
+  double load;          /* N, vertical, on the rail; or approach */
   double approach;      /* m, of the bodies along the contact normal: the load is a result */
   double lateral_shift; /* m, of the wheel to the field side */
   double yaw, roll;     /* tangents of the angle of attack and of the wheelset's roll */
   double speed;         /* m/s */
   double friction;      /* coefficient at rest */
-  double creepage_x;    /* longitudinal: this, or */
-  double creepage_y;    /* lateral, in the contact plane */
+  double creepage_x;    /* (V - omega r) / V, negative drives; or force_x */
+  double creepage_y;    /* lateral, in the contact plane; or force_y */
   double spin;          /* 1/m; without it that of the geometry */
-  double force_x;       /* N, longitudinal on the wheel */
+  double force_x;       /* N, longitudinal, on the wheel */
   double force_y;       /* N, lateral friction on the wheel, in the contact plane */
 } rs_state;
 
@@ -102,7 +102,7 @@ typedef struct rs_forces {
   int patches;                        /* contacts that share the load */
   int cells;                          /* with pressure, of the first patch */
   int iterations;                     /* products with the influence matrix */
-  int checks_hold;                    /* 1: every check of the result holds; rs_remarks lists those that do not */
+  int checks_hold;                    /* every check of the result holds; the remarks name those that do not */
 } rs_forces;
 
 /* Side of the cells [m], 0.02e-3 to 5e-3; 0.25e-3 unless set. */
@@ -267,8 +267,8 @@ typedef struct rs_wheelset_state {
   double y_rate, z_rate;       /* m/s */
   double yaw_rate, roll_rate;  /* rad/s; on the inside of a curve of radius R yaw_rate has speed / R besides */
   double pitch_rate;           /* rad/s, of the axle beyond speed / r0: > 0 drives */
-  double load;                 /* N, on the axle, down; */
-  double roll_moment;          /* N m, on the axle about x; with RS_WHEELSET_LOAD and no roll */
+  double load;                 /* N, on the axle, down */
+  double roll_moment;          /* N m, on the axle about x; with a load and no roll */
   double rail_y[2], rail_z[2]; /* m, of the left and the right rail: irregularity, deflection */
   double rail_roll[2];         /* rad, about x through the origins of their profiles */
   double rail_y_rate[2], rail_z_rate[2]; /* m/s, of the rails' material: deflection, not irregularity */
@@ -281,19 +281,18 @@ typedef struct rs_wheel {
   double moment[3];                   /* N m, of the contact on the wheelset, about its centre */
   double normal_force, lateral_force; /* N, along the contact normal and across it, on the wheel */
   double spin_moment;                 /* N m, on the wheel about the contact normal */
-  double creepage_x, creepage_y;      /* of the contact that touches first, */
+  double creepage_x, creepage_y;      /* of the contact that touches first */
   double spin;                        /* 1/m, of that contact */
   double approach;                    /* m, along the normal of the contact that touches first; < 0: lifted */
-  double point[3];       /* m, the contact that touches first, from the middle of the track below the centre */
-  double on_wheel[2];    /* m, y and z of it on the wheel's profile, */
-  double on_rail[2];     /* on the rail's: profiles' own axes, y to the field side */
-  double contact_angle;  /* rad, of the common tangent to y */
-  double rolling_radius; /* m */
-  double p_max;          /* Pa */
-  double patch_area;     /* m2 */
-  double dissipation;    /* W */
-  int patches, cells;    /* 0: lifted, which is an answer */
-  int checks_hold;
+  double point[3];                /* m, the contact that touches first, from the middle of the track below the centre */
+  double on_wheel[2], on_rail[2]; /* m, y and z of it in the profiles' own axes, y to the field side */
+  double contact_angle;           /* rad, of the common tangent to y */
+  double rolling_radius;          /* m */
+  double p_max;                   /* Pa */
+  double patch_area;              /* m2 */
+  double dissipation;             /* W, in the patch */
+  int patches, cells;             /* 0: lifted, which is an answer */
+  int checks_hold;                /* every check of the result holds */
   int reserved;
 } rs_wheel;
 

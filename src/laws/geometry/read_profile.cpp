@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <regex>
 #include <string>
 #include <string_view>
@@ -72,13 +73,8 @@ NumberTable table_of(ProfileKind kind, std::string_view text, const std::filesys
 
 class Reading {
  public:
-  Reading(ProfileKind kind, std::string_view text, const std::filesystem::path& file, const ProfileFrame& frame)
-      : kind_(kind),
-        file_(file),
-        frame_(frame),
-        table_(table_of(kind, text, file)),
-        points_(table_.rows),
-        notes_(table_.notes) {}
+  Reading(ProfileKind kind, NumberTable table, const std::filesystem::path& file, const ProfileFrame& frame)
+      : kind_(kind), file_(file), frame_(frame), table_(std::move(table)), points_(table_.rows), notes_(table_.notes) {}
 
   Profile profile(std::vector<std::string>* notes) {
     if (points_.size() < 5)
@@ -290,7 +286,19 @@ std::string text_of(const std::filesystem::path& file) {
 
 Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file,
                       std::vector<std::string>* notes, const ProfileFrame& frame) {
-  return Reading(kind, text, file, frame).profile(notes);
+  return Reading(kind, table_of(kind, text, file), file, frame).profile(notes);
+}
+
+Profile profile_of_points(ProfileKind kind, std::vector<Vec2> points, const std::string& name,
+                          std::vector<std::string>* notes) {
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (!std::isfinite(points[k].y) || !std::isfinite(points[k].z))
+      throw CaseError(fmt::format("point {} is not a finite number", k + 1), "remove or repair it", name);
+  NumberTable table;
+  table.lines.resize(points.size());
+  std::iota(table.lines.begin(), table.lines.end(), 1);
+  table.rows = std::move(points);
+  return Reading(kind, std::move(table), name, {}).profile(notes);
 }
 
 Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes,

@@ -26,4 +26,8 @@ Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::v
 Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file,
                       std::vector<std::string>* notes = nullptr, const ProfileFrame& frame = {});
 
+/// The same from points along the curve, as a two-column file lists them.
+Profile profile_of_points(ProfileKind kind, std::vector<Vec2> points, const std::string& name,
+                          std::vector<std::string>* notes = nullptr);
+
 }  // namespace railstrata

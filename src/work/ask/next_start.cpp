@@ -1,13 +1,9 @@
-#include "capi/next_start.hpp"
-
-#include "record/unit.hpp"
+#include "ask/next_start.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "model/model.hpp"
-
-namespace railstrata::capi {
+namespace railstrata {
 namespace {
 
 bool same_grid(const PatchGrid& a, const PatchGrid& b) {
@@ -41,20 +37,9 @@ void continue_traction(double share, const TangentialSolution& before, Tangentia
 }  // namespace
 
 NextStart::Coordinates NextStart::coordinates(const CaseSpec& spec) {
-  constexpr double kCreepage = 1e-3, kTurn = 1e-2, kApproach = 0.1e-3;
-  const double load = spec.vehicle.load();
-  return {spec.geometry.lateral_shift / kMilli,
-          spec.geometry.yaw / kTurn,
-          spec.geometry.roll / kTurn,
-          1e-5 * load,
-          spec.vehicle.approach.value_or(0) / kApproach,
-          spec.drive.creepage.value_or(0) / kCreepage,
-          spec.drive.lateral_creepage.value_or(0) / kCreepage,
-          spec.drive.spin.value_or(0),
-          spec.drive.traction().value_or(0),
-          spec.drive.lateral_traction_coefficient.value_or(0),
-          spec.drive.friction_coefficient,
-          1e-2 * spec.drive.speed};
+  Coordinates out;
+  for (std::size_t k = 0; k < kState.size(); ++k) out[k] = kState[k].coordinate(spec);
+  return out;
 }
 
 BemNeighbour NextStart::of(const CaseSpec& spec) const {
@@ -80,4 +65,4 @@ void NextStart::add(const CaseSpec& spec, BemNeighbour solved) {
   last_ = {coordinates(spec), std::move(solved)};
 }
 
-}  // namespace railstrata::capi
+}  // namespace railstrata

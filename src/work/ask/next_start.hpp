@@ -2,10 +2,10 @@
 // Start of a contact's next solution: the last one, extrapolated along the line from the one before it.
 #include <array>
 
+#include "ask/state.hpp"
 #include "bem/bem_options.hpp"
-#include "spec/case_spec.hpp"
 
-namespace railstrata::capi {
+namespace railstrata {
 
 /// Keeps the last two solutions of a sequence. A start changes how long a solution takes, and its numbers within the
 /// tolerances of the solver (BemOptions::neighbour).
@@ -19,8 +19,7 @@ class NextStart {
   void add(const CaseSpec& spec, BemNeighbour solved);
 
  private:
-  /// The inputs that a state can change, scaled to steps of similar weight.
-  using Coordinates = std::array<double, 12>;
+  using Coordinates = std::array<double, kState.size()>;  // of kState
   struct Known {
     Coordinates at;
     BemNeighbour solved;
@@ -29,4 +28,4 @@ class NextStart {
   Known last_{}, before_{};
 };
 
-}  // namespace railstrata::capi
+}  // namespace railstrata

@@ -1,0 +1,271 @@
+#include "ask/contact.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "ask/answer.hpp"
+#include "ask/solve_settings.hpp"
+#include "geometry/read_profile.hpp"
+#include "judge/bem_summary.hpp"
+#include "model/drive_at_contact.hpp"
+
+namespace railstrata {
+namespace {
+
+/// Calls `work`, whose inputs were looked at before: a CaseError is physics then.
+template <class Work>
+void by_physics(Work&& work) {
+  try {
+    work();
+  } catch (const CaseError& e) {
+    throw NoAnswer(e);
+  }
+}
+
+CaseSpec case_of_contact(const LoadedCase& loaded) {
+  CaseSpec spec = half_space_case(loaded.spec);
+  if (spec.drive.creepage_of == CreepageOf::wheel && (spec.drive.creepage || spec.drive.lateral_creepage))
+    throw CaseError("a contact that is solved state by state takes creepages of the contact, not of the wheel",
+                    "take out drive.creepage and drive.lateral_creepage, and give them with each state",
+                    "drive.creepage_of");
+  spec.drive.creepage_of = CreepageOf::contact;
+  if (spec.transient.kind != TransientKind::none)
+    throw CaseError("a contact that is solved state by state follows no history in time (transient)",
+                    "use `railstrata bem`, or rs.bem in Python", loaded.file.string());
+  return spec;
+}
+
+bool is_lifted(const State& s) {
+  if (s.approach && s.load) return false;
+  return (s.approach && std::isfinite(*s.approach) && *s.approach <= 0) || (s.load && *s.load == 0);
+}
+
+bool stands_at(const GeometrySpec& geometry, const TrackGeometry& track) {
+  return geometry.lateral_shift == track.lateral_shift && geometry.yaw == track.yaw && geometry.roll == track.roll;
+}
+
+std::string remarks_of(const BemResult& result, const Summary& summary) {
+  std::string out;
+  for (const Check& check : summary.checks)
+    if (!check.ok) out += fmt::format("check {} fails: {:g}, limit {:g}\n", check.name, check.value, check.limit);
+  for (const std::string& note : result.notes) out += note + "\n";
+  if (!out.empty()) out.pop_back();
+  return out;
+}
+
+Slopes slopes_of(const ContactDerivative& d) {
+  return {-d.force.x,   -d.force.y, -d.force.z, d.force.normal, -d.force.tangential, -d.force.moment, d.creepage_x,
+          d.creepage_y, d.spin,     d.approach, d.angle};
+}
+
+/// The same as differences of two solutions.
+Slopes slopes_between(const PlacedCase& more, const PlacedCase& less, double step, const BemOptions& options) {
+  const auto forces = [&](const PlacedCase& there) {
+    const BemResult result = solve_bem(there.spec, there.placement, options);
+    return forces_of(result, bem_contact_summary(there.spec, result));
+  };
+  Forces above, below;
+  by_physics([&] {
+    above = forces(more);
+    below = forces(less);
+  });
+  Slopes out;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const auto number = std::get<double Forces::*>(kForces[k].at);
+    out[k] = (above.*number - below.*number) / (2 * step);
+  }
+  return out;
+}
+
+}  // namespace
+
+Forces forces_of(const BemResult& result, const Summary& summary) {
+  const ContactSummary& c = summary.contact;
+  Forces out{c.F_x,
+             c.F_y,
+             c.F_z,
+             c.normal_force,
+             c.lateral_force,
+             c.spin_moment,
+             c.creepage_x,
+             c.creepage_y,
+             c.spin_per_m,
+             c.approach,
+             c.contact_angle,
+             c.patch.p_max,
+             c.patch.q_max,
+             c.patch.area,
+             c.patch.slip_area_fraction * c.patch.area,
+             dissipation(result),
+             static_cast<int>(1 + result.further.size()),
+             cells_with_pressure(result.field),
+             result.effort.iterations};
+  for (const Check& check : summary.checks) out.checks_hold = out.checks_hold && check.ok;
+  return out;
+}
+
+int cells_with_pressure(const ContactField& field) {
+  return static_cast<int>(std::count_if(field.p.begin(), field.p.end(), [](double p) { return p > 0; }));
+}
+
+Contact::Contact(const LoadedCase& loaded)
+    : spec_(case_of_contact(loaded)),
+      placement_(railstrata::place(spec_, loaded.folder())),
+      here_{spec_, placement_},
+      more_(here_),
+      less_(here_) {
+  options_.cache = &cache_;
+}
+
+void Contact::set_cell(double cell) {
+  require_cell(cell);
+  options_.cell = cell;
+}
+
+void Contact::set_tolerance(double t) {
+  constexpr double kSharpest = 1e-12, kRoughest = 1e-3;
+  if (!(t >= kSharpest && t <= kRoughest))
+    throw CaseError(fmt::format("a tolerance of {:g} is out of range", t),
+                    fmt::format("give a number from {:g} to {:g}", kSharpest, kRoughest));
+  set_tolerance(options_, t);
+}
+
+void Contact::set_tolerance(BemOptions& options, double t) {
+  options.rolling.tangential.tolerance = options.rolling.coupling_tolerance = options.balance = t;
+  options.rolling.normal.tolerance = 0.01 * t;
+}
+
+const Placement& Contact::place(InState& out) const {
+  const GeometrySpec& now = out.spec.geometry;
+  if (stands_at(now, placement_.track)) return placement_;
+  TrackGeometry& track = out.moved.track;
+  track = placement_.track;
+  track.lateral_shift = now.lateral_shift;
+  track.yaw = now.yaw;
+  track.roll = now.roll;
+  by_physics([&] { out.moved.contact = place_wheel(out.moved.wheel, out.moved.rail, track); });
+  return out.moved;
+}
+
+const Placement& Contact::set(const State& state, InState& out) const {
+  set_state(state, spec_, out.spec);
+  return place(out);
+}
+
+Forces Contact::lifted(State state) {
+  Forces out;
+  out.approach = state.approach.value_or(0);
+  state.approach.reset();
+  state.load.reset();
+  const RigidContact& there = set(state, here_).contact;
+  const DriveSpec& drive = here_.spec.drive;
+  out.creepage_x = drive.creepage.value_or(0);
+  out.creepage_y = drive.lateral_creepage.value_or(yaw_creepage(there));
+  out.spin = spin_at(here_.spec, there);
+  out.contact_angle = there.angle;
+  return out;
+}
+
+void Contact::drop_solution() {
+  last_.reset();
+  state_.reset();
+  remarks_.clear();
+}
+
+Forces Contact::solve(const State& state) {
+  drop_solution();
+  if (is_lifted(state)) {
+    const Forces out = lifted(state);
+    state_ = state;
+    return out;
+  }
+  const Placement& here = set(state, here_);
+  BemOptions options = options_;
+  BemNeighbour neighbour = start.of(here_.spec);
+  options.neighbour = &neighbour;
+  constexpr double kFollowed = 1e-2;  // of a start's violation: the smallest change of a state counts
+  if (!neighbour.empty()) options.rolling.normal.share_of_first = options.rolling.tangential.share_of_first = kFollowed;
+  by_physics([&] { last_ = solve_bem(here_.spec, here, options); });
+  start.add(here_.spec, std::move(neighbour));
+  const Summary summary = bem_contact_summary(here_.spec, *last_);
+  state_ = state;
+  remarks_ = remarks_of(*last_, summary);
+  return forces_of(*last_, summary);
+}
+
+std::vector<Slopes> Contact::slopes(const std::vector<const StateMember*>& inputs) {
+  constexpr double kTolerance = 1e-10, kLonger = 30;  // of differences: a step that their errors allow
+  std::vector<Slopes> out(inputs.size(), Slopes{});
+  if (state_ && !last_) return out;  // lifted
+  patch(0);
+  const Placement& here = set(*state_, here_);
+  BemOptions options = options_;
+  std::optional<ContactDerivatives> equations;
+  if (const BemNeighbour& solved = start.last(); !solved.empty() && !solved.common)
+    equations.emplace(here_.spec, here, options, solved);
+  const bool linear = equations && equations->linear();
+  if (!linear) set_tolerance(options, kTolerance);
+  const auto beside = [&](const StateMember& input, double value, InState& there) -> PlacedCase {
+    State state = *state_;
+    state.*input.at = value;
+    set_state(state, spec_, there.spec);
+    return {there.spec, stands_at(there.spec.geometry, here.track) ? here : place(there)};
+  };
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const StateMember& input = *inputs[k];
+    const double value = value_in_state(input, *state_, here_.spec, *last_),
+                 step = (linear ? 1 : kLonger) * step_of(input, here_.spec);
+    const PlacedCase more = beside(input, value + step, more_), less = beside(input, value - step, less_);
+    out[k] = linear ? slopes_of(equations->by(more, less, step)) : slopes_between(more, less, step, options);
+  }
+  return out;
+}
+
+const BemPatch& Contact::patch(int index) const {
+  if (!last_)
+    throw CaseError("there is no solution", state_ ? "the wheel of the last state is lifted" : "solve a state first");
+  const auto patches = patches_of(*last_);
+  if (index < 0 || index >= static_cast<int>(patches.size()))
+    throw CaseError(fmt::format("there is no patch {}", index), fmt::format("give 0 to {}", patches.size() - 1));
+  return *patches[static_cast<std::size_t>(index)];
+}
+
+std::vector<Sym3> Contact::stress(BodyId body, const std::vector<Vec3>& points) const {
+  patch(0);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (const Vec3& p = points[k]; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || p.z < 0)
+      throw CaseError(fmt::format("point {} is ({:g}, {:g}, {:g})", k, p.x, p.y, p.z),
+                      "give finite numbers, and a depth of 0 or more");
+  const Subsurface inside = body == BodyId::rail ? rail_interior(*last_) : wheel_interior(*last_);
+  std::vector<Sym3> out;
+  try {
+    for (const InteriorPoint& point : inside.at(points)) out.push_back(point.stress);
+  } catch (const std::out_of_range& e) {
+    throw CaseError(e.what(), "give points near the contact, in metres");
+  }
+  return out;
+}
+
+void Contact::set_profile(BodyId body, std::vector<Vec2> points) {
+  const bool wheel = body == BodyId::wheel;
+  Placement changed = placement_;
+  (wheel ? changed.wheel : changed.rail) = profile_of_points(wheel ? ProfileKind::wheel : ProfileKind::rail,
+                                                             std::move(points), body_word(body), &changed.notes);
+  changed.contact = place_wheel(changed.wheel, changed.rail, changed.track);
+  placement_ = std::move(changed);
+  for (InState* state : {&here_, &more_, &less_}) state->moved = placement_;
+  drop_solution();
+}
+
+void Contact::move_to(const TrackGeometry& track, const HeldPlace& held) {
+  by_physics([&] { placement_.contact = place_wheel(placement_.wheel, placement_.rail, track, held); });
+  placement_.track = track;
+  spec_.geometry.lateral_shift = track.lateral_shift;
+  spec_.geometry.yaw = track.yaw;
+  spec_.geometry.roll = track.roll;
+}
+
+}  // namespace railstrata

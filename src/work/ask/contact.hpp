@@ -1,0 +1,128 @@
+#pragma once
+// A wheel on a rail that is solved state by state, as a vehicle's time steps ask for it.
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ask/named.hpp"
+#include "ask/next_start.hpp"
+#include "ask/state.hpp"
+#include "bem/contact_derivative.hpp"
+#include "core/body_id.hpp"
+#include "core/faults.hpp"
+#include "core/vec.hpp"
+#include "model/model.hpp"
+#include "reader/case_file.hpp"
+#include "result/summary.hpp"
+
+namespace railstrata {
+
+/// Physics has no answer for inputs that are in range.
+struct NoAnswer : CaseError {
+  using CaseError::CaseError;
+  explicit NoAnswer(const CaseError& e) : CaseError(e) {}
+};
+
+/// What a contact gives; meanings and signs are those of rs_forces (railstrata.h). NaN: does not apply.
+struct Forces {
+  double force_x = 0, force_y = 0, force_z = 0;
+  double normal_force = 0, lateral_force = 0, spin_moment = 0;
+  double creepage_x = 0, creepage_y = 0, spin = 0;
+  double approach = 0, contact_angle = 0;
+  double p_max = 0, q_max = 0;
+  double patch_area = 0, slip_area = 0;
+  double dissipation = 0;
+  int patches = 0, cells = 0, iterations = 0;
+  bool checks_hold = true;
+};
+/// In the order of rs_forces; the first kSlopes are those of rs_derivatives.
+inline constexpr std::array<Named<Forces, double, int, bool>, 20> kForces{
+    {{"force_x", "N", &Forces::force_x},
+     {"force_y", "N", &Forces::force_y},
+     {"force_z", "N", &Forces::force_z},
+     {"normal_force", "N", &Forces::normal_force},
+     {"lateral_force", "N", &Forces::lateral_force},
+     {"spin_moment", "N m", &Forces::spin_moment},
+     {"creepage_x", "", &Forces::creepage_x},
+     {"creepage_y", "", &Forces::creepage_y},
+     {"spin", "1/m", &Forces::spin},
+     {"approach", "m", &Forces::approach},
+     {"contact_angle", "rad", &Forces::contact_angle},
+     {"p_max", "Pa", &Forces::p_max},
+     {"q_max", "Pa", &Forces::q_max},
+     {"patch_area", "m2", &Forces::patch_area},
+     {"slip_area", "m2", &Forces::slip_area},
+     {"dissipation", "W", &Forces::dissipation},
+     {"patches", "", &Forces::patches},
+     {"cells", "", &Forces::cells},
+     {"iterations", "", &Forces::iterations},
+     {"checks_hold", "", &Forces::checks_hold}}};
+inline constexpr std::size_t kSlopes = 11;
+/// Derivatives of the first of kForces.
+using Slopes = std::array<double, kSlopes>;
+
+Forces forces_of(const BemResult& result, const Summary& summary);
+int cells_with_pressure(const ContactField& field);
+
+/// The case with its profiles read once, what solutions share, and the last one. Belongs to one thread at a time.
+class Contact {
+ public:
+  /// Throws CaseError: a case that it does not take.
+  explicit Contact(const LoadedCase& loaded);
+  Contact(const Contact&) = delete;
+  Contact& operator=(const Contact&) = delete;
+
+  /// Solves the case in a state. A wheel that is lifted (approach <= 0, or load 0) has no forces. After an error there
+  /// is no last solution. Throws CaseError, NoAnswer, NumericalError.
+  Forces solve(const State& state = {});
+  void drop_solution();
+  /// Derivatives of the last solution by inputs of its state, one after the other. Throws CaseError: no solution, an
+  /// input that is a result in it; and as solve.
+  std::vector<Slopes> slopes(const std::vector<const StateMember*>& inputs);
+
+  /// Of the last solution. Throws CaseError: there is none, or not this patch.
+  const BemPatch& patch(int index) const;
+  /// Stresses below the patch of the largest pressure, points as Subsurface::at has them. Throws CaseError.
+  std::vector<Sym3> stress(BodyId body, const std::vector<Vec3>& points) const;
+
+  void set_cell(double cell);
+  /// One tolerance t of all parts: t of slip, friction's force and the weight, 0.01 t of the gap.
+  void set_tolerance(double t);
+  /// A profile in place of the case's: points along the curve, m. Throws CaseError, and the old one stays.
+  void set_profile(BodyId body, std::vector<Vec2> points);
+  /// Moves the wheel to where it touches on this track (model/placement). Throws NoAnswer.
+  void move_to(const TrackGeometry& track, const HeldPlace& held);
+
+  const CaseSpec& spec() const { return spec_; }
+  const Placement& placement() const { return placement_; }
+  double load_tolerance() const { return options_.balance; }
+  /// Null: none, or the wheel is lifted.
+  const BemResult* last() const { return last_ ? &*last_ : nullptr; }
+  /// Checks that fail and notes of the last solution, one a line.
+  const std::string& remarks() const { return remarks_; }
+  NextStart start;  ///< of the next solution
+
+ private:
+  /// The case in a state, with a place of its own where the state moves the wheel.
+  struct InState {
+    CaseSpec spec;
+    Placement moved;
+  };
+  const Placement& set(const State& state, InState& out) const;
+  const Placement& place(InState& out) const;
+  Forces lifted(State state);
+  static void set_tolerance(BemOptions& options, double t);
+
+  CaseSpec spec_;
+  Placement placement_;
+  InState here_, more_, less_;
+  BemOptions options_;
+  InfluenceCache cache_;
+  std::optional<BemResult> last_;
+  std::optional<State> state_;  // of the last answer
+  std::string remarks_;
+};
+
+}  // namespace railstrata

@@ -1,0 +1,357 @@
+#include "ask/wheelset.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "ask/patch_forces.hpp"
+#include "core/faults.hpp"
+#include "core/root.hpp"
+#include "halfspace/hertz.hpp"
+
+namespace railstrata {
+
+double Stiffening::force_at(double a) const { return a > 0 ? scale * std::pow(a, power) : 0.0; }
+double Stiffening::approach_at(double q) const { return std::pow(q / scale, 1 / power); }
+
+void Stiffening::add(double a, double q) {
+  constexpr double kNear = 1e-4, kFar = 1, kLeast = 0.8, kMost = 3;
+  if (!(a > 0) || !(q > 0)) return;
+  const double apart = approach > 0 ? std::abs(std::log(a / approach)) : 0;
+  if (apart > kNear && apart < kFar) power = std::clamp(std::log(q / force) / std::log(a / approach), kLeast, kMost);
+  approach = a;
+  force = q;
+  scale = q / std::pow(a, power);
+}
+
+namespace {
+
+constexpr int kMostSolutions = 60, kFreeSolutions = 5;
+
+WheelsetMotion motion_of(const WheelsetState& s, double roll) {
+  return {s.y, s.z.value_or(0), s.yaw, roll, s.speed, s.y_rate, s.z_rate, s.yaw_rate, s.roll_rate, s.pitch_rate};
+}
+
+RailMotion rail_of(const WheelsetState& s, std::size_t side) {
+  return {s.rail_y[side], s.rail_z[side], s.rail_roll[side], s.rail_y_rate[side], s.rail_z_rate[side]};
+}
+
+/// Looks where the wheels touch and leaves it in their contacts, whose solutions then need not look again. hold: each
+/// wheel keeps to the place where it touches now, if another is lower by less than 5 um.
+void place(Wheelset& set, const WheelsetState& state, double roll, bool hold = false) {
+  constexpr double kHeldWithin = 5e-6;  // m
+  for (std::size_t side : {kLeft, kRight}) {
+    Wheel& w = set.wheels[side];
+    w.motion = motion_of(state, roll);
+    w.rail = rail_of(state, side);
+    if (side == kRight) {
+      w.motion = mirrored(w.motion);
+      w.rail = mirrored(w.rail);
+    }
+    const Placement& p = w.contact.placement();
+    w.contact.move_to(track_under(p.wheel, p.rail, w.at_rest, w.motion, w.rail),
+                      hold ? HeldPlace{w.touching().rail_s, kHeldWithin} : HeldPlace{});
+  }
+  set.roll = roll;
+}
+
+/// The force and the moment about the wheelset's centre, of the tractions of all cells.
+void add_up(Wheel& w) {
+  w.force = {w.forces.force_x, w.forces.force_y, w.forces.force_z};
+  w.moment = {};
+  if (!w.contact.last()) return;
+  for (const BemPatch* patch : patches_of(*w.contact.last())) {
+    const auto arm = [&](double x, Vec2 point) { return arm_of(w.track(), w.touching(), w.motion, x, point); };
+    w.moment += wrench_of(*patch, arm).moment;
+  }
+}
+
+/// Solves a wheel under an approach along the normal of its first contact.
+void press(Wheel& w, double approach) {
+  const WheelSlip slip = slip_at(w.track(), w.touching(), w.motion, w.rail);
+  State state;
+  state.approach = approach;
+  state.speed = w.motion.speed;
+  state.creepage_x = slip.creepage_x;
+  state.creepage_y = slip.creepage_y;
+  state.spin = slip.spin;
+  w.forces = w.contact.solve(state);
+  w.approach = approach;
+  add_up(w);
+}
+
+void press(Wheelset& set, const std::array<double, 2>& approach) {
+  ++set.solutions;
+  for (std::size_t k : {0, 1}) {
+    press(set.wheels[k], approach[k]);
+    set.stiffening[k].add(approach[k], set.wheels[k].force.z);
+  }
+}
+
+/// Approach of a wheel at the height z of the wheelset.
+double approach_at(const Wheel& w, double z) {
+  WheelsetMotion m = w.motion;
+  m.z = z;
+  return descent(w.track(), w.touching(), m, w.rail) * std::cos(w.touching().angle);
+}
+
+void begin_stiffening(Wheelset& set) {
+  for (std::size_t k : {0, 1}) {
+    if (set.stiffening[k].scale > 0) continue;
+    const CaseSpec& spec = set.wheels[k].contact.spec();
+    const double approach = hertz_estimate(spec, set.wheels[k].touching()).approach;
+    set.stiffening[k].scale = spec.vehicle.load() / std::pow(approach, 1.5);
+  }
+}
+
+double tolerance_of(const Wheelset& set) {
+  return std::max(set.wheels[0].contact.load_tolerance(), set.wheels[1].contact.load_tolerance());
+}
+
+/// z where the forces that are expected of the approaches bear the load.
+double expected_height(const Wheelset& set, double load) {
+  const auto borne = [&](double z) {
+    return set.stiffening[0].force_at(approach_at(set.wheels[0], z)) +
+           set.stiffening[1].force_at(approach_at(set.wheels[1], z));
+  };
+  double high = std::max(
+      height_of_descent(0, set.wheels[0].track(), set.wheels[0].touching(), set.wheels[0].motion, set.wheels[0].rail),
+      height_of_descent(0, set.wheels[1].track(), set.wheels[1].touching(), set.wheels[1].motion, set.wheels[1].rail));
+  double step = 1e-4, low = high - step;
+  while (borne(low) < load) low -= step *= 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (borne(middle) < load ? high : low) = middle;
+  }
+  return low;
+}
+
+/// The height under a load, with the roll that is given.
+double sink(Wheelset& set, double load) {
+  begin_stiffening(set);
+  for (int i = 0; i < kMostSolutions; ++i) {
+    const double z = expected_height(set, load);
+    press(set, {approach_at(set.wheels[0], z), approach_at(set.wheels[1], z)});
+    if (std::abs(set.wheels[0].force.z + set.wheels[1].force.z - load) <= tolerance_of(set) * load) return z;
+  }
+  throw NumericalError("the height of the wheelset under its load was not found");
+}
+
+/// The vertical forces that bear the load and the roll moment, where forces and moments keep their proportions.
+std::array<double, 2> wanted_forces(const Wheelset& set, double load, double roll_moment) {
+  double arm[2];
+  for (std::size_t k : {0, 1}) {
+    const Wheel& w = set.wheels[k];
+    if (!(w.force.z > 0))
+      throw NoAnswer("friction bears the wheel that is pressed: no vertical force is left",
+                     "lower drive.friction_coefficient, or check y and the profiles");
+    arm[k] = w.moment.x / w.force.z;
+  }
+  arm[1] = -arm[1];
+  const double left = (-roll_moment - arm[1] * load) / (arm[0] - arm[1]);
+  if (!(left > 0 && left < load))
+    throw NoAnswer(fmt::format("a roll moment of {:.4g} N m tips the wheelset over under {:.4g} N", roll_moment, load),
+                   "give a smaller roll_moment, or the roll");
+  return {left, load - left};
+}
+
+/// The roll at which both wheels have their approaches, and the height; none was found: nothing.
+std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std::array<double, 2>& approach,
+                           bool hold) {
+  constexpr double kClose = 1e-10;  // m
+  double height[2];
+  const auto apart = [&](double roll) {
+    place(set, state, roll, hold);
+    for (std::size_t k : {0, 1}) {
+      const Wheel& w = set.wheels[k];
+      height[k] =
+          height_of_descent(approach[k] / std::cos(w.touching().angle), w.track(), w.touching(), w.motion, w.rail);
+    }
+    return height[0] - height[1];
+  };
+  const double usual = -2 * std::max(tape_circle_distance(set.wheels[0].at_rest), 1e-3);
+  double roll = set.roll, error = apart(roll), slope = usual;
+  for (int i = 0; i < kMostSolutions; ++i) {
+    if (std::abs(error) <= kClose) return 0.5 * (height[0] + height[1]);
+    hold = hold || i == kFreeSolutions;
+    const double next = roll - error / slope, after = apart(next);
+    if (std::abs(next - roll) > 0 && (after - error) / (next - roll) < 0.1 * usual)
+      slope = (after - error) / (next - roll);
+    roll = next;
+    error = after;
+  }
+  return {};
+}
+
+/// Height and roll by wheels whose force follows their own approach, which is soon done. Where the wheels touch changes
+/// with the roll; after some solutions they keep to a place. None: a wheel on tread and flange does not follow it.
+std::optional<double> lean_by_approaches(Wheelset& set, const WheelsetState& state) {
+  constexpr int kSoon = 8;
+  place(set, state, set.roll);
+  begin_stiffening(set);
+  std::array<double, 2> wanted{0.5 * *state.load, 0.5 * *state.load};
+  while (set.solutions < kSoon) {
+    const std::array<double, 2> approach{set.stiffening[0].approach_at(wanted[0]),
+                                         set.stiffening[1].approach_at(wanted[1])};
+    const std::optional<double> z = tilt(set, state, approach, set.solutions > kFreeSolutions);
+    if (!z) return {};
+    press(set, approach);
+    wanted = wanted_forces(set, *state.load, state.roll_moment);
+    const double missed =
+        std::max(std::abs(wanted[0] - set.wheels[0].force.z), std::abs(wanted[1] - set.wheels[1].force.z));
+    if (missed <= tolerance_of(set) * *state.load) return z;
+  }
+  return {};
+}
+
+/// Height and roll: of all rolls, under each of which the wheelset sinks until it bears its load, the one whose moment
+/// is that wanted. The moment falls as the roll grows, until a wheel is lifted; with the place of the first contact it
+/// jumps by some 1e-4.
+std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, double from) {
+  constexpr double kSame = 1e-10;  // rad
+  double z = 0;
+  bool hold = false;
+  const auto excess = [&](double roll) {
+    place(set, state, roll, hold);
+    z = sink(set, *state.load);
+    return set.wheels[0].moment.x - set.wheels[1].moment.x + state.roll_moment;
+  };
+  const double arm = tape_circle_distance(set.wheels[0].at_rest), close = tolerance_of(set) * *state.load * arm;
+  double a = from, at_a = excess(a);
+  if (std::abs(at_a) <= close) return z;
+  double step = 1.2 * at_a / (arm * arm * (set.stiffening[0].slope() + set.stiffening[1].slope()));
+  while (set.wheels[at_a > 0 ? 0 : 1].force.z > 0) {
+    const double b = a + step, at_b = excess(b);
+    if (std::abs(at_b) <= close) return z;
+    hold = at_a * at_b < 0;
+    if (hold)
+      return narrow_root(a, at_a, b, at_b, close, kSame, kMostSolutions, excess) ? std::optional(z) : std::nullopt;
+    a = b;
+    at_a = at_b;
+    step *= 2;
+  }
+  return {};
+}
+
+double lean(Wheelset& set, const WheelsetState& state) {
+  const double from = set.roll;
+  const std::array<Stiffening, 2> stiffening = set.stiffening;
+  std::exception_ptr refused;
+  try {
+    if (const std::optional<double> z = lean_by_approaches(set, state)) return *z;
+  } catch (const NoAnswer&) {  // perhaps of forces on the way
+    refused = std::current_exception();
+  }
+  set.stiffening = stiffening;
+  if (const std::optional<double> z = lean_by_moment(set, state, from)) return *z;
+  if (refused) std::rethrow_exception(refused);
+  throw NumericalError("height and roll of the wheelset under its load were not found");
+}
+
+void require_state(const WheelsetState& s) {
+  if (!(s.z && s.roll && !s.load) && !(s.load && !s.z))
+    throw CaseError("the state does not say what is given", "give z and roll, load and roll, or load");
+  if (!(s.speed > 0)) throw CaseError(fmt::format("speed = {:g}", s.speed), "give a speed above 0 m/s");
+  if (s.load && !(*s.load > 0)) throw CaseError(fmt::format("load = {:g}", *s.load), "give a load above 0 N");
+  const auto require = [](double value, const std::string& name) {  // else answered as a wheel that misses its rail
+    if (!std::isfinite(value)) throw CaseError(fmt::format("{} = {:g}", name, value), "give a finite number");
+  };
+  for (const auto& row : kWheelsetState)
+    with_member(row, s, [&](const auto& value) {
+      if constexpr (requires { value.size(); })
+        for (std::size_t side : {kLeft, kRight}) require(value[side], fmt::format("{}[{}]", row.name, side));
+      else if constexpr (requires { value.has_value(); })
+        require(value.value_or(0), row.name);
+      else
+        require(value, row.name);
+    });
+}
+
+Vec3 in_track(Vec3 v, bool mirror, bool axial) {
+  const double across = mirror && !axial ? -1 : 1, along = mirror && axial ? -1 : 1;
+  return {along * v.x, across * v.y, along * v.z};
+}
+
+WheelForces forces_of(const Wheel& w, double y, bool mirror) {
+  const double odd = mirror ? -1 : 1;
+  const RigidContact& touching = w.touching();
+  const WheelSlip slip = slip_at(w.track(), touching, w.motion, w.rail);
+  const Vec3 arm = arm_of(w.track(), touching, w.motion, touching.x, touching.point);
+  WheelForces out;
+  out.force = in_track(w.force, mirror, false);
+  out.moment = in_track(w.moment, mirror, true);
+  out.normal_force = w.forces.normal_force;
+  out.lateral_force = odd * w.forces.lateral_force;
+  out.spin_moment = odd * w.forces.spin_moment;
+  out.creepage_x = slip.creepage_x;
+  out.creepage_y = odd * slip.creepage_y;
+  out.spin = odd * slip.spin;
+  out.approach = w.approach;
+  out.point = in_track({arm.x, arm.y, touching.point.z + w.rail.z}, mirror, false);
+  out.point.y += y;
+  out.on_wheel = w.contact.placement().wheel.at(touching.wheel_s).position;
+  out.on_rail = w.contact.placement().rail.at(touching.rail_s).position;
+  out.contact_angle = odd * touching.angle;
+  out.rolling_radius = touching.rolling_radius;
+  out.p_max = w.forces.p_max;
+  out.patch_area = w.forces.patch_area;
+  out.dissipation = w.forces.dissipation;
+  out.patches = w.forces.patches;
+  out.cells = w.forces.cells;
+  out.checks_hold = w.forces.checks_hold;
+  return out;
+}
+
+}  // namespace
+
+Wheel::Wheel(const LoadedCase& loaded) : contact(loaded), at_rest(track()) {
+  at_rest.lateral_shift = 0;
+  const GeometrySpec& g = contact.spec().geometry;
+  if (g.rail_radius || g.in_line())
+    throw CaseError("a wheelset rolls on straight rails, in patches that are no lines",
+                    "take out rail_radius and contact = \"line\"",
+                    g.rail_radius ? "geometry.rail_radius" : "geometry.contact");
+}
+
+WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
+  require_state(state);
+  set.solutions = 0;
+  if (state.roll) place(set, state, *state.roll);
+  WheelsetForces out;
+  if (state.z) {
+    out.z = *state.z;
+    press(set, {approach_at(set.wheels[0], out.z), approach_at(set.wheels[1], out.z)});
+  } else {
+    out.z = state.roll ? sink(set, *state.load) : lean(set, state);
+  }
+  out.roll = set.roll;
+  out.solutions = set.solutions;
+  for (std::size_t side : {kLeft, kRight}) {
+    out.wheels[side] = forces_of(set.wheels[side], state.y, side == kRight);
+    out.force += out.wheels[side].force;
+    out.moment += out.wheels[side].moment;
+  }
+  return out;
+}
+
+void keep(Wheelset& set) {
+  set.kept = {set.roll, set.stiffening, {set.wheels[0].contact.start, set.wheels[1].contact.start}};
+}
+
+void reset(Wheelset& set) {
+  set.roll = set.kept.roll;
+  set.stiffening = set.kept.stiffening;
+  for (std::size_t side : {kLeft, kRight}) set.wheels[side].contact.start = set.kept.contacts[side];
+}
+
+void forget(Wheelset& set) {
+  set.roll = 0;
+  set.stiffening = {};
+  for (Wheel& w : set.wheels) w.contact.start = {};
+}
+
+}  // namespace railstrata

@@ -1,0 +1,148 @@
+#pragma once
+// Two wheels on one rigid axle and their rails, solved motion by motion: docs/vehicle.md.
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "ask/contact.hpp"
+#include "ask/named.hpp"
+#include "geometry/wheelset.hpp"
+
+namespace railstrata {
+
+inline constexpr std::size_t kLeft = 0, kRight = 1;
+
+/// Motion of a wheelset and its rails, in the track's axes. Given are z and roll (loads are results), load and roll (z
+/// is found), or load (both are found, under a roll moment). Meanings are those of rs_wheelset_state (railstrata.h).
+struct WheelsetState {
+  double y = 0;
+  std::optional<double> z;
+  double yaw = 0;
+  std::optional<double> roll;
+  double speed = 0;
+  double y_rate = 0, z_rate = 0, yaw_rate = 0, roll_rate = 0, pitch_rate = 0;
+  std::optional<double> load;
+  double roll_moment = 0;
+  std::array<double, 2> rail_y{}, rail_z{}, rail_roll{}, rail_y_rate{}, rail_z_rate{};
+};
+/// In the order of rs_wheelset_state; the optional ones in that of the bits of its `given`.
+inline constexpr std::array<Named<WheelsetState, double, std::optional<double>, std::array<double, 2>>, 17>
+    kWheelsetState{{{"y", "m", &WheelsetState::y},
+                    {"z", "m", &WheelsetState::z},
+                    {"yaw", "rad", &WheelsetState::yaw},
+                    {"roll", "rad", &WheelsetState::roll},
+                    {"speed", "m/s", &WheelsetState::speed},
+                    {"y_rate", "m/s", &WheelsetState::y_rate},
+                    {"z_rate", "m/s", &WheelsetState::z_rate},
+                    {"yaw_rate", "rad/s", &WheelsetState::yaw_rate},
+                    {"roll_rate", "rad/s", &WheelsetState::roll_rate},
+                    {"pitch_rate", "rad/s", &WheelsetState::pitch_rate},
+                    {"load", "N", &WheelsetState::load},
+                    {"roll_moment", "N m", &WheelsetState::roll_moment},
+                    {"rail_y", "m", &WheelsetState::rail_y},
+                    {"rail_z", "m", &WheelsetState::rail_z},
+                    {"rail_roll", "rad", &WheelsetState::rail_roll},
+                    {"rail_y_rate", "m/s", &WheelsetState::rail_y_rate},
+                    {"rail_z_rate", "m/s", &WheelsetState::rail_z_rate}}};
+
+/// One wheel, in the track's axes; meanings are those of rs_wheel (railstrata.h).
+struct WheelForces {
+  Vec3 force, moment;
+  double normal_force = 0, lateral_force = 0, spin_moment = 0;
+  double creepage_x = 0, creepage_y = 0, spin = 0;
+  double approach = 0;
+  Vec3 point;
+  Vec2 on_wheel, on_rail;
+  double contact_angle = 0, rolling_radius = 0;
+  double p_max = 0, patch_area = 0, dissipation = 0;
+  int patches = 0, cells = 0;
+  bool checks_hold = true;
+};
+inline constexpr std::array<Named<WheelForces, double, int, bool, Vec2, Vec3>, 20> kWheelForces{
+    {{"force", "N", &WheelForces::force},
+     {"moment", "N m", &WheelForces::moment},
+     {"normal_force", "N", &WheelForces::normal_force},
+     {"lateral_force", "N", &WheelForces::lateral_force},
+     {"spin_moment", "N m", &WheelForces::spin_moment},
+     {"creepage_x", "", &WheelForces::creepage_x},
+     {"creepage_y", "", &WheelForces::creepage_y},
+     {"spin", "1/m", &WheelForces::spin},
+     {"approach", "m", &WheelForces::approach},
+     {"point", "m", &WheelForces::point},
+     {"on_wheel", "m", &WheelForces::on_wheel},
+     {"on_rail", "m", &WheelForces::on_rail},
+     {"contact_angle", "rad", &WheelForces::contact_angle},
+     {"rolling_radius", "m", &WheelForces::rolling_radius},
+     {"p_max", "Pa", &WheelForces::p_max},
+     {"patch_area", "m2", &WheelForces::patch_area},
+     {"dissipation", "W", &WheelForces::dissipation},
+     {"patches", "", &WheelForces::patches},
+     {"cells", "", &WheelForces::cells},
+     {"checks_hold", "", &WheelForces::checks_hold}}};
+
+/// force, moment: of both contacts on the wheelset, about its centre.
+struct WheelsetForces {
+  double z = 0, roll = 0;
+  Vec3 force, moment;
+  std::array<WheelForces, 2> wheels;
+  int solutions = 0;  ///< of each contact, that the state took
+};
+/// Without the wheels, which stand before the last one in rs_wheelset_forces.
+inline constexpr std::array<Named<WheelsetForces, double, int, Vec3>, 5> kWheelsetForces{
+    {{"z", "m", &WheelsetForces::z},
+     {"roll", "rad", &WheelsetForces::roll},
+     {"force", "N", &WheelsetForces::force},
+     {"moment", "N m", &WheelsetForces::moment},
+     {"solutions", "", &WheelsetForces::solutions}}};
+
+/// How the vertical force of a wheel grows with its approach, Q = scale a^power: Hertz's 1.5 to begin with.
+struct Stiffening {
+  double scale = 0, power = 1.5;
+  double approach = 0, force = 0;  ///< that it goes through
+  double force_at(double a) const;
+  double approach_at(double q) const;
+  double slope() const { return approach > 0 ? power * force / approach : 0; }  ///< there
+  void add(double a, double q);
+};
+
+/// One wheel as the left one of its motion.
+struct Wheel {
+  explicit Wheel(const LoadedCase& loaded);
+  Contact contact;
+  TrackGeometry at_rest;
+  WheelsetMotion motion;
+  RailMotion rail;
+  Forces forces;
+  double approach = 0;  ///< m, of the last solution
+  Vec3 force, moment;   ///< N, N m about the wheelset's centre
+  const RigidContact& touching() const { return contact.placement().contact; }
+  const TrackGeometry& track() const { return contact.placement().track; }
+};
+
+/// Where the next solution starts from.
+struct WheelsetStart {
+  double roll = 0;  ///< rad
+  std::array<Stiffening, 2> stiffening;
+  std::array<NextStart, 2> contacts;
+};
+
+/// Both cases are those of left wheels: the right one's is that of its mirror image. Position, motion and load of the
+/// cases do not count.
+struct Wheelset {
+  Wheelset(const LoadedCase& left, const LoadedCase& right) : wheels{Wheel(left), Wheel(right)} {}
+  std::array<Wheel, 2> wheels;
+  std::array<Stiffening, 2> stiffening;
+  double roll = 0;  ///< rad, of the last solution
+  int solutions = 0;
+  WheelsetStart kept;
+};
+
+/// Throws CaseError, NoAnswer (of a contact; the roll moment tips the wheelset over), NumericalError.
+WheelsetForces solve(Wheelset& set, const WheelsetState& state);
+/// Solutions start from the ones before. Before trial steps `keep` remembers where the next one starts from, `reset`
+/// returns there; `forget` starts anew.
+void keep(Wheelset& set);
+void reset(Wheelset& set);
+void forget(Wheelset& set);
+
+}  // namespace railstrata
