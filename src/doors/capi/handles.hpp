@@ -1,5 +1,10 @@
 #pragma once
 // Handles are addresses of the objects that they stand for.
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
 #include "ask/contact.hpp"
 #include "ask/wheelset.hpp"
 #include "capi/railstrata.h"

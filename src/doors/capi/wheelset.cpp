@@ -1,6 +1,8 @@
 #include "ask/wheelset.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
