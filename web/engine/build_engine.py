@@ -25,7 +25,8 @@ TYPES_ALONE = ("body/", "element/", "fem/", "mesh/", "contact/", "io/provenance.
 CALLED_HERE = ("contact/patch_extent.cpp",)  # of these, what is called here
 # Headers whose functions are in several sources.
 DEFINED_IN = {"fft/fft.hpp": ("fft/fft_lengths.cpp", "fft/fft_kiss.cpp"),
-              "options/case_tables.hpp": ("options/*_options.cpp",), "bem/subsurface.hpp": ("bem/subsurface_*.cpp",)}
+              "options/case_tables.hpp": ("options/*_options.cpp",), "bem/subsurface.hpp": ("bem/subsurface_*.cpp",),
+              "result/result_table.hpp": ("result/table_columns.cpp",)}
 # Whole libraries of headers beside the system's own, which are not for this compiler.
 HEADERS = {"fmt": "/usr/include/fmt", "eigen3": "/usr/include/eigen3", "nlohmann": "/usr/include/nlohmann",
            "toml++": "/usr/include/toml++"}
