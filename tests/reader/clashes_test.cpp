@@ -159,7 +159,8 @@ Overrides breaking(const Clash& c) {
   const bool lacking = c.rule == ClashRule::needs || c.rule == ClashRule::idle_without;
   if (!c.b.use && !lacking) add(example(c.b));
   if (!c.a.use) add(example(c.a));
-  if (lacking) std::erase_if(out, [&](const std::string& one) { return one.starts_with(first_key(c.b) + "="); });
+  if (lacking && c.b.key.find(" = ") == std::string_view::npos)
+    std::erase_if(out, [&](const std::string& one) { return one.starts_with(first_key(c.b) + "="); });
   if (const auto without = kWithout.find(first_key(c.b)); lacking && without != kWithout.end()) add(without->second);
   return out;
 }
