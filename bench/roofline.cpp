@@ -319,12 +319,12 @@ void print_roofline(Case& of, Machine m) {
   m.nodal = nodal_bandwidth(static_cast<std::ptrdiff_t>(size));
   const CachedTimes cached[2] = {cached_times<Real, SweepKind::extrude>(m.threads),
                                  cached_times<Real, SweepKind::revolve>(m.threads)};
-  std::array<BodySteps, 2> uniform;  // the base case scales no masses and has no local steps
+  MassScaling real_masses;  // as those of the base case
   Needs needs{};
   double elements = 0, kernel = 0, nodal = 0;
   for (const BodyId id : kBodies) {
     const std::size_t k = index_of(id);
-    RollingBody rolling(*body[k], of.system.surfaces[k], uniform[k], {});
+    RollingBody rolling(*body[k], of.system.surfaces[k], real_masses, {});
     chain_tiles(rolling, false);
     add_needs(rolling, needs);
     needs[static_cast<std::size_t>(StepPart::ends)] +=

@@ -254,7 +254,7 @@ TieArrays tie_arrays(Device& device, const Body& body) {
 }
 
 ChainArrays chain_arrays(Device& device, const RollingBody& b, const StationLists& at) {
-  const MassScaling& scaling = b.steps.scaling;
+  const MassScaling& scaling = b.scaling;
   const Body& body = b.body;
   ChainArrays out;
   std::vector<int> chain_at(static_cast<std::size_t>(b.surface.columns), -1);

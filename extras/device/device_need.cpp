@@ -55,12 +55,10 @@ int launches(const RollingSystem& sys) {
 
 DeviceNeed device_need(const RollingSystem& sys, StepPlan& plan) {
   DeviceNeed need;
-  bool local_steps = false;
-  for (const BodySteps& s : plan.bodies) local_steps = local_steps || !s.local.empty();
-  need.refused = not_on_a_device(sys, local_steps);
+  need.refused = not_on_a_device(sys);
   if (!need.refused.empty()) return need;
-  const RollingBodies bodies{RollingBody(sys.rail(), sys.rail_surface(), plan.bodies[kRail], {}),
-                             RollingBody(sys.wheel(), sys.wheel_surface(), plan.bodies[kWheel], {})};
+  const RollingBodies bodies{RollingBody(sys.rail(), sys.rail_surface(), plan.scaling[kRail], {}),
+                             RollingBody(sys.wheel(), sys.wheel_surface(), plan.scaling[kWheel], {})};
   CountedDevice device;
   const Engine engine(device, sys, bodies, plan.limits.chosen);
   for (const RollingBody& b : bodies) {

@@ -29,9 +29,7 @@ std::unique_ptr<Device> device_of(const CaseSpec& spec) {
 EngineOf engine_on(Device* device) {
   if (!device) return {};
   return [device](const RollingSystem& system, const RollingBodies& bodies, double dt) -> std::unique_ptr<StepEngine> {
-    bool local_steps = false;
-    for (const RollingBody& b : bodies) local_steps = local_steps || !b.steps.local.empty();
-    if (const std::string what = not_on_a_device(system, local_steps); !what.empty())
+    if (const std::string what = not_on_a_device(system); !what.empty())
       throw CaseError(fmt::format("run.device: a device takes no {}", what), "run.device = \"cpu\"");
     return std::make_unique<Engine>(*device, system, bodies, dt);
   };

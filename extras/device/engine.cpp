@@ -74,8 +74,7 @@ std::string describe(Fault fault) {
 
 }  // namespace
 
-std::string not_on_a_device(const RollingSystem& system, bool local_steps) {
-  if (local_steps) return "local time steps";
+std::string not_on_a_device(const RollingSystem& system) {
   if (system.on_ring()) return "rail that is a ring";
   for (const Body& b : system.bodies)
     if (!b.plastic.empty()) return "materials that yield";

@@ -7,8 +7,8 @@
 
 namespace railstrata::device {
 
-/// Part of a system that a device cannot take, as a text for the user; empty: none. `local_steps`: of the step's plan.
-std::string not_on_a_device(const RollingSystem& system, bool local_steps);
+/// Part of a system that a device cannot take, as a text for the user; empty: none.
+std::string not_on_a_device(const RollingSystem& system);
 
 class Engine : public StepEngine {
  public:

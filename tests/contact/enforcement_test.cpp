@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "sample_surfaces.hpp"
 
 namespace railstrata {
@@ -51,6 +49,18 @@ struct Impact {
     return w;
   }
   const NodeTraction& traction(std::size_t r) const { return memory.at(rows.rows[r].column, rows.rows[r].station); }
+  // Free velocities with which the tractions in memory bring every node to rest.
+  void stop_with_tractions(ContactSystem& s) const {
+    for (Vec3& v : s.rail.velocity) v = {};
+    for (Vec3& v : s.wheel.velocity) v = {};
+    for (std::size_t r = 0; r < rows.rows.size(); ++r) {
+      const ContactRow& row = rows.rows[r];
+      const Vec3 impulse = (kStep * row.area) * traction_vector(traction(r), row.normal);
+      s.rail.velocity[r] -= s.rail.inverse_mass[r] * impulse;
+      for (int k = row.first; k < row.first + row.count; ++k)
+        s.wheel.velocity[s.weight_node[k]] += (rows.weights[k].m * s.wheel.inverse_mass[s.weight_node[k]]) * impulse;
+    }
+  }
 };
 
 EnforcementOptions exact(double friction = kFriction) { return {false, 0, {friction, {}}, 0, 1e-19, 20000}; }
@@ -120,11 +130,9 @@ TEST(Multipliers, TakeAShortPauseForSlip) {
       }
     for (long k = 0; k < steps; ++k) {  // what was reached is kept: nothing slips in these steps
       ContactSystem again = c.after;
-      for (Vec3& v : again.rail.velocity) v = {};
-      for (Vec3& v : again.wheel.velocity) v = {};
+      c.stop_with_tractions(again);
       MortarRows touching = c.rows;
       for (ContactRow& row : touching.rows) row.gap = 0;
-      again.tractions_applied = true;
       enforce_contact(touching, kStep, exact(10), again, c.memory);
     }
     int slipping = 0;
@@ -275,129 +283,6 @@ TEST(Multipliers, AreTheSameWhenTheyStartFromTheSolution) {
   c.after = c.before;
   enforce_contact(c.rows, kStep, exact(), c.after, c.memory);
   for (std::size_t k = 0; k < first.size(); ++k) EXPECT_NEAR(c.memory.all()[k].p, first[k].p, 1e-7 * 1e9);
-}
-
-// Nodes that answer one another: the rail's by a response of exponential reach, positive definite, with normal and
-// tangential motions mixed; the wheel's by masses.
-TEST(Multipliers, SatisfySignoriniCoulombAndTheResponseWhereNodesAnswerOneAnother) {
-  constexpr int kReach = 6;
-  constexpr double kLow = 0.15;
-  const Impact plain(exact(kLow), -2e-6);
-  Impact c(exact(kLow), -2e-6);
-  SurfaceResponse response(c.surfaces.rail.columns, kReach);
-  for (int from = 0; from < c.surfaces.rail.columns; ++from)
-    for (int to = 0; to < c.surfaces.rail.columns; ++to)
-      for (int apart = -kReach; apart <= kReach; ++apart) {
-        const double near = 2e5 * std::pow(-0.15, std::abs(to - from) + std::abs(apart));
-        for (int k = 0; k < 3; ++k) response.entry(from, to, apart, k, k) = near * (k == 2 ? 0.8 : 1);
-        response.entry(from, to, apart, 0, 2) =
-            0.1 * near * apart;  // antisymmetric in the distance: the whole stays symmetric
-        response.entry(from, to, apart, 2, 0) = -0.1 * near * apart;
-      }
-  c.before.rail.response = &response;
-  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
-    c.before.rail.nodes.push_back({c.rows.rows[r].column, c.rows.rows[r].station});
-    c.before.rail.inverse_mass[r] = response.own(c.rows.rows[r].column);
-  }
-  c.after = c.before;
-  for (NodeTraction& t : c.memory.all()) t = {};
-  enforce_contact(c.rows, kStep, exact(kLow), c.after, c.memory);
-  int pressed = 0, sliding = 0;
-  double difference = 0;
-  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
-    const NodeTraction& t = c.traction(r);
-    const double gap = c.rows.rows[r].gap + kStep * dot(c.slip(c.after, r), c.rows.rows[r].normal),
-                 q = std::hypot(t.q1, t.q2), slip = std::hypot(t.slip1, t.slip2);
-    EXPECT_GE(gap, -1e-17);
-    EXPECT_LE(q, kLow * t.p * (1 + 1e-12));
-    if (t.p > 0) {
-      ++pressed;
-      EXPECT_NEAR(gap, 0, 1e-16);
-      if (q < 0.999 * kLow * t.p) {
-        EXPECT_LT(slip, 1e-9);
-      } else {
-        ++sliding;
-        EXPECT_NEAR(t.q1 * t.slip1 + t.q2 * t.slip2, q * slip, 1e-6 * q * slip + 1e-9 * q);
-      }
-    }
-    difference = std::max(difference, std::abs(t.p - plain.traction(r).p));
-    Vec3 gained;
-    for (std::size_t k = 0; k < c.rows.rows.size(); ++k) {
-      const ContactRow &from = c.rows.rows[k], &to = c.rows.rows[r];
-      gained += response.velocity(from.column, to.column, to.station - from.station,
-                                  (kStep * from.area) * traction_vector(c.traction(k), from.normal));
-    }
-    EXPECT_LT(norm(c.after.rail.velocity[r] - c.before.rail.velocity[r] - gained), 1e-9);
-  }
-  EXPECT_GT(pressed, 10);
-  EXPECT_GT(sliding, 4);
-  EXPECT_GT(difference, 1e6);
-}
-
-// A wheel whose nodes answer one another, pressed into the rail `station` stations after the first of its ring.
-std::vector<NodeTraction> tractions_of_a_ring(int station) {
-  constexpr int kReach = 6;
-  Surfaces s(1.37, 0.05);
-  const int ring = s.close_ring();
-  SurfaceResponse response(s.wheel.columns, kReach);
-  for (int from = 0; from < s.wheel.columns; ++from)
-    for (int to = 0; to < s.wheel.columns; ++to)
-      for (int apart = -kReach; apart <= kReach; ++apart)
-        for (int k = 0; k < 3; ++k)
-          response.entry(from, to, apart, k, k) = 1e5 * std::pow(0.3, std::abs(to - from) + std::abs(apart));
-  const AxlePose pose{0, 0, -0.5e-6, 2 * std::numbers::pi * station / ring};
-  MortarContact contact(s.rail, s.wheel);
-  contact.search(s.rail_field(), s.rolled(pose), pose, 20e-3, 30e-6);
-  const MortarRows rows = contact.rows(s.rail_field(), s.rolled(pose), pose);
-  ContactSystem system;
-  WheelNumbering().number(rows, s.wheel, system);
-  for (std::size_t r = 0; r < rows.rows.size(); ++r) {
-    system.rail.velocity.push_back({0, 0, 0});
-    system.rail.inverse_mass.push_back(2e5);
-  }
-  system.wheel.response = &response;
-  for (std::ptrdiff_t index : system.wheel_nodes) {
-    const int column = static_cast<int>(index / (3 * s.wheel.stride)),
-              at = static_cast<int>(index % (3 * s.wheel.stride));
-    const double angle = s.wheel.stations.at[at] - pose.psi;
-    system.wheel.velocity.push_back({1, 0.2, -2});
-    system.wheel.inverse_mass.push_back(response.own(column));
-    system.wheel.nodes.push_back({column, at, std::cos(angle), std::sin(angle)});
-  }
-  SurfaceTractions tractions(s.rail.columns, s.rail.stations.nodes());
-  enforce_contact(rows, kStep, exact(), system, tractions);
-  return tractions.all();
-}
-
-TEST(Multipliers, AreTheSameWhereTheWheelsRingClosesBelowTheContact) {
-  const std::vector<NodeTraction> away = tractions_of_a_ring(60);
-  double p_max = 0;
-  for (const NodeTraction& t : away) p_max = std::max(p_max, t.p);
-  EXPECT_GT(p_max, 1e7);
-  for (int station : {-2, 0, 2}) {
-    const std::vector<NodeTraction> closing = tractions_of_a_ring(station);
-    for (std::size_t k = 0; k < away.size(); ++k) {
-      EXPECT_NEAR(closing[k].p, away[k].p, 1e-6 * p_max) << station;
-      EXPECT_NEAR(closing[k].q1, away[k].q1, 1e-6 * p_max) << station;
-    }
-  }
-}
-
-TEST(Multipliers, ThatTheFreeVelocitiesContainAreNotAppliedTwice) {
-  Impact c(exact());
-  const std::vector<NodeTraction> once = c.memory.all();
-  ContactSystem again = c.before;
-  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {  // free velocities that have felt these tractions
-    const ContactRow& row = c.rows.rows[r];
-    const Vec3 impulse = (kStep * row.area) * traction_vector(c.traction(r), row.normal);
-    again.rail.velocity[r] += again.rail.inverse_mass[r] * impulse;
-    for (int k = row.first; k < row.first + row.count; ++k)
-      again.wheel.velocity[again.weight_node[k]] -=
-          (c.rows.weights[k].m * again.wheel.inverse_mass[again.weight_node[k]]) * impulse;
-  }
-  again.tractions_applied = true;
-  enforce_contact(c.rows, kStep, exact(), again, c.memory);
-  for (std::size_t k = 0; k < once.size(); ++k) EXPECT_NEAR(c.memory.all()[k].p, once[k].p, 1e-7 * 1e9);
 }
 
 TEST(Penalty, PressureIsStiffnessTimesPenetrationAndFrictionStaysOnTheCoulombDisc) {

@@ -53,9 +53,7 @@ CaseSpec variant(const std::string& name) {
   else if (name == "penalty")
     spec.contact.method = ContactMethod::penalty;
   else if (name == "mass_scaling")
-    spec = thinly_layered(spec, TimeStepMethod::mass_scaling);
-  else if (name == "local")
-    spec = thinly_layered(spec, TimeStepMethod::local);
+    spec = thinly_layered(spec);
   return spec;
 }
 
@@ -69,7 +67,7 @@ TEST_P(Allocation, NoneInTheTimeLoop) {
 
 INSTANTIATE_TEST_SUITE_P(Stepper, Allocation,
                          ::testing::Combine(::testing::Values("mortar", "run_up_damping", "single_precision", "penalty",
-                                                              "mass_scaling", "local"),
+                                                              "mass_scaling"),
                                             ::testing::Values(1, 2)),
                          [](const auto& test) {
                            return std::get<0>(test.param) + (std::get<1>(test.param) == 1 ? "_1_thread" : "_2_threads");

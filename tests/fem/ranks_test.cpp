@@ -128,14 +128,7 @@ TEST(SlowRanks, OnATrackToo) {
 
 TEST(SlowRanks, OverTheEndOfALayerToo) { expect_bits_of_one_rank(ending_layer(damped_case()), {3}, 32); }
 
-TEST(SlowRanks, WithAThinLayerAndScaledMassesToo) {
-  expect_bits_of_one_rank(thinly_layered(damped_case(), TimeStepMethod::mass_scaling));
-}
-
-TEST(SlowRanks, WithLocalStepsToo) {
-  CaseSpec spec = thinly_layered(damped_case(), TimeStepMethod::local);
-  expect_bits_of_one_rank(spec, {3}, 32);
-}
+TEST(SlowRanks, WithAThinLayerAndScaledMassesToo) { expect_bits_of_one_rank(thinly_layered(damped_case())); }
 
 TEST(SlowRanks, InSinglePrecisionOfAYawedWheelThatIsFreeSidewaysToo) {
   CaseSpec spec = damped_case();
@@ -165,7 +158,7 @@ TEST(SlowRanks, OfBodiesThatYieldOverTheEndOfALayerToo) {
 TEST(SlowRanks, FindThePreloadOfOne) { expect_preload_of_one_rank(small_case(), {{2, 2}, {3, 1}, {4, 1}}); }
 
 TEST(SlowRanks, FindThePreloadOfOneOfBodiesThatYieldAndAreLayeredAndYawedToo) {
-  CaseSpec spec = thinly_layered(yielding(damped_case()), TimeStepMethod::mass_scaling);
+  CaseSpec spec = thinly_layered(yielding(damped_case()));
   spec.geometry.yaw = 5e-3;
   spec.drive.lateral_traction_coefficient = 0.1;
   spec.vehicle.couple_sprung_mass = true;

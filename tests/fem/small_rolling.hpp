@@ -43,11 +43,10 @@ inline CaseSpec ball_case() {
 }
 
 /// With a layer of a millimetre on 4 mm elements.
-inline CaseSpec thinly_layered(CaseSpec s, TimeStepMethod method) {
+inline CaseSpec thinly_layered(CaseSpec s) {
   s.layers.emplace_back();
   s.layers.back().thickness = 1e-3;
   s.layers.back().width = 0.02;
-  s.run.time_step_method = method;
   return s;
 }
 

@@ -9,7 +9,7 @@ namespace railstrata {
 using namespace fem_checks;
 
 TEST(StepPlan, NamesTheBlocksThatMassScalingAddsToWithTheirMass) {
-  const RollingSystem system = small_system(thinly_layered(small_case(), TimeStepMethod::mass_scaling));
+  const RollingSystem system = small_system(thinly_layered(small_case()));
   const StepLimits limits = StepPlan(system).limits;
   ASSERT_FALSE(limits.scaled_blocks.empty());
   double added = 0;
@@ -23,7 +23,9 @@ TEST(StepPlan, NamesTheBlocksThatMassScalingAddsToWithTheirMass) {
 }
 
 TEST(StepPlan, WithRealMassesNamesNoBlock) {
-  const RollingSystem system = small_system(thinly_layered(small_case(), TimeStepMethod::uniform));
+  CaseSpec spec = thinly_layered(small_case());
+  spec.run.mass_scaling_step = 0;
+  const RollingSystem system = small_system(spec);
   EXPECT_TRUE(StepPlan(system).limits.scaled_blocks.empty());
 }
 

@@ -22,7 +22,6 @@ CaseSpec unbonded_case(double friction, double to = kTo) {
   CaseSpec spec = small_case();
   spec.run.window = 0;
   spec.run.positions = {0.05};
-  spec.run.time_step_method = TimeStepMethod::uniform;
   spec.layers.emplace_back();
   LayerSpec& layer = spec.layers.back();
   layer.thickness = 4e-3;

@@ -112,8 +112,6 @@ const std::map<std::string, Overrides>& examples() {
       {"run.plastic_width", {"run.plastic_width=9 mm"}},
       {"mesh.element", {"mesh.element=one_point"}},
       {"mesh.hourglass_coefficient", {"mesh.hourglass_coefficient=0.1"}},
-      {"run.time_step_method = \"local\"", {"run.time_step_method=local"}},
-      {"run.time_step_method = \"mass_scaling\"", {"run.time_step_method=mass_scaling"}},
       {"run.device", {"run.device=gpu"}},
       {"contact.penalty_scale", {"contact.penalty_scale=0.2"}},
       {"transient.kind", history},

@@ -26,7 +26,6 @@ TEST(DeviceCase, WhatADeviceDoesNotTakeIsRefusedWithARemedy) {
         EXPECT_NE(said.find(word), std::string::npos) << said;
     }
   };
-  refused("[run]\ndevice = \"gpu\"\ntime_step_method = \"local\"\n", "run.time_step_method = \"local\"");
   refused("[run]\ndevice = \"gpu\"\nplasticity = true\n[material.rail]\nyield_strength = \"500 MPa\"\n",
           "run.plasticity = true");
   refused("[run]\ndevice = \"gpu\"\n[friction]\nlateral_table = [[\"0 mm\", 0.2], [\"9 mm\", 0.4]]\n",

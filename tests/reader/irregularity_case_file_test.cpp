@@ -117,7 +117,6 @@ TEST(IrregularityCaseFile, FiniteElementsSayWhatTheyDoNotTake) {
             Keys{});
   EXPECT_THROW(require_support(uses::kHalfSpaces, parse_case(hollow, "a.toml").spec), CaseError);
   EXPECT_THROW(require_support(uses::kHalfSpaces, parse_case(on_track, "a.toml").spec), CaseError);
-  EXPECT_THROW(parse_case(on_track + "[run]\ntime_step_method = \"local\"\n", "a.toml"), CaseError);
 }
 
 }  // namespace

@@ -120,7 +120,6 @@ TEST(LayerEndsCaseFile, EnginesSayWhereALayerMustHold) {
   using Keys = std::vector<std::string>;
   EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\n"), Keys{});
   EXPECT_EQ(beyond(""), Keys{"run.window"});
-  EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\ntime_step_method = \"local\"\n"), Keys{"run.time_step_method"});
   EXPECT_EQ(beyond("[run]\nwindow = \"0 mm\"\ndevice = \"gpu\"\n"), Keys{"run.device"});
   EXPECT_EQ(beyond("[run]\nrolling = false\n"), Keys{"run.rolling"});
   const CaseSpec spec = parse_case(kClad + kUnbonded, "a.toml").spec;

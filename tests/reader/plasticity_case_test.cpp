@@ -28,7 +28,6 @@ TEST(PlasticityCase, WhatDoesNotYieldRightlyIsRefusedWithARemedy) {
     }
   };
   refused(kYields + "[mesh]\nelement = \"one_point\"\n", "mesh.element", "\"full\"");
-  refused(kYields + "time_step_method = \"local\"\n", "run.time_step_method", "mass_scaling");
 }
 
 TEST(PlasticityCase, ABoxWithoutPlasticityIsSaidToBeIdle) {

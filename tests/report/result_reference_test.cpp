@@ -54,7 +54,7 @@ TEST(SummaryJson, KeepsItsKeys) {
   expect_keys(j["energy"], "closure hourglass_share ");
   expect_keys(j["run"],
               "engine wall_s preload_wall_s output_wall_s elements nodes steps dt_s stable_step_s unscaled_step_s "
-              "added_mass_kg local_stages fine_elements element_steps_per_s threads peak_memory_bytes commit ");
+              "added_mass_kg element_steps_per_s threads peak_memory_bytes commit ");
 }
 
 TEST(SummaryJson, WritesCountsAsWholeNumbersAndWhatDoesNotApplyAsNull) {

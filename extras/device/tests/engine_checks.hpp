@@ -53,7 +53,7 @@ inline Field shaken(const Body& body, double size) {
 }
 
 inline CaseSpec layered_case(ArithmeticPrecision precision) {
-  CaseSpec s = thinly_layered(small_case(), TimeStepMethod::mass_scaling);
+  CaseSpec s = thinly_layered(small_case());
   s.run.run_up = 0.02;
   s.run.run_up_damping = 2000;
   s.drive.torque_ramp = 1e-4;

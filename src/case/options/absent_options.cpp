@@ -22,7 +22,10 @@ constexpr std::string_view kElastic =
                                "contact is computed with linear elastic materials; yield_strength, hardening, "
                                "initial_stress and the like are keys of [material.rail], [material.wheel] and "
                                "[[layer]]",
-                           kTrack = "gauge, cant and lateral_shift are keys of [geometry]";
+                           kTrack = "gauge, cant and lateral_shift are keys of [geometry]",
+                           kStepMethod =
+                               "this key is gone: masses of thin layers are scaled where the step gains by it; use "
+                               "run.mass_scaling_step = 0 for real masses";
 
 constexpr std::array kAbsent{
     Absent{"load", kLoad},
@@ -47,6 +50,7 @@ constexpr std::array kAbsent{
     Absent{"residual_stress", kElastic},
     Absent{"gauge", kTrack},
     Absent{"cant", kTrack},
+    Absent{"time_step_method", kStepMethod},
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 // Words that people look for in a case and that do not exist: plasticity, another word or another table for a key there
-// is.
+// is, a key that is gone.
 #include <string_view>
 
 namespace railstrata {

@@ -68,18 +68,10 @@ OptionTable run_table() {
               kRate, {0, 1e6}),
        option("step_safety", at<&C::run, &R::step_safety>, "Time step as a share of the stable one", kNumber,
               above(0, 1)),
-       choice_at<&C::run, &R::time_step_method>(
-           "time_step_method",
-           "How thin layers are stepped. mass_scaling: selective mass scaling; uniform: the short stable step for all "
-           "elements; local: inner steps for the thin rows only; auto: mass scaling where it lengthens the step by "
-           "more than a fifth",
-           {{"auto", TimeStepMethod::automatic},
-            {"uniform", TimeStepMethod::uniform},
-            {"mass_scaling", TimeStepMethod::mass_scaling},
-            {"local", TimeStepMethod::local}}),
        option("mass_scaling_step", at<&C::run, &R::mass_scaling_step>,
-              "Mass scaling: target time step, in element sizes over the matrix's pressure wave speed", kNumber,
-              above(0, 10)),
+              "Selective mass scaling of thin layers: target time step, in element sizes over the matrix's pressure "
+              "wave speed, used where it lengthens the step by more than a fifth; 0: real masses and their short step",
+              kNumber, {0, 10}),
        choice_at<&C::run, &R::precision>(
            "precision", "Element arithmetic while rolling; nodal values and the static preload are always double",
            {{"double", ArithmeticPrecision::double_precision}, {"single", ArithmeticPrecision::single_precision}}),

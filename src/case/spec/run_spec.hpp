@@ -15,9 +15,6 @@ enum class ContactMethod {
   penalty
 };
 
-/// How thin layers are kept from shortening the time step (fem/step_plan.hpp).
-enum class TimeStepMethod { automatic, uniform, mass_scaling, local };
-
 /// Element arithmetic while rolling; nodal values and the static preload stay double.
 enum class ArithmeticPrecision { double_precision, single_precision };
 
@@ -53,9 +50,8 @@ struct RunSpec {
   double run_up = 0.12;                   ///< m of rolling over which the run-up damping fades to zero
   double run_up_damping = 2000.0;         ///< 1/s, mass-proportional damping of vibration at the start
   double step_safety = 0.9;               ///< of the stable step
-  TimeStepMethod time_step_method = TimeStepMethod::automatic;
-  double mass_scaling_step =
-      1.0;  ///< wanted step of thin rows of elements, in element sizes over the matrix's pressure wave speed
+  double mass_scaling_step = 1.0;         ///< wanted step of thin rows of elements, in element sizes over the matrix's
+                                          ///< pressure wave speed; 0: real masses (fem/step_plan.hpp)
   ArithmeticPrecision precision = ArithmeticPrecision::double_precision;
   ComputeDevice device = ComputeDevice::cpu;
   double preload_tolerance = 1e-6;                     ///< relative residual of the static equilibrium

@@ -114,11 +114,6 @@ void print_estimate(const Model& m, const RunEstimate& e) {
         "mass scaling   {:.3f} kg against stretching across thin rows, on {:.3f} kg of {}; the step without it {:.2f} "
         "ns\n",
         e.limits.added_mass, e.limits.scaled_mass, e.limits.scaled_where, 1e9 * e.limits.unscaled);
-  if (e.limits.fine_elements > 0)
-    fmt::print(
-        "local steps    {} stages a step in {} elements, {:.1f} times the force evaluations of one step; the step "
-        "without them {:.2f} ns\n",
-        e.limits.stages, e.limits.fine_elements, e.evaluations, 1e9 * e.limits.unscaled);
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
   print_ranks(e);
@@ -203,8 +198,6 @@ nlohmann::ordered_json run_json(const Model& m, const RunEstimate& e, bool machi
               {"stable_step_s", e.limits.lanczos},
               {"unscaled_step_s", e.limits.unscaled},
               {"added_mass_kg", e.limits.added_mass},
-              {"local_stages", e.limits.stages},
-              {"fine_elements", e.limits.fine_elements},
               {"element_step_bound_s", e.limits.element},
               {"limited_by", e.limits.where},
               {"step_s", e.limits.chosen},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "body/traversal.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 // stiffness: w = K q on free nodes, q may be spread to slaves; solve: z = S^-1 r in place, zero at nodes that do not
 // take part.
 template <class Stiffness, class Solve>
-StepSpectrum lanczos(const Body& body, int iterations, Stiffness&& stiffness, Solve&& solve) {
+double largest_by_lanczos(const Body& body, int iterations, Stiffness&& stiffness, Solve&& solve) {
   const auto n = static_cast<std::ptrdiff_t>(body.inverse_mass.size());
   auto dot = [n](const Field& a, const Field& b) {
     return ordered_sum(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -53,7 +54,7 @@ StepSpectrum lanczos(const Body& body, int iterations, Stiffness&& stiffness, So
     throw NumericalError("the stable time step cannot be computed: the stiffness of the mesh is not a number");
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(alpha.head(k), beta.head(k - 1), Eigen::EigenvaluesOnly);
-  return {solver.eigenvalues().minCoeff(), solver.eigenvalues().maxCoeff()};
+  return solver.eigenvalues().maxCoeff();
 }
 
 // w = K q, slaves follow their masters
@@ -79,32 +80,8 @@ double lanczos_stable_step(const Body& body, const MassScaling& scaling, int ite
     scaling.scale(f);
     divide_by_mass(body, f);
   };
-  return 2 / std::sqrt(lanczos(
-                           body, iterations, [&](Field& q, Field& w) { stiffness_of(elements, q, w); }, solve)
-                           .largest);
-}
-
-double lanczos_coarse_step(const Body& body, const LocalSteps& local, int iterations) {
-  Traversal elements(body);
-  Field coarse = body.inverse_mass;
-  for (const NodeLine& l : body.lines)
-    if (local.fine()[l.block][l.node]) std::fill_n(coarse.begin() + l.first, l.count, 0.0);
-  const auto solve = [&](Field& f) {
-    for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) { f[i] *= coarse[i]; });
-  };
-  return 2 / std::sqrt(lanczos(
-                           body, iterations, [&](Field& q, Field& w) { stiffness_of(elements, q, w); }, solve)
-                           .largest);
-}
-
-StepSpectrum lanczos_spectrum(const Body& body, LocalSteps& local, int iterations) {
-  Traversal elements(body);
-  const auto refined = [&](Field& q, Field& w) {
-    stiffness_of(elements, q, w);
-    local.refine_linear(q, w);
-  };
-  StepSpectrum s = lanczos(body, iterations, refined, [&](Field& f) { divide_by_mass(body, f); });
-  return {s.least * local.step() * local.step(), s.largest * local.step() * local.step()};
+  const auto stiffness = [&](Field& q, Field& w) { stiffness_of(elements, q, w); };
+  return 2 / std::sqrt(largest_by_lanczos(body, iterations, stiffness, solve));
 }
 
 }  // namespace railstrata

@@ -25,23 +25,13 @@ void WheelNumbering::number(const MortarRows& rows, const ContactSurface& wheel,
     system.weight_node[k] = m;
   }
   for (std::ptrdiff_t index : system.wheel_nodes) slot(index) = -1;
-  system.wheel.ring_stations = wheel.stations.closed ? wheel.stations.nodes() : 0;
 }
 
 namespace {
 
 // Velocities gained by an impulse [N s, model frame] on one of the nodes.
 void apply_impulse(ContactSide& side, std::size_t node, Vec3 impulse) {
-  if (!side.response) {
-    side.velocity[node] += side.inverse_mass[node] * impulse;
-    return;
-  }
-  const SurfaceNode from = side.nodes[node];
-  const Vec3 own = rotate(from.frame, yaw_back(side.yaw, impulse));
-  for (std::size_t n = 0; n < side.nodes.size(); ++n) {
-    const Vec3 v = side.response->velocity(from.column, side.nodes[n].column, side.apart(from, side.nodes[n]), own);
-    side.velocity[n] += yaw(side.yaw, rotate_back(from.frame, v));
-  }
+  side.velocity[node] += side.inverse_mass[node] * impulse;
 }
 
 class Sweeper {
@@ -88,8 +78,7 @@ class Sweeper {
     diagonal.resize(n);
     for (std::size_t r = 0; r < n; ++r) {
       diagonal[r] = compliance(r);
-      if (const NodeTraction& t = node(r); t.p > 0 && !sys_.tractions_applied)
-        apply_traction(r, traction_vector(t, rows_.rows[r].normal));
+      if (const NodeTraction& t = node(r); t.p > 0) apply_traction(r, traction_vector(t, rows_.rows[r].normal));
     }
     for (sys_.sweeps = 0; sys_.sweeps < options_.max_sweeps;) {
       double change = 0;
@@ -104,17 +93,14 @@ class Sweeper {
   }
 
   void penalty() {
-    std::vector<Vec3>& last = sys_.last_tractions;
-    last.assign(rows_.rows.size(), Vec3{});
     for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
       const ContactRow& row = rows_.rows[r];
       NodeTraction& t = node(r);
-      if (sys_.tractions_applied) last[r] = traction_vector(t, row.normal);
       const Vec3 w = relative(r, sys_.rail.before, sys_.wheel.before);
       sys_.slips[r] = press_row(law(row), row.gap, row.normal, w, t);
     }
     for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-      apply_traction(r, traction_vector(node(r), rows_.rows[r].normal) - last[r]);
+      apply_traction(r, traction_vector(node(r), rows_.rows[r].normal));
   }
 
   void record_slip() {

@@ -21,38 +21,19 @@
 
 #include "contact/enforcement_law.hpp"
 #include "contact/mortar.hpp"
-#include "contact/surface_response.hpp"
-#include "core/rotation.hpp"
 
 namespace railstrata {
-
-/// A node of a body's running surface.
-struct SurfaceNode {
-  int column, station;
-  Rotation<double> frame{};  ///< forward: components of the body's axes to those of the station's frame
-};
 
 /// One body's nodes in the contact.
 struct ContactSide {
   std::vector<Vec3> velocity;  ///< m/s; free on input, final on output
   std::vector<Vec3> before;    ///< of the last half step: what a penalty's tangential spring has been stretched by
-  std::vector<double> inverse_mass;           ///< 1/kg; with a response the largest answer of a node to its own impulse
-  const SurfaceResponse* response = nullptr;  ///< if nodes answer one another; needs `nodes` then
-  std::vector<SurfaceNode> nodes;
-  Rotation<double> yaw{};  ///< of the body's axes; the nodes' frames are counted from these
-  int ring_stations = 0;   ///< of a surface that closes to a ring; 0: it does not
+  std::vector<double> inverse_mass;  ///< 1/kg
 
-  /// Signed number of stations from one node to another, round a ring the shorter way.
-  int apart(const SurfaceNode& from, const SurfaceNode& to) const {
-    const int d = to.station - from.station;
-    if (ring_stations == 0) return d;
-    return d > ring_stations / 2 ? d - ring_stations : d < -ring_stations / 2 ? d + ring_stations : d;
-  }
   void clear() {
     velocity.clear();
     before.clear();
     inverse_mass.clear();
-    nodes.clear();
   }
 };
 
@@ -62,16 +43,14 @@ struct ContactSystem {
   std::vector<std::ptrdiff_t> wheel_nodes;  ///< index of component x
   std::vector<int> weight_node;             ///< per weight of the rows, position in wheel_nodes
   ContactSide rail, wheel;
-  bool tractions_applied = false;  ///< the free velocities contain the last step's tractions already
-  int sweeps = 0;                  ///< that the multipliers took
+  int sweeps = 0;  ///< that the multipliers took
   // room for enforce_contact, kept so that a step allocates nothing
-  std::vector<double> compliance;    ///< of the rows, (m/s)/Pa
-  std::vector<Vec3> last_tractions;  ///< of the rows, Pa; penalty only
-  std::vector<char> slips;           ///< of the rows, the law's verdict in the last sweep
-  std::vector<RowStart> at_start;    ///< of the rows, before the step; with a film only
+  std::vector<double> compliance;  ///< of the rows, (m/s)/Pa
+  std::vector<char> slips;         ///< of the rows, the law's verdict in the last sweep
+  std::vector<RowStart> at_start;  ///< of the rows, before the step; with a film only
 };
 
-/// Numbers the wheel nodes of the rows, each once: fills wheel_nodes, weight_node and the wheel's ring_stations.
+/// Numbers the wheel nodes of the rows, each once: fills wheel_nodes and weight_node.
 class WheelNumbering {
  public:
   void number(const MortarRows& rows, const ContactSurface& wheel, ContactSystem& system);

@@ -8,9 +8,7 @@
 namespace railstrata {
 namespace {
 
-double inverse_mass(const RollingBody& b, std::ptrdiff_t i) {
-  return b.steps.scaling.share(i) * b.body.inverse_mass[i];
-}
+double inverse_mass(const RollingBody& b, std::ptrdiff_t i) { return b.scaling.share(i) * b.body.inverse_mass[i]; }
 
 // A force [N] of the wheel on the rail in a row of the contact, to the nodes of both bodies; add(body, index, force on
 // the node).
@@ -24,14 +22,6 @@ void distribute(const MortarRows& rows, const ContactRow& row, const RollingBodi
       add(kWheel, rows.weights[w].wheel + i * bodies[kWheel].surface.stride, rows.weights[w].m * on_wheel[i]);
 }
 
-bool any_local_steps(const RollingBodies& bodies) {
-  return std::any_of(bodies.begin(), bodies.end(), [](const RollingBody& b) { return !b.steps.local.empty(); });
-}
-
-const SurfaceResponse* response_of(const RollingBody& b) {
-  return b.steps.response.empty() ? nullptr : &b.steps.response;
-}
-
 // Of a node of a body that turns.
 FreeMotion turning_node(const RollingBody& b, const BodyState& state, std::ptrdiff_t i, SurfaceIndex at,
                         const StepScope& scope) {
@@ -43,7 +33,6 @@ FreeMotion turning_node(const RollingBody& b, const BodyState& state, std::ptrdi
 void gather_rail(const MortarRows& rows, const RollingBody& b, const BodyState& state, const StepScope& scope,
                  ContactSide& side) {
   side.clear();
-  side.response = response_of(b);
   for (const ContactRow& r : rows.rows) {
     const int stride = b.surface.stride;
     const FreeMotion motion =
@@ -52,32 +41,18 @@ void gather_rail(const MortarRows& rows, const RollingBody& b, const BodyState& 
                                    vector_at(state.v, r.rail, stride), scope.gravity, scope.dt, scope.damping_rate);
     side.before.push_back(motion.before);
     side.velocity.push_back(motion.after);
-    side.inverse_mass.push_back(side.response ? side.response->own(r.column) : inverse_mass(b, r.rail));
-    if (side.response) side.nodes.push_back({r.column, r.station});
+    side.inverse_mass.push_back(inverse_mass(b, r.rail));
   }
 }
 
 void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b, const BodyState& state,
                   const StepScope& scope, ContactSide& side) {
   side.clear();
-  side.response = response_of(b);
-  const ReferenceFrame& frame = b.frame;
-  side.yaw = frame.yaw_turn;
-  const int block = b.body.mesh.contact.block;
   for (std::ptrdiff_t i : nodes) {
-    const SurfaceIndex at = b.surface.node_at(i);
-    const FreeMotion motion = turning_node(b, state, i, at, scope);
+    const FreeMotion motion = turning_node(b, state, i, b.surface.node_at(i), scope);
     side.before.push_back(motion.before);
     side.velocity.push_back(motion.after);
-    if (!side.response) {
-      side.inverse_mass.push_back(inverse_mass(b, i));
-      continue;
-    }
-    const double cosine = b.cos_node[block][at.station], sine = b.sin_node[block][at.station];
-    side.inverse_mass.push_back(side.response->own(at.column));
-    side.nodes.push_back({at.column,
-                          at.station,
-                          {cosine * frame.turn.c + sine * frame.turn.s, sine * frame.turn.c - cosine * frame.turn.s}});
+    side.inverse_mass.push_back(inverse_mass(b, i));
   }
 }
 
@@ -115,47 +90,21 @@ void ContactStep::find_rows(long step, RollingBodies& bodies, const BodyStates& 
   for (std::size_t k = 0; k < kept_.size(); ++k) tractions.at(rows_->rows[k].column, rows_->rows[k].station) = kept_[k];
 }
 
-void ContactStep::refine_local_steps(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
-                                     const StepScope& scope, const SurfaceTractions& tractions) {
-  carried_.clear();
-  if (!any_local_steps(bodies)) return;
-  for (const ContactRow& row : rows_->rows) {
-    carried_.push_back(force_on_rail(row, tractions));
-    distribute(*rows_, row, bodies, carried_.back(),
-               [&](std::size_t body, std::ptrdiff_t i, double force) { states[body].f[i] -= force; });
-  }
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const ReferenceFrame& frame = bodies[k].frame;
-    const FrozenAcceleration frozen{{frame.turn.s * scope.gravity, 0, -frame.turn.c * scope.gravity},
-                                    frame.centrifugal};
-    bodies[k].steps.local.refine(states[k].u, drift[k], frozen, states[k].f);
-  }
-}
-
 void ContactStep::gather(const RollingBodies& bodies, const BodyStates& states, const StepScope& scope) {
   numbering_.number(*rows_, bodies[kWheel].surface, system_);
-  system_.tractions_applied = any_local_steps(bodies);
   gather_rail(*rows_, bodies[kRail], states[kRail], scope, system_.rail);
   gather_wheel(system_.wheel_nodes, bodies[kWheel], states[kWheel], scope, system_.wheel);
 }
 
-void ContactStep::apply_tractions(RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions) {
-  const bool local = any_local_steps(bodies);
-  for (std::vector<NodalForce>& c : changes_) c.clear();
-  for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
-    const ContactRow& row = rows_->rows[k];
-    if (tractions.at(row.column, row.station).p <= 0 && carried_.empty()) continue;
-    const Vec3 force = force_on_rail(row, tractions);
-    const Vec3 change = carried_.empty() ? force : force - carried_[k];
-    distribute(*rows_, row, bodies, change, [&](std::size_t body, std::ptrdiff_t i, double part) {
-      if (local)
-        changes_[body].push_back({i, part});
-      else
-        bodies[body].steps.scaling.add_force(states[body].f, i, -part);
-    });
+void ContactStep::apply_tractions(const RollingBodies& bodies, BodyStates& states,
+                                  const SurfaceTractions& tractions) const {
+  for (const ContactRow& row : rows_->rows) {
+    if (tractions.at(row.column, row.station).p <= 0) continue;
+    distribute(*rows_, row, bodies, force_on_rail(row, tractions),
+               [&](std::size_t body, std::ptrdiff_t i, double part) {
+                 bodies[body].scaling.add_force(states[body].f, i, -part);
+               });
   }
-  if (!local) return;
-  for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].steps.local.add_forces(changes_[k], states[k].f);
 }
 
 ContactLosses ContactStep::measure(double dt, SurfaceTractions& tractions) {

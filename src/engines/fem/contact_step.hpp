@@ -1,6 +1,5 @@
 #pragma once
 // The contact of one step: which rows, which free velocities, which tractions, and their forces on both bodies.
-#include <array>
 #include <vector>
 
 #include "contact/enforcement.hpp"
@@ -30,18 +29,14 @@ class ContactStep {
   void find_rows(long step, RollingBodies& bodies, const BodyStates& states, const AxlePose& pose,
                  SurfaceTractions& tractions);
 
-  /// Local steps carry the tractions of the last step and all other forces through their stages.
-  void refine_local_steps(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
-                          const StepScope& scope, const SurfaceTractions& tractions);
-
   /// Free velocities of the nodes of the contact and how they answer an impulse.
   void gather(const RollingBodies& bodies, const BodyStates& states, const StepScope& scope);
 
   /// The tractions that hold at the end of the step.
   void enforce(double dt, SurfaceTractions& tractions) { enforce_contact(*rows_, dt, options_, system_, tractions); }
 
-  /// The tractions to the forces: what local steps have felt already is taken off, the rest goes through their stages.
-  void apply_tractions(RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions);
+  /// Adds the tractions to the forces.
+  void apply_tractions(const RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions) const;
 
   /// Sums the forces on the wheel and what was lost; adds friction's work to that of the nodes.
   ContactLosses measure(double dt, SurfaceTractions& tractions);
@@ -66,8 +61,6 @@ class ContactStep {
   const MortarRows* rows_ = nullptr;
   WheelNumbering numbering_;
   ContactSystem system_;
-  std::vector<Vec3> carried_;  // forces of the rows that local steps have felt already
-  std::array<std::vector<NodalForce>, 2> changes_;
   std::vector<NodeTraction> kept_;
   ContactForces forces_;
   bool reached_edge_ = false;

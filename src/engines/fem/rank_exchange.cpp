@@ -75,7 +75,6 @@ RankExchange::RankExchange(const Ranks& ranks, const Model& model, RollingBodies
       exchange_(ranks),
       stretches_(all_stretches({&bodies[kRail].body, &bodies[kWheel].body}, {bodies[kRail].cut, bodies[kWheel].cut})),
       marks_(2 * static_cast<std::size_t>(ranks.count)),
-      divided_(std::all_of(bodies.begin(), bodies.end(), [](const RollingBody& b) { return b.steps.local.empty(); })),
       window_(model, bodies[kRail].body.mesh, bodies[kWheel].body.mesh) {
   for (const Stretch& s : stretches_) borders_[s.body].push_back(s);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -100,8 +99,7 @@ void RankExchange::place_windows(RollingBodies& bodies, const AxlePose& pose) {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const Body& b = bodies[k].body;
     const SharedLines shared{
-        b.mesh,     b.layout, b.tiling, b.ties, bodies[k].cut, lines_[k], bodies[k].steps.scaling.chains(),
-        contact[k], width[k]};
+        b.mesh, b.layout, b.tiling, b.ties, bodies[k].cut, lines_[k], bodies[k].scaling.chains(), contact[k], width[k]};
     std::vector<LineReach> reaches = line_reaches(shared, ranks_.count);
     for (SentRanges& gift : sent_ranges(shared, reaches)) sent_.push_back(std::move(gift));
     parts_[k].values = std::move(reaches[ranks_.rank].values);
@@ -139,10 +137,6 @@ void RankExchange::each_force(int rank, Kind kind, RollingBodies& bodies, BodySt
       continue;
     }
     for (int n : bore_[s.body][block]) visit_node(n, all);
-    if (!divided_) {
-      for (int n : lines_[s.body][block]) visit_node(n, all);
-      continue;
-    }
     for (int n : lines_[s.body][block])
       for (const StationRange& r : sent_[k][n]) visit_node(n, r);
     for (int line : slaves_[s.body][block])
@@ -165,7 +159,7 @@ void RankExchange::each_value(int rank, const RollingBodies& bodies, BodyStates&
     };
     visit_nodes(inner_nodes_[s.body][s.block], s.first, s.end);
     // with the plane in front, and the ghost of a ring (body/traversal.hpp)
-    if (divided_) visit_nodes(lines_[s.body][s.block], s.first - 1, s.end + (lay.closed && s.end == lay.stations));
+    visit_nodes(lines_[s.body][s.block], s.first - 1, s.end + (lay.closed && s.end == lay.stations));
   }
 }
 
@@ -184,7 +178,7 @@ void RankExchange::each_slot(int rank, const RollingBodies& bodies, BodyStates& 
 
 void RankExchange::prepare(RollingBodies& bodies, BodyStates& states, const StepScope& scope, const AxlePose& pose) {
   const Kind kind = kind_of(scope);
-  const bool parts = kind == usual && divided_, moves = parts && left_windows(pose);
+  const bool parts = kind == usual, moves = parts && left_windows(pose);
   if ((kind == whole || moves) && !all_known_) complete(bodies, states);
   if (moves) place_windows(bodies, pose);
   if (parts && all_known_)
@@ -226,7 +220,7 @@ void RankExchange::share_forces(RollingBodies& bodies, BodyStates& states, const
     }
     for (const NodesOfBlocks* nodes : {&lines_[k], &bore_[k]}) bodies[k].elements.end(own_chains_, states[k].f, *nodes);
   }
-  if (kind == usual && divided_) own_moments(bodies, states, drift);
+  if (kind == usual) own_moments(bodies, states, drift);
   std::copy(mark_.begin(), mark_.end(), marks_.begin() + 2 * ranks_.rank);
   exchange_([&](int rank, auto&& visit) { each_force(rank, kind, bodies, states, visit); });
   require_same_bits(ranks_, marks_);

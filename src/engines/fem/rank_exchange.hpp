@@ -11,9 +11,9 @@
 //
 //   moments that the offsets of ties hand to the wheel's rotation
 //
-// after which all ranks go on alike; where sums over the nodes are wanted a second, of some numbers a tile. Bodies with
-// local steps have all lines of all ranks. What a rank does not know is the inside of the others' tiles; complete()
-// brings it where it is asked for: energies, samples, checkpoints, looks at all elements that may yield.
+// after which all ranks go on alike; where sums over the nodes are wanted a second, of some numbers a tile. What a rank
+// does not know is the inside of the others' tiles; complete() brings it where it is asked for: energies, samples,
+// checkpoints, looks at all elements that may yield.
 #include <array>
 #include <vector>
 
@@ -71,7 +71,6 @@ class RankExchange {
   std::vector<Chain> own_chains_;
   std::array<double, 2> mark_{};
   std::vector<double> marks_;  // of all ranks
-  bool divided_;               // each rank has a part of the lines; else all of them
   ContactWindow window_;
   bool all_known_ = true;  // u, v and history of all tiles
 };

@@ -21,7 +21,7 @@ struct RankNeed {
   double bytes = 0;          ///< that a rank receives in a usual step, the most of all ranks
 };
 
-/// Without what mass scaling and local steps add to the lines.
+/// Without what mass scaling adds to the lines.
 RankNeed rank_need(const Model& model, int ranks);
 
 struct RankNetwork {

@@ -27,7 +27,7 @@ double station_derivative(const Block& block, int stations, int j, F&& value) {
 }
 
 // Nodes that are not free are not updated at all.
-UpdateSchedule schedule_of(const Body& body, const ContactSurface& surface, const BodySteps& steps) {
+UpdateSchedule schedule_of(const Body& body, const ContactSurface& surface, const MassScaling& scaling) {
   UpdateSchedule out;
   const SweptBody& mesh = body.mesh;
   for (const BlockLayout& b : body.layout.blocks) out.at_once.emplace_back(b.nodes, 0);
@@ -53,7 +53,7 @@ UpdateSchedule schedule_of(const Body& body, const ContactSurface& surface, cons
       for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n) visit(b, n);
   };
   each_node([&](int b, int n) {
-    if (steps.scaling.acts_on(b, n) || steps.local.acts_on(b, n)) wait(b, n);
+    if (scaling.acts_on(b, n)) wait(b, n);
   });
   each_node([&](int b, int n) {
     if (out.at_once[b][n]) out.bordered.push_back({b, n});
@@ -87,15 +87,15 @@ void each_node(const Body& body, Visit&& visit) {
 
 }  // namespace
 
-RollingBody::RollingBody(const Body& body_, const ContactSurface& surface_, BodySteps& steps_,
+RollingBody::RollingBody(const Body& body_, const ContactSurface& surface_, MassScaling& scaling_,
                          const ReferenceFrame& frame_, TileCut cut_)
     : body(body_),
       surface(surface_),
-      steps(steps_),
+      scaling(scaling_),
       cut(std::move(cut_)),
       frame(frame_),
       elements(body_),
-      schedule(schedule_of(body_, surface_, steps_)) {
+      schedule(schedule_of(body_, surface_, scaling_)) {
   for (const Block& b : body.mesh.blocks) {
     cos_node.emplace_back();
     sin_node.emplace_back();
@@ -176,7 +176,7 @@ Field yawed_displacement(const Body& body, const Rotation<double>& yaw_turn, con
 }
 
 const Field& frame_velocity(RollingBody& b, const BodyState& state, bool before) {
-  if (b.steps.scaling.empty() || !b.turns()) return state.v;
+  if (b.scaling.empty() || !b.turns()) return state.v;
   b.velocity.assign(state.v.size(), 0.0);
   each_node(b.body, [&](int block, int node, int station, std::ptrdiff_t x, int stride) {
     const Vec3 w = vector_at(state.v, x, stride) + b.frame.rigid_rate(b.arm(block, node, station));

@@ -15,7 +15,7 @@ namespace railstrata {
 /// When a body's nodes are updated: as soon as their forces are complete, or after the contact.
 struct UpdateSchedule {
   std::vector<std::vector<char>> at_once;  ///< per block and section node
-  std::vector<SectionNode> waiting;        ///< free nodes on surface, pads and ties, with added mass or local steps
+  std::vector<SectionNode> waiting;        ///< free nodes on surface, pads and ties, or with added mass
   std::vector<SectionNode> bordered;       ///< nodes updated at once, but for the ends of open blocks
   int chains_wanted = 0;                   ///< what chains were made for
   std::vector<Chain> chains;  ///< enough to keep the threads busy; where sums are wanted this rank's are single tiles,
@@ -29,12 +29,12 @@ struct UpdateSchedule {
 };
 
 struct RollingBody {
-  RollingBody(const Body& body, const ContactSurface& surface, BodySteps& steps, const ReferenceFrame& frame,
+  RollingBody(const Body& body, const ContactSurface& surface, MassScaling& scaling, const ReferenceFrame& frame,
               TileCut cut = {});
 
   const Body& body;
   const ContactSurface& surface;
-  BodySteps& steps;
+  MassScaling& scaling;  ///< empty: real masses
   TileCut cut;
   ReferenceFrame frame;
   Traversal elements;

@@ -43,9 +43,9 @@ bool same_sizes(const RestartState& r, const RollingSystem& sys) {
 
 RollingBodies rolling_bodies(const RollingSystem& sys, StepPlan& plan, const Ranks& ranks) {
   std::vector<TileCut> cuts = cut_tiles({&sys.rail(), &sys.wheel()}, ranks.count, ranks.rank);
-  return {RollingBody(sys.rail(), sys.rail_surface(), plan.bodies[kRail], rail_frame(sys, plan.limits.chosen),
+  return {RollingBody(sys.rail(), sys.rail_surface(), plan.scaling[kRail], rail_frame(sys, plan.limits.chosen),
                       std::move(cuts[kRail])),
-          RollingBody(sys.wheel(), sys.wheel_surface(), plan.bodies[kWheel], rolling_frame(sys, plan.limits.chosen),
+          RollingBody(sys.wheel(), sys.wheel_surface(), plan.scaling[kWheel], rolling_frame(sys, plan.limits.chosen),
                       std::move(cuts[kWheel]))};
 }
 
@@ -191,13 +191,12 @@ void Stepper::step() {
   const AxleLoads loads = bore_loads(sys_.axle.bore, state_.bodies[kWheel].f, rotation_by(turned[kWheel]),
                                      tie_moment[kWheel], bodies_[kWheel].frame);
   if (sys_.on_ring()) book_ring_drive(tie_moment[kRail]);
-  for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].steps.scaling.scale(state_.bodies[k].f);
+  for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].scaling.scale(state_.bodies[k].f);
   press_interface(scope);
   scope.lap(StepPart::ends);
 
   contact_.find_rows(state_.step, bodies_, state_.bodies, pose, state_.tractions);
   scope.lap(StepPart::rows);
-  contact_.refine_local_steps(bodies_, state_.bodies, turned, scope, state_.tractions);
   contact_.gather(bodies_, state_.bodies, scope);
   contact_.enforce(scope.dt, state_.tractions);
   contact_.apply_tractions(bodies_, state_.bodies, state_.tractions);
@@ -247,7 +246,7 @@ void Stepper::book_stored_energy(const std::array<double, 2>& turned) {
     balance_.hourglass += energy.hourglass;
     balance_.plastic += plastic_work(b.body, state.history);
     weight = add_weight_moment(b, state, weight);
-    b.stretch = b.steps.scaling.differences(frame_velocity(b, state, true), std::move(b.stretch));
+    b.stretch = b.scaling.differences(frame_velocity(b, state, true), std::move(b.stretch));
   }
   balance_.weight = sys_.gravity * (weight + sys_.axle.mass_z * state_.axle.z);
   for (const EndLoad& l : sys_.end_loads) balance_.weight -= l.force * state_.bodies[kRail].u[l.index];
@@ -323,7 +322,7 @@ void Stepper::book_kinetic_energy(double axle) {
   balance_.kinetic = sums_[kWheel].kinetic + sums_[kRail].kinetic + axle;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     RollingBody& b = bodies_[k];
-    balance_.kinetic += b.steps.scaling.kinetic(b.stretch, frame_velocity(b, state_.bodies[k], false));
+    balance_.kinetic += b.scaling.kinetic(b.stretch, frame_velocity(b, state_.bodies[k], false));
   }
 }
 

@@ -60,8 +60,6 @@ RunSummary run_summary(const RunResult& run) {
   r.stable_step = run.limits.lanczos;
   r.unscaled_step = run.limits.unscaled;
   r.added_mass = run.limits.added_mass;
-  r.local_stages = run.limits.stages;
-  r.fine_elements = static_cast<double>(run.limits.fine_elements);
   r.element_steps_per_s = static_cast<double>(run.elements) * static_cast<double>(run.steps) /
                           (run.wall_seconds - run.preload_wall_seconds);
   return r;

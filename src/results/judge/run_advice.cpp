@@ -37,7 +37,7 @@ void warn_of_added_mass(const StepLimits& limits, std::vector<Warning>& out) {
   out.push_back(
       {"mass_scaling_adds_much", most, kMuchAddedMass,
        fmt::format("mass scaling adds {} against stretching across thin rows: rigid motion keeps the real masses, "
-                   "vibrations across the layers are slowed; run.time_step_method = \"local\" adds none",
+                   "vibrations across the layers are slowed; run.mass_scaling_step = 0 adds none",
                    blocks)});
 }
 

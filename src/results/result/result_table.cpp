@@ -276,15 +276,11 @@ std::vector<ResultNumber> time_numbers() {
 std::vector<ResultNumber> step_numbers() {
   return {row("dt", kNanoseconds, run<&R::dt_s>, "time step", "Time step", "Length of a step", kFem),
           row("stable_step", kNanoseconds, run<&R::stable_step>, "stable step", "Stable step",
-              "With selective mass scaling or local steps, where used", kFem),
+              "With selective mass scaling, where used", kFem),
           row("unscaled_step", kNanoseconds, run<&R::unscaled_step>, "unscaled step", "Stable step of the real masses",
-              "Without mass scaling and local steps", kFem),
+              "Without mass scaling", kFem),
           row("added_mass", kKilograms, run<&R::added_mass>, "added mass", "Added mass",
-              "Added by selective mass scaling of thin rows; 0: real masses", kFem),
-          row("local_stages", kNone, run<&R::local_stages>, "stages", "Stages of local steps",
-              "Evaluations of the fine elements' forces per step; 1: one step for all", kFem),
-          row("fine_elements", kNone, run<&R::fine_elements>, "fine elements", "Elements in local steps",
-              "0: one step for all", kFem)};
+              "Added by selective mass scaling of thin rows; 0: real masses", kFem)};
 }
 
 std::vector<ResultNumber> effort_numbers() {

@@ -201,8 +201,6 @@ struct RunSummary {
   double dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
   double stable_step = kNotApplicable, unscaled_step = kNotApplicable;  ///< s, with and without selective mass scaling
   double added_mass = kNotApplicable;  ///< kg, by selective mass scaling of thin rows; 0: real masses
-  /// forces of the fine elements are evaluated so often a step; 1, 0: one step for all
-  double local_stages = kNotApplicable, fine_elements = kNotApplicable;
   long elements = 0, nodes = 0, steps = 0;
   int threads = 0;
 };

@@ -43,10 +43,8 @@ RunEstimate estimate_run(const Model& model, bool elsewhere) {
   StepPlan plan(system);
   e.limits = plan.limits;
   e.steps = std::lround(model.x_end / (model.spec.drive.speed * e.limits.chosen));
-  e.evaluations = 1 + 2 * static_cast<double>(e.limits.stages) * static_cast<double>(e.limits.fine_elements) /
-                          static_cast<double>(model.rail.elements() + model.wheel.elements());
-  e.seconds = kWholeStep * e.evaluations * static_cast<double>(e.steps) *
-              (force_seconds(system.rail()) + force_seconds(system.wheel()));
+  e.seconds =
+      kWholeStep * static_cast<double>(e.steps) * (force_seconds(system.rail()) + force_seconds(system.wheel()));
   e.memory_bytes = peak_memory() + preload_memory(system);
   if (!elsewhere || e.steps == 0) return e;
   e.card = device::device_need(system, plan);
