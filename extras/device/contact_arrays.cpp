@@ -86,7 +86,6 @@ ContactArrays::ContactArrays(Device& device, const RollingSystem& sys, double dt
   t.rail = rail_.view();
   t.wheel = wheel_.view();
   t.enforcement.law = row_law(o, dt);
-  t.enforcement.penalty = o.penalty;
   t.enforcement.max_sweeps = o.max_sweeps;
   t.enforcement.tolerance = o.tolerance;
   t.search.half_length = search.half_length;

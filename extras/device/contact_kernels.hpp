@@ -147,18 +147,6 @@ struct PushRows {
   }
 };
 
-/// Penalty tractions: an index for every slot. Before PushRows.
-struct PressRows {
-  RowScope scope;
-  RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
-    const int slot = static_cast<int>(i);
-    if (!scope.is_row(slot)) return;
-    const ContactTables& t = scope.contact;
-    const Vec3 w = scope.relative(slot, t.rail_nodes.before, t.wheel_nodes.before);
-    t.slips[i] = press_row(t.enforcement.law, t.rows[i].gap, scope.normal(slot), w, scope.traction(slot));
-  }
-};
-
 /// The tractions of the step: a group of threads. After PushRows.
 struct SweepRows {
   RowScope scope;

@@ -47,7 +47,7 @@ struct RowRecord {
 /// How the contact is enforced (contact/enforcement.hpp).
 struct EnforcementTables {
   RowLaw law;
-  int penalty, max_sweeps;
+  int max_sweeps;
   double tolerance;  ///< m
 };
 

@@ -365,9 +365,8 @@ void Engine::contact(bool searches) {
   launch(device_, contact_.slots(), MakeRows{t, now(), rail.surface(), law_.gravity});
   const RowScope rows{t, now_.view()};
   launch(device_, contact_.slots(), TestRows{rows});
-  if (t.enforcement.penalty) launch(device_, contact_.slots(), PressRows{rows});
   launch_group(device_, PushRows{rows});
-  if (!t.enforcement.penalty) launch_group(device_, SweepRows{rows});
+  launch_group(device_, SweepRows{rows});
   launch(device_, contact_.slots(), RecordRows{rows});
   launch_group(device_, AddUpRows{rows});
   launch(device_, contact_.slots(), LoadRail{t, now(), rail.chains(), rail.f.view()});

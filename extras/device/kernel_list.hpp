@@ -22,7 +22,6 @@
   X(FreeBand)                                       \
   X(MakeRows)                                       \
   X(TestRows)                                       \
-  X(PressRows)                                      \
   X(RecordRows)                                     \
   X(LoadRail)                                       \
   X(LoadWheel)                                      \

@@ -24,8 +24,6 @@ void add_deck_losses(std::vector<std::string>& out, const CaseSpec& spec) {
     if (layer.graded())
       out.push_back("the modulus of layer \"" + one_line(layer.name) +
                     "\" within a row of elements: each has its mean");
-  if (spec.contact.method == ContactMethod::penalty)
-    out.emplace_back("contact.penalty_scale: the deck's contact has a stiffness of its own");
 }
 
 void add_contact_losses(std::vector<std::string>& out, const CaseSpec& spec) {

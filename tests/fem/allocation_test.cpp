@@ -50,8 +50,6 @@ CaseSpec variant(const std::string& name) {
     spec.run.run_up_damping = 2000;
   } else if (name == "single_precision")
     spec.run.precision = ArithmeticPrecision::single_precision;
-  else if (name == "penalty")
-    spec.contact.method = ContactMethod::penalty;
   else if (name == "mass_scaling")
     spec = thinly_layered(spec);
   return spec;
@@ -66,7 +64,7 @@ TEST_P(Allocation, NoneInTheTimeLoop) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stepper, Allocation,
-                         ::testing::Combine(::testing::Values("mortar", "run_up_damping", "single_precision", "penalty",
+                         ::testing::Combine(::testing::Values("mortar", "run_up_damping", "single_precision",
                                                               "mass_scaling"),
                                             ::testing::Values(1, 2)),
                          [](const auto& test) {

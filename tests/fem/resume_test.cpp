@@ -90,12 +90,6 @@ TEST(Resume, OfAWheelThatMovesSidewaysAtAGivenCreepageToo) {
   expect_same_bits(spec);
 }
 
-TEST(Resume, WithAPenaltyToo) {
-  CaseSpec spec = damped_case();
-  spec.contact.method = ContactMethod::penalty;
-  expect_same_bits(spec);
-}
-
 TEST(Resume, OnAFilmThatYieldsToo) {
   CaseSpec spec = damped_case();
   spec.drive.lateral_creepage = 1e-3;

@@ -71,7 +71,7 @@ class InTheCase(Refusal):
                      f"error: {self.folder}/case.toml is not a text: line 1 has the byte 0x7F\n    remedy: was ")
 
     def test_no_control_character_reaches_the_terminal(self):
-        cases = {"case.toml": '[contact]\nmethod = "\\u001b[31m"\n', "b\x1b[2J.toml": '[mesh]\nlargest = "\x9b"\n',
+        cases = {"case.toml": '[mesh]\nelement = "\\u001b[31m"\n', "b\x1b[2J.toml": '[mesh]\nlargest = "\x9b"\n',
                  "c\x1b[2J.toml": "", "c\x1b[2J bem.toml": "[drive]\ncreepage = -0.001\n"}
         seen = ""
         for name, text in cases.items():
@@ -81,7 +81,7 @@ class InTheCase(Refusal):
             self.assertEqual(rc, 0 if name.startswith("c\x1b") else 2, err)
             seen += out + err
         self.assertEqual([c for c in seen if ord(c) < 32 and c != "\n" or 0x7F <= ord(c) < 0xA0], [])
-        self.assertIn('contact.method = "\\x1b[31m"', seen)
+        self.assertIn('mesh.element = "\\x1b[31m"', seen)
         self.assertIn("c\\x1b[2J.toml is empty", seen)
         self.assertEqual(seen.count(": t\\x1b[2J\n"), 2, seen)
 

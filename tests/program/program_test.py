@@ -17,8 +17,8 @@ COARSE = ["--threads", "1", "--set", "mesh.element_size=4 mm", "--set", "mesh.fi
 
 # Keys that tune the method alone or say another one's twice: they are to go.
 NO_CASE_NEEDS = {"geometry.inclination", "layer.grading_tolerance", "vehicle.suspension_groups", "vehicle.gravity",
-                 "mesh.hourglass_coefficient", "mesh.elements_through_layer_one", "contact.method",
-                 "contact.penalty_scale", "run.mass_scaling_step", "run.plastic_depth",
+                 "mesh.hourglass_coefficient", "mesh.elements_through_layer_one",
+                 "run.mass_scaling_step", "run.plastic_depth",
                  "run.plastic_width", "bem.spin_angle", "collective.bin_scale", "passes.jump_tolerance",
                  "passes.window_tolerance"}
 

@@ -62,8 +62,7 @@ half_velocity = "800 mm/s"
 [mesh]
 coarse_ratio = 2
 elements_through_layer_one = true
-[contact]
-method = "penalty"
+element = "one_point"
 [run]
 positions = ["200 mm", "0.3 m"]
 [output]
@@ -91,7 +90,7 @@ volume = false
   EXPECT_EQ(spec.friction.half_velocity, 0.8);
   EXPECT_EQ(spec.mesh.coarse_ratio, 2);
   EXPECT_TRUE(spec.mesh.elements_through_layer_one);
-  EXPECT_EQ(spec.contact.method, ContactMethod::penalty);
+  EXPECT_EQ(spec.mesh.element, ElementFormulation::one_point);
   EXPECT_EQ(spec.run.positions, (std::vector<double>{0.2, 0.3}));
   EXPECT_FALSE(spec.output.volume);
 }
@@ -250,9 +249,9 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[material.rail]\npoisson = 0.6\n",
        "a.toml:2:11: material.rail.poisson = 0.6: must be between 0 and 0.499\n    2 | poisson = 0.6\n      |          "
        " ^\n    remedy: 0.5 is incompressible: take 0.499 for it"},
-      {"[contact]\nmethod = \"motar\"\n",
-       "a.toml:2:10: contact.method = \"motar\": must be one of \"mortar\", \"penalty\"\n    2 | method = \"motar\"\n  "
-       "    |          ^\n    remedy: did you mean \"mortar\"?"},
+      {"[mesh]\nelement = \"fill\"\n",
+       "a.toml:2:11: mesh.element = \"fill\": must be one of \"full\", \"one_point\"\n    2 | element = \"fill\"\n  "
+       "    |           ^\n    remedy: did you mean \"full\"?"},
       {"[mesh]\ncoarse_ratio = 2.5\n",
        "a.toml:2:16: mesh.coarse_ratio = 2.5: is a number, must be a whole number\n    2 | coarse_ratio = 2.5\n      | "
        "               ^\n    remedy: write a whole number"},
@@ -468,7 +467,7 @@ TEST(Overrides, AreReadLikeTheFileAndQuotesMayBeLeftOut) {
   const CaseSpec spec = parse_case(text, "a.toml",
                                    {"mesh.element_size=2 mm", "layer.0.thickness=\"0.5 mm\"",
                                     "run.positions=[\"0.2 m\"]", "geometry.cant=1:20", "mesh.coarse_ratio=4",
-                                    "output.volume=false", "contact.method=penalty", "material.rail.young=200 GPa"})
+                                    "output.volume=false", "mesh.element=one_point", "material.rail.young=200 GPa"})
                             .spec;
   EXPECT_EQ(spec.mesh.element_size, 2e-3);
   EXPECT_EQ(spec.layers[0].thickness, 0.5e-3);
@@ -477,7 +476,7 @@ TEST(Overrides, AreReadLikeTheFileAndQuotesMayBeLeftOut) {
   EXPECT_EQ(spec.geometry.cant, 0.05);
   EXPECT_EQ(spec.mesh.coarse_ratio, 4);
   EXPECT_FALSE(spec.output.volume);
-  EXPECT_EQ(spec.contact.method, ContactMethod::penalty);
+  EXPECT_EQ(spec.mesh.element, ElementFormulation::one_point);
 }
 
 TEST(Overrides, FaultsAreLocatedAtTheCommandLine) {
@@ -528,13 +527,18 @@ TEST(Overrides, OfATextAreItsWordsEvenIfTheyCouldBeANumber) {
         << error;
     EXPECT_NE(error.find(fmt::format("did you mean \"{}\"?", meant)), std::string::npos) << error;
   }
-  EXPECT_NE(error_of("", {"contact.method=3"}).find("contact.method = \"3\": must be one of"), std::string::npos);
+  EXPECT_NE(error_of("", {"mesh.element=3"}).find("mesh.element = \"3\": must be one of"), std::string::npos);
 }
 
 TEST(CaseFile, SettingsWithoutEffectAreNoted) {
-  const LoadedCase loaded = parse_case("[contact]\npenalty_scale = 0.2\n", "a.toml");
+  const LoadedCase loaded = parse_case("[mesh]\nhourglass_coefficient = 0.2\n", "a.toml");
   EXPECT_EQ(loaded.notes,
-            std::vector<std::string>{"contact.penalty_scale has no effect without contact.method = \"penalty\""});
+            std::vector<std::string>{"mesh.hourglass_coefficient has no effect without mesh.element = \"one_point\""});
+}
+
+TEST(CaseFile, KeysThatAreGoneAreAnsweredByWhatTakesTheirPlace) {
+  EXPECT_NE(error_of("[run]\ntime_step_method = \"local\"\n").find("use run.mass_scaling_step"), std::string::npos);
+  EXPECT_NE(error_of("[contact]\npenalty_scale = 0.2\n").find("this table is gone"), std::string::npos);
 }
 
 TEST(CaseFile, ADriveThatAStaticCaseMakesVoidIsNoted) {

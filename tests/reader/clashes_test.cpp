@@ -113,7 +113,6 @@ const std::map<std::string, Overrides>& examples() {
       {"mesh.element", {"mesh.element=one_point"}},
       {"mesh.hourglass_coefficient", {"mesh.hourglass_coefficient=0.1"}},
       {"run.device", {"run.device=gpu"}},
-      {"contact.penalty_scale", {"contact.penalty_scale=0.2"}},
       {"transient.kind", history},
       {"transient.kind = \"rolling\"", history},
       {"transient.kind = \"shift\"", {"transient.kind=shift", "transient.lateral_force=[\"5 kN\", \"2 kN\"]"}},

@@ -47,7 +47,6 @@ const std::vector<Overrides>& taken() {
       {"mesh.element=one_point", "mesh.hourglass_coefficient=0.1"},
       layered({"mesh.elements_through_layer_one=true", "run.mass_scaling_step=0.7"}),
       layered({"run.mass_scaling_step=0", "run.step_safety=0.5", "layer.0.on=wheel"}),
-      {"contact.method=penalty", "contact.penalty_scale=0.05"},
       {"layer.0.width=20 mm", "layer.0.young_table=[[\"0 mm\", \"300 GPa\"], [\"4 mm\", \"210 GPa\"]]",
        "layer.0.initial_stress=[\"-300 MPa\", \"-100 MPa\"]", "layer.0.poisson=0.25", "layer.0.density=6000 kg/m^3"},
   };

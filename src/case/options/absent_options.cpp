@@ -25,7 +25,10 @@ constexpr std::string_view kElastic =
                            kTrack = "gauge, cant and lateral_shift are keys of [geometry]",
                            kStepMethod =
                                "this key is gone: masses of thin layers are scaled where the step gains by it; use "
-                               "run.mass_scaling_step = 0 for real masses";
+                               "run.mass_scaling_step = 0 for real masses",
+                           kContact =
+                               "this table is gone: contact is enforced without penetration; take method and "
+                               "penalty_scale out";
 
 constexpr std::array kAbsent{
     Absent{"load", kLoad},
@@ -51,6 +54,7 @@ constexpr std::array kAbsent{
     Absent{"gauge", kTrack},
     Absent{"cant", kTrack},
     Absent{"time_step_method", kStepMethod},
+    Absent{"contact", kContact},
 };
 
 }  // namespace

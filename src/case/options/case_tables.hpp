@@ -16,7 +16,6 @@ OptionTable drive_table();
 OptionTable friction_table();
 OptionTable third_body_table();
 OptionTable mesh_table();
-OptionTable contact_table();
 OptionTable run_table();
 OptionTable bem_table();
 OptionTable transient_table();

@@ -47,7 +47,6 @@ const std::vector<OptionTable>& case_tables() {
       friction_table(),
       third_body_table(),
       mesh_table(),
-      contact_table(),
       run_table(),
       bem_table(),
       transient_table(),

@@ -43,17 +43,6 @@ OptionTable mesh_table() {
            "Use one element through every layer, as coarse published meshes do; `elements` of the layers is ignored")}};
 }
 
-OptionTable contact_table() {
-  return {"contact",
-          "Enforcement of the contact",
-          {choice_at<&C::contact, &ContactSpec::method>(
-               "method", "mortar: no penetration at the end of each step; penalty: penalty springs",
-               {{"mortar", ContactMethod::mortar}, {"penalty", ContactMethod::penalty}}),
-           option("penalty_scale", at<&C::contact, &ContactSpec::penalty_scale>,
-                  "method = \"penalty\": stiffness in units of K A / V of the rail's surface elements", kNumber,
-                  above(0, 100))}};
-}
-
 OptionTable run_table() {
   return {
       "run",

@@ -307,7 +307,6 @@ constexpr Clash kClashes[] = {
     {"track.preset", excludes, "geometry.rail_radius", "a roller turns about a shaft", kOneOut},
     {"track", needs, "track.preset", "without a preset the foot of the rail is held",
      "give track.preset = \"delft\", \"medium\" or \"cn60\"; it supplies the defaults of the other keys"},
-    {"contact.penalty_scale", idle_without, "contact.method = \"penalty\"", "", ""},
     {"mesh.hourglass_coefficient", idle_without, "mesh.element = \"one_point\"", "", ""},
     {"geometry.block_width", idle_without, "geometry.rail_shape = \"block\"", "", ""},
     {"geometry.block_height", idle_without, "geometry.rail_shape = \"block\"", "", ""},

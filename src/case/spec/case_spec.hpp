@@ -28,7 +28,6 @@ struct CaseSpec {
   FrictionSpec friction;
   ThirdBodySpec third_body;
   MeshSpec mesh;
-  ContactSpec contact;
   RunSpec run;
   BemSpec bem;
   TransientSpec transient;

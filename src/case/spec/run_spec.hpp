@@ -10,11 +10,6 @@ enum class ElementFormulation {
   one_point  ///< with scaled hourglass stiffness
 };
 
-enum class ContactMethod {
-  mortar,  ///< no penetration at the end of each step
-  penalty
-};
-
 /// Element arithmetic while rolling; nodal values and the static preload stay double.
 enum class ArithmeticPrecision { double_precision, single_precision };
 
@@ -37,11 +32,6 @@ struct MeshSpec {
   double hourglass_coefficient = 0.05;  ///< one_point only: kappa of the Flanagan–Belytschko stiffness
   double end_length = 0.12;
   bool elements_through_layer_one = false;  ///< a coarser mesh than `elements` of the layers asks for
-};
-
-struct ContactSpec {
-  ContactMethod method = ContactMethod::mortar;
-  double penalty_scale = 0.1;  ///< penalty only: k = scale * K A / V of the rail's surface elements
 };
 
 struct RunSpec {

@@ -92,17 +92,6 @@ class Sweeper {
     }
   }
 
-  void penalty() {
-    for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
-      const ContactRow& row = rows_.rows[r];
-      NodeTraction& t = node(r);
-      const Vec3 w = relative(r, sys_.rail.before, sys_.wheel.before);
-      sys_.slips[r] = press_row(law(row), row.gap, row.normal, w, t);
-    }
-    for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-      apply_traction(r, traction_vector(node(r), rows_.rows[r].normal));
-  }
-
   void record_slip() {
     for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
       const Vec3 w = relative_velocity(r);
@@ -141,16 +130,13 @@ class Sweeper {
 
 RowLaw row_law(const EnforcementOptions& options, double dt) {
   return {options.friction, dt, options.friction.film.flexibility() / dt,
-          options.slip_time > 0 ? -std::expm1(-dt / options.slip_time) : 1.0, options.penalty_stiffness};
+          options.slip_time > 0 ? -std::expm1(-dt / options.slip_time) : 1.0};
 }
 
 void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
                      SurfaceTractions& tractions) {
   Sweeper sweeper(rows, dt, options, system, tractions);
-  if (options.penalty)
-    sweeper.penalty();
-  else
-    sweeper.multipliers();
+  sweeper.multipliers();
   sweeper.record_slip();
 }
 

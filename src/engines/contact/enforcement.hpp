@@ -1,13 +1,12 @@
 #pragma once
 // Contact forces of one explicit step.
 //
-// mortar (default): Lagrange multipliers found so that at the END of the step no chosen node penetrates and no sticking
+// Lagrange multipliers are found so that at the END of the step no chosen node penetrates and no sticking
 // node slides (forward-increment multipliers [CarpenterTaylorKatona1991]):
 //   g_A + dt w_A . n_A >= 0,  p_A >= 0,  one of them zero;     w_tA = 0 with |q_A| < f p_A (stick)  or  q_A = f p_A
 //   w_tA/|w_tA| (slip) w = w_free - dt (M m_w^-1 M^T a + m_r^-1 a) tau
 // solved by projected block Gauss–Seidel sweeps from the last step's tractions. It adds no stiffness, so it does not
-// lower the stable step, and leaves a penetration of the order of the solver's tolerance. penalty: p = k max(0, -g),
-// with a tangential spring of the same stiffness returned to the Coulomb disc; for comparison with codes that do so.
+// lower the stable step, and leaves a penetration of the order of the solver's tolerance.
 //
 // A third-body film (friction/friction_step.hpp) stands in the same place as the disc: its elastic shear is added to
 // what a node yields per traction, D + (h/G)/dt, and belongs to the velocities of the step's end. A node that opens
@@ -26,8 +25,8 @@ namespace railstrata {
 
 /// One body's nodes in the contact.
 struct ContactSide {
-  std::vector<Vec3> velocity;  ///< m/s; free on input, final on output
-  std::vector<Vec3> before;    ///< of the last half step: what a penalty's tangential spring has been stretched by
+  std::vector<Vec3> velocity;        ///< m/s; free on input, final on output
+  std::vector<Vec3> before;          ///< of the last half step
   std::vector<double> inverse_mass;  ///< 1/kg
 
   void clear() {
@@ -82,8 +81,6 @@ class SurfaceTractions {
 };
 
 struct EnforcementOptions {
-  bool penalty = false;
-  double penalty_stiffness = 0;  ///< Pa/m, penalty only
   FrictionLaws friction;
   double slip_time = 0;      ///< s, falling laws: time constant of the mean slip velocity; 0: that of the step
   double tolerance = 1e-11;  ///< m, change of a relative displacement per step at which the sweeps stop

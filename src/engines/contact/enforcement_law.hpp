@@ -61,10 +61,9 @@ RAILSTRATA_POINTWISE Vec3 traction_vector(const NodeTraction& t, Vec3 n) {
 /// Values that all rows of a step share.
 struct RowLaw {
   FrictionLaws friction;
-  double dt = 0;                 ///< s
-  double film = 0;               ///< (m/s)/Pa that an elastic film yields
-  double newest = 1;             ///< share of the step in the mean slip velocity
-  double penalty_stiffness = 0;  ///< Pa/m
+  double dt = 0;      ///< s
+  double film = 0;    ///< (m/s)/Pa that an elastic film yields
+  double newest = 1;  ///< share of the step in the mean slip velocity
 };
 
 /// State of a row before the step; used only where there is a film.
@@ -109,17 +108,6 @@ RAILSTRATA_POINTWISE RowChange relax_row(const RowLaw& law, double gap, Vec3 nor
   out.traction = traction_vector(step, normal);
   t = next;
   return out;
-}
-
-/// Penalty: the traction of a gap, and of the slip velocity w of the last half step; true where it slips.
-RAILSTRATA_POINTWISE bool press_row(const RowLaw& law, double gap, Vec3 normal, Vec3 w, NodeTraction& t) {
-  const TangentFrame f = tangent_frame(normal);
-  const double plastic_before = t.plastic;
-  t.p = law.penalty_stiffness * std::max(0.0, -gap);
-  const double yields = 1 / (law.penalty_stiffness * law.dt) + law.film;
-  t.q1 += dot(w, f.t1) / yields;
-  t.q2 += dot(w, f.t2) / yields;
-  return return_to_friction(law, yields, plastic_before, t);
 }
 
 /// Slip and what goes with it, at the relative velocity w after the step; slips: the law's verdict.

@@ -112,9 +112,7 @@ void require_within_bounds(const Stepper& st, const HistoryRow& row, double larg
     end_run(
         st, "the wheel sinks into the rail",
         fmt::format("{:.3g} um, the approach is {:.3g} um", 1e6 * row.forces.penetration, 1e6 * model.hertz.approach),
-        model.spec.contact.method == ContactMethod::penalty
-            ? "a larger contact.penalty_scale, or contact.method = \"mortar\""
-            : "a smaller run.step_safety");
+        "a smaller run.step_safety");
   // of a body that yields the modes hold bending that stays, of which no energy is stored
   if (!model.spec.run.plasticity && !(row.energy.hourglass <= limits.hourglass_share * row.energy.strain))
     end_run(st, "hourglass modes hold too much energy",

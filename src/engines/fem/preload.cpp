@@ -38,10 +38,8 @@ class Preload {
         history_(virgin_),
         preconditioner_(system, share_, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero_vector(system)) {
-    compliant_ = sys_.options.contact.penalty;
-    element_stiffness_ = compliant_ ? sys_.options.contact.penalty_stiffness
-                                    : young(sys_.rail().materials.front()) / sys_.options.element_size;
-    penalty_ = compliant_ ? sys_.options.contact.penalty_stiffness : kPenaltyScale * element_stiffness_;
+    element_stiffness_ = young(sys_.rail().materials.front()) / sys_.options.element_size;
+    penalty_ = kPenaltyScale * element_stiffness_;
   }
 
   PreloadResult solve(double tolerance, const PreloadProgress& progress) {
@@ -57,7 +55,7 @@ class Preload {
       const bool stop = progress && !progress(out.residual, tolerance, out.cg_iterations);
       if (!std::isfinite(out.residual))
         throw NumericalError("static preload: the residual is not a number" + what_to_try());
-      if (out.residual < tolerance && (compliant_ || out.penetration < kPenetration * sys_.model.hertz.approach)) {
+      if (out.residual < tolerance && out.penetration < kPenetration * sys_.model.hertz.approach) {
         if (!extend()) break;
         continue;
       }
@@ -187,7 +185,7 @@ class Preload {
     for (std::size_t k = 0; k < step.body.size(); ++k) sys_.bodies[k].ties.apply_homogeneous(step.body[k]);
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
-      if (active_[k] && !compliant_)
+      if (active_[k])
         tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = spring_[k] - penalty_ * gap_change(k, step);
     share_.add(u_, 1.0, step);
     share_.complete(u_);
@@ -363,7 +361,6 @@ class Preload {
   std::array<PlasticHistory, 2> history_;  // at the present displacements
   StaticPreconditioner preconditioner_;
   StaticVector u_;
-  bool compliant_ = false;        // penalty contact: its springs are the contact, there are no multipliers
   double element_stiffness_ = 0;  // Pa/m, weighs gaps against pressures where a node is to open or close
   double penalty_ = 0;            // Pa/m, of the springs in a linear step
   const MortarRows* rows_ = nullptr;

@@ -66,14 +66,6 @@ std::vector<EndLoad> end_loads_of(const Body& rail) {
   return out;
 }
 
-// A penalty rule of explicit codes, k = scale K A / V with the bulk modulus K of the rail's surface elements (A / V = 1
-// / height).
-double penalty_rule(const Model& model) {
-  const Elastic& m = model.rail_materials[model.rail.materials.size() > 1 && model.rail.layer_of(1) > 0 ? 1 : 0];
-  const auto& depth = model.rail.contact.depth;
-  return model.spec.contact.penalty_scale * (m.lambda + 2.0 / 3.0 * m.mu) / (depth[1] - depth[0]);
-}
-
 // The lines of prescribed nodes carry no mass of their own: the foundation or the axle has it.
 void clear_prescribed_mass(Body& body) {
   for (const SectionNode& n : body.mesh.prescribed) {
@@ -141,8 +133,6 @@ ExplicitOptions explicit_options(const Model& m) {
   if (lateral.creepage != 0)
     out.lateral_speed = drive.speed * (lateral.creepage * std::cos(contact.angle) + std::tan(contact.yaw));
   out.lateral_friction = lateral.friction;
-  out.contact.penalty = spec.contact.method == ContactMethod::penalty;
-  out.contact.penalty_stiffness = penalty_rule(m);
   out.contact.friction = {spec.drive.friction_coefficient, third_body(spec), falling_friction(spec)};
   out.contact.friction.lateral_share = lateral_friction_share(spec);
   out.contact.slip_time = vibration_time(spec);

@@ -66,7 +66,7 @@ struct ExplicitOptions {
   double run_up = 0;           ///< m, over which the run-up damping fades
   double run_up_damping = 0;   ///< 1/s, at the start
   double element_size = 0;     ///< m, of the contact's zone
-  EnforcementOptions contact;  ///< penalty stiffness and friction included
+  EnforcementOptions contact;  ///< friction included
   VehicleSpec vehicle;
   bool keeps_pace = false;      ///< the creepage is given: travel and spin of the axle go on as they started
   bool free_sideways = false;   ///< the axle keeps the lateral force of the start, not its lateral speed

@@ -47,15 +47,6 @@ void note_scaled_blocks(const Body& body, const MassScaling& scaling, StepLimits
         {fmt::format("{} {}", body.mesh.name, body.mesh.blocks[block].name), block_mass(body, block), added});
 }
 
-// A penalty spring k a_A between a rail node and a wheel node of like mass.
-double penalty_step(const RollingSystem& sys, const MassScaling& rail) {
-  const ContactSurface& r = sys.rail_surface();
-  const int c = r.columns / 2, j = r.stations.nodes() / 2;
-  const double area = r.radius * r.width[c] * (r.stations.at[j + 1] - r.stations.at[j]);
-  return 2 / std::sqrt(2 * sys.options.contact.penalty_stiffness * area * sys.rail().inverse_mass[r.index(c, j)] *
-                       rail.share(r.index(c, j)));
-}
-
 }  // namespace
 
 StepPlan::StepPlan(const RollingSystem& sys) {
@@ -65,12 +56,7 @@ StepPlan::StepPlan(const RollingSystem& sys) {
   for (std::size_t k = 0; k < own.size(); ++k) own[k] = lanczos_stable_step(sys.bodies[k]);
   limits.unscaled = limits.lanczos = std::min(own[kRail], own[kWheel]);
   if (spec.run.mass_scaling_step > 0 && sys.rail().mesh.interfaces.empty()) scale_masses(sys, own);
-  double least = limits.lanczos;
-  if (spec.contact.method == ContactMethod::penalty) {
-    limits.contact = penalty_step(sys, scaling[kRail]);
-    least = 1 / std::sqrt(1 / (least * least) + 1 / (limits.contact * limits.contact));
-  }
-  limits.chosen = rounded_down(spec.run.step_safety * least);
+  limits.chosen = rounded_down(spec.run.step_safety * limits.lanczos);
 }
 
 void StepPlan::scale_masses(const RollingSystem& sys, const std::array<double, 2>& own) {

@@ -16,12 +16,12 @@ struct ScaledBlock {
 };
 
 /// Limits of the step [s]: 2/omega_max of the assembled bodies by Lanczos, the bound from single elements and where
-/// that is smallest, the contact (penalty only).
+/// that is smallest.
 struct StepLimits {
   double lanczos = 0;   ///< with the added mass
   double unscaled = 0;  ///< of the real masses
-  double element = 0, contact = 0;
-  double chosen = 0;  ///< the step taken: run.step_safety times the least
+  double element = 0;
+  double chosen = 0;  ///< the step taken: run.step_safety times lanczos
   double added_mass = 0,
          scaled_mass = 0;    ///< kg, by selective mass scaling and of the nodes it acts on; 0: real masses
   std::string scaled_where;  ///< blocks with added mass: "rail cap, rail gauge shell"
