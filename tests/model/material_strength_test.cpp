@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/faults.hpp"
-#include "material/hardening_sets.hpp"
+#include "material/steels.hpp"
 
 namespace railstrata {
 namespace {
@@ -56,12 +56,12 @@ TEST(PlasticLaw, AReadySetSaysHowSureItIsAndScalesWithHardness) {
   m.strength.grade = "R260";
   m.strength.hardening = "r260";
   PlasticLaw law = law_of(m).value();
-  EXPECT_EQ(law.at(0).plastic.yield, hardening_set("R260").law.yield) << "not the grade's proof stress";
+  EXPECT_EQ(law.at(0).plastic.yield, hardening_set("R260").hardening.law.yield) << "not the grade's proof stress";
   ASSERT_EQ(law.notes.size(), 1u);
   EXPECT_NE(law.notes[0].find("set R260, estimated"), std::string::npos) << law.notes[0];
   m.strength.hardness = 550;  // twice what 880 MPa are
   law = law_of(m).value();
-  EXPECT_NEAR(law.at(2e-3).plastic.modulus[2] / hardening_set("R260").law.modulus[2], 2, 1e-12);
+  EXPECT_NEAR(law.at(2e-3).plastic.modulus[2] / hardening_set("R260").hardening.law.modulus[2], 2, 1e-12);
   m.strength.yield_strength = 480e6;
   EXPECT_NE(law_of(m)->notes.back().find("serves shakedown and fatigue alone"), std::string::npos);
   MaterialSpec published;
@@ -75,7 +75,7 @@ TEST(PlasticLaw, EstimatedIsOfTheTensileStrengthElseOfTheHardness) {
   m.strength.hardening = "estimated";
   m.strength.tensile_strength = 880e6;
   const PlasticLaw of_tensile = law_of(m).value();
-  EXPECT_NEAR(of_tensile.at(0).plastic.yield, hardening_set("R260").law.yield, 1);
+  EXPECT_NEAR(of_tensile.at(0).plastic.yield, hardening_set("R260").hardening.law.yield, 1);
   m.strength.tensile_strength.reset();
   m.strength.hardness = 275;
   EXPECT_NEAR(law_of(m)->at(0).plastic.yield, of_tensile.at(0).plastic.yield, 1) << "3.2 MPa times HV";

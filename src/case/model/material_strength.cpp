@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/faults.hpp"
+#include "damage/hardness.hpp"
 #include "material/elastic.hpp"
-#include "material/hardening_sets.hpp"
 #include "record/unit.hpp"
 #include "text/units.hpp"
 
@@ -94,17 +94,18 @@ class LawOf {
     note_start();
   }
 
-  void ready(const HardeningSet& set) {
+  void ready(const Steel& steel) {
+    const HardeningSet& set = steel.hardening;
     out_.top.plastic = set.law;
-    if (set.tensile > 0)
-      scale_by_hardness(vickers_from_tensile(set.tensile));
+    if (steel.tensile.known())
+      scale_by_hardness(vickers_from_tensile(steel.tensile.low));
     else if (!s_.hardness_table.empty())
       out_.factor = over(s_.hardness_table, s_.hardness_table.front().value);
     out_.notes.push_back(
-        fmt::format("hardening of {}: set {}, {} ({})", name_, set.name, certainty_text(set.certainty), set.source));
+        fmt::format("hardening of {}: set {}, {} ({})", name_, steel.name, certainty_text(set.certainty), set.source));
     if (std::abs(m_.young / set.young - 1) > kOtherModulus)
       out_.notes.push_back(fmt::format("hardening of {}: set {} was fitted with a modulus of {}, the material has {}",
-                                       name_, set.name, format_quantity(set.young, dimension::kPressure),
+                                       name_, steel.name, format_quantity(set.young, dimension::kPressure),
                                        format_quantity(m_.young, dimension::kPressure)));
     note_start();
   }

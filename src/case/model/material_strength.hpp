@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "damage/grades.hpp"
 #include "damage/strain_life.hpp"
 #include "material/material_path.hpp"
+#include "material/steels.hpp"
 #include "spec/layer_spec.hpp"
 
 namespace railstrata {
@@ -48,7 +48,7 @@ class MaterialStrength {
  private:
   StrengthSpec s_;
   std::string name_, key_;
-  std::optional<Grade> grade_;
+  std::optional<Steel> grade_;
 };
 
 /// Nothing where the case gives neither a curve nor a tensile strength that the estimates hold for.

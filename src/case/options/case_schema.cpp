@@ -7,10 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/certainty.hpp"
-#include "damage/grades.hpp"
 #include "friction/friction_conditions.hpp"
 #include "geometry/profile_names.hpp"
-#include "material/hardening_sets.hpp"
+#include "material/steels.hpp"
 #include "options/option_table.hpp"
 
 namespace railstrata {
@@ -168,10 +167,8 @@ std::vector<std::string> known_names(std::string_view key) {
   if (key == "condition")
     for (const FrictionCondition& c : friction_conditions()) out.emplace_back(c.name);
   if (key == "wheel_profile") out = builtin_profile_names(ProfileKind::wheel);
-  if (key == "grade")
-    for (const Grade& grade : grades()) out.emplace_back(grade.name);
-  if (key == "hardening")
-    for (const HardeningSet& set : hardening_sets()) out.emplace_back(set.name);
+  if (key == "grade") out = grade_names();
+  if (key == "hardening") out = hardening_set_names();
   return out;
 }
 

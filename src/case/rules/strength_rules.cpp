@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "core/faults.hpp"
-#include "damage/grades.hpp"
-#include "material/hardening_sets.hpp"
 #include "material/plastic.hpp"
+#include "material/steels.hpp"
 #include "spec/case_spec.hpp"
 #include "text/units.hpp"
 
@@ -172,7 +171,7 @@ class StrengthRules {
   Said yield() const {
     if (s_.yield_strength) return {"yield_strength", {{0, *s_.yield_strength}}};
     if (!s_.strength_table.empty()) return {"strength_table", s_.strength_table};
-    const Grade* known = find_grade(s_.grade);
+    const Steel* known = find_grade(s_.grade);
     if (known && known->yield.known())
       return {fmt::format("the yield strength of {}", known->name), {{0, known->yield.low}}};
     return {};

@@ -63,10 +63,10 @@ struct HeatSpec {
 
 /// Depths of a layer's tables count from its top, those of rail and wheel from the running surface.
 struct StrengthSpec {
-  std::string grade;                     ///< a name of damage/grades.hpp; it gives what is not given otherwise
+  std::string grade;                     ///< a name of material/steels.hpp; it gives what is not given otherwise
   std::optional<double> yield_strength;  ///< Pa, uniaxial; that in pure shear is a sqrt(3)-th of it
   std::vector<DepthPoint> strength_table;
-  std::string hardening;  ///< a name of material/hardening_sets.hpp, or "estimated": of the tensile strength
+  std::string hardening;  ///< a name of material/steels.hpp, or "estimated": of the tensile strength
   std::optional<IsotropicHardening> isotropic_hardening;
   std::vector<KinematicHardening> kinematic_hardening;
   bool elastic = false;            ///< on purpose, whatever its strength: a brittle layer

@@ -15,10 +15,10 @@
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "core/simd.hpp"
-#include "damage/grades.hpp"
 #include "device/card.hpp"
 #include "geometry/profile_names.hpp"
 #include "io/provenance.hpp"
+#include "material/steels.hpp"
 #include "options/case_schema.hpp"
 #include "record/this_process.hpp"
 #include "report/result_reference.hpp"
@@ -58,12 +58,6 @@ void print_text(const nlohmann::ordered_json& info) {
     }
     fmt::print("{:<16} {}\n", key, text);
   }
-}
-
-std::vector<std::string> grade_names() {
-  std::vector<std::string> out;
-  for (const Grade& g : grades()) out.emplace_back(g.name);
-  return out;
 }
 
 /// The card that run.device = "gpu" would use, or why there is none.

@@ -8,9 +8,9 @@
 #include "damage/brittle.hpp"
 #include "damage/critical_plane.hpp"
 #include "damage/dang_van.hpp"
-#include "damage/grades.hpp"
 #include "damage/wear.hpp"
 #include "damage/wear_indices.hpp"
+#include "material/steels.hpp"
 
 namespace railstrata::bridge {
 namespace {
@@ -136,7 +136,7 @@ void flaw(Call& call) {
 }
 
 void grade_of(Call& call) {
-  const Grade& found = grade(call.text("name"));
+  const Steel& found = grade(call.text("name"));
   Json& out = call.answer["value"] = {{"name", found.name}, {"use", found.use}};
   for (const auto& [key, range] :
        {std::pair{"yield_strength", found.yield}, std::pair{"tensile_strength", found.tensile},

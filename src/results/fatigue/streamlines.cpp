@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "damage/flash_temperature.hpp"
-#include "damage/grades.hpp"
+#include "damage/hardness.hpp"
 #include "damage/wear.hpp"
 #include "fatigue/row_strength.hpp"
+#include "material/steels.hpp"
 #include "model/thermal_body.hpp"
 #include "spec/case_spec.hpp"
 
