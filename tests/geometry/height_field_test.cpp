@@ -9,73 +9,69 @@
 namespace railstrata {
 namespace {
 
-using Kind = IrregularityKind;
 constexpr double kRadius = 0.43;
 
-Irregularity shape(Kind kind, BodyId on = BodyId::rail) {
-  Irregularity is;
-  is.kind = kind;
-  is.on = on;
-  is.at = 0.1;
-  return is;
+Irregularity with(const IrregularityShape& shape, BodyId on = BodyId::rail) {
+  return {.on = on, .at = 0.1, .width = {}, .offset = 0, .shape = shape};
 }
 
 HeightField field_of(const Irregularity& is) { return {{is}, is.on, kRadius}; }
 
 Irregularity hollow() {
-  Irregularity is = shape(Kind::indentation);
-  is.length = 20e-3;
-  is.depth = 0.2e-3;
-  return is;
+  Indentation h;
+  h.length = 20e-3;
+  h.depth = 0.2e-3;
+  return with(h);
 }
 Irregularity waves() {
-  Irregularity is = shape(Kind::corrugation);
-  is.wavelength = 40e-3;
-  is.depth = 20e-6;
-  is.from = 0.0;
-  is.to = 0.5;
-  return is;
+  Corrugation w;
+  w.wavelength = 40e-3;
+  w.depth = 20e-6;
+  w.from = 0.0;
+  w.to = 0.5;
+  return with(w);
 }
 Irregularity dip(RampShape form) {
-  Irregularity is = shape(Kind::dip);
-  is.angle = 10e-3;
-  is.shape = form;
-  return is;
+  Dip d;
+  d.angle = 10e-3;
+  d.shape = form;
+  return with(d);
 }
-Irregularity step(double height) {
-  Irregularity is = shape(Kind::step);
-  is.length = 12e-3;
-  is.height = height;
-  return is;
+Irregularity step(double height, double length = 12e-3) {
+  Step s;
+  s.length = length;
+  s.height_behind = height;
+  return with(s);
 }
 Irregularity chord() {
-  Irregularity is = shape(Kind::flat, BodyId::wheel);
-  is.length = 60e-3;
-  return is;
+  Flat f;
+  f.length = 60e-3;
+  return with(f, BodyId::wheel);
 }
 Irregularity oval() {
-  Irregularity is = shape(Kind::out_of_round, BodyId::wheel);
-  is.depth = 0.3e-3;
-  is.order = 6;
-  return is;
+  OutOfRound o;
+  o.depth = 0.3e-3;
+  o.order = 6;
+  return with(o, BodyId::wheel);
 }
 Irregularity rough(int seed) {
-  Irregularity is = shape(Kind::roughness);
-  is.rms = 3e-6;
-  is.shortest = 10e-3;
-  is.longest = 100e-3;
-  is.seed = seed;
-  return is;
+  Roughness r;
+  r.rms = 3e-6;
+  r.shortest = 10e-3;
+  r.longest = 100e-3;
+  r.seed = seed;
+  return with(r);
 }
-Irregularity points() {
-  Irregularity is = shape(Kind::file);
+Irregularity points(double smoothing = 0) {
+  HeightPoints p;
+  p.smoothing = smoothing;
   for (int i = 0; i <= 40; ++i)
     for (const double y : {-5e-3, 5e-3}) {
-      is.x.push_back(1e-3 * i);
-      is.y.push_back(y);
-      is.z.push_back((y > 0 ? 2e-5 : 1e-5) * std::sin(1e-3 * i / 6e-3));
+      p.x.push_back(1e-3 * i);
+      p.y.push_back(y);
+      p.z.push_back((y > 0 ? 2e-5 : 1e-5) * std::sin(1e-3 * i / 6e-3));
     }
-  return is;
+  return with(p);
 }
 
 TEST(HeightField, ShapesHaveTheirClosedForms) {
@@ -105,11 +101,11 @@ TEST(HeightField, SlopesAreTheDerivativesOfTheHeights) {
     for (int i = 0; i < 400; ++i) {
       const double x = 0.0701 + 0.183e-3 * i, y = 2e-3;
       const double slope = (field.at(x + kStep, y).z - field.at(x - kStep, y).z) / (2 * kStep);
-      EXPECT_NEAR(field.at(x, y).along, slope, 2e-7) << static_cast<int>(is.kind) << " at " << x;
+      EXPECT_NEAR(field.at(x, y).along, slope, 2e-7) << is.shape.index() << " at " << x;
       most = std::max(most, std::abs(slope));
     }
-    EXPECT_LE(most, 1.001 * steepest_slope(is, kRadius)) << static_cast<int>(is.kind);
-    EXPECT_GE(most, 0.3 * steepest_slope(is, kRadius)) << static_cast<int>(is.kind);
+    EXPECT_LE(most, 1.001 * steepest_slope(is, kRadius)) << is.shape.index();
+    EXPECT_GE(most, 0.3 * steepest_slope(is, kRadius)) << is.shape.index();
   }
 }
 
@@ -152,19 +148,16 @@ TEST(HeightField, AFileIsInterpolatedAndItsEndsGoOn) {
   EXPECT_NEAR(field.at(0.1 + 9.5e-3, 5e-3).z, 2e-5 * std::sin(9.5 / 6), 2e-8);
   EXPECT_NEAR(field.at(0.1 + 9.5e-3, 0).z, 1.5e-5 * std::sin(9.5 / 6), 2e-8);
   EXPECT_EQ(field.at(0.3, 5e-3).z, field.at(0.14, 5e-3).z);
-  Irregularity smooth = points();
-  smooth.smoothing = 6e-3;
   // the mean of cos(k x) with weights 1 + cos(2 pi x/L): sin(u)/u / (1 - (u/pi)^2), u = k L/2
   const double u = 0.5, factor = std::sin(u) / u / (1 - u * u / (std::numbers::pi * std::numbers::pi));
-  EXPECT_NEAR(field_of(smooth).at(0.1 + 15e-3, 5e-3).z, factor * 2e-5 * std::sin(2.5), 1e-3 * 2e-5);
+  EXPECT_NEAR(field_of(points(6e-3)).at(0.1 + 15e-3, 5e-3).z, factor * 2e-5 * std::sin(2.5), 1e-3 * 2e-5);
 }
 
 // A rigid wheel touches a sharp step of 0.5 mm from sqrt(2 R h) before it on; one of a long ramp where its slope is.
 TEST(HeightField, AWheelReachesForAStep) {
   EXPECT_NEAR(contact_reach({step(0.5e-3)}, kRadius), std::sqrt(2 * kRadius * 0.5e-3), 1e-12);
   EXPECT_NEAR(contact_reach({step(-0.5e-3)}, kRadius), std::sqrt(2 * kRadius * 0.5e-3), 1e-12);
-  Irregularity ramp = step(0.5e-3);
-  ramp.length = 0.1;
+  const Irregularity ramp = step(0.5e-3, 0.1);
   EXPECT_NEAR(contact_reach({ramp}, kRadius), kRadius * steepest_slope(ramp, kRadius), 1e-12);
 }
 

@@ -33,15 +33,15 @@ TEST(IrregularityCaseFile, EntriesAreReadInSiUnitsAndWrittenOutAgain) {
       "a.toml");
   const std::vector<Irregularity>& all = loaded.spec.irregularities;
   ASSERT_EQ(all.size(), 5u);
-  EXPECT_EQ(all[0].kind, IrregularityKind::indentation);
+  EXPECT_TRUE(std::holds_alternative<Indentation>(all[0].shape));
   EXPECT_EQ(all[0].at, 0.2);
   EXPECT_EQ(all[0].width, 30e-3);
   EXPECT_EQ(all[1].on, BodyId::wheel);
-  EXPECT_EQ(all[1].order, 6);
-  EXPECT_NEAR(all[2].angle.value(), 10e-3, 1e-6) << "its tangent";
-  EXPECT_EQ(all[2].shape, RampShape::line);
-  EXPECT_EQ(all[3].z, (std::vector<double>{0, -10e-6, 0}));
-  EXPECT_EQ(all[4].height, -0.5e-3);
+  EXPECT_EQ(std::get<OutOfRound>(all[1].shape).order, 6);
+  EXPECT_NEAR(std::get<Dip>(all[2].shape).angle.value(), 10e-3, 1e-6) << "its tangent";
+  EXPECT_EQ(std::get<Dip>(all[2].shape).shape, RampShape::line);
+  EXPECT_EQ(std::get<HeightPoints>(all[3].shape).z, (std::vector<double>{0, -10e-6, 0}));
+  EXPECT_EQ(std::get<Step>(all[4].shape).height_behind, -0.5e-3);
   EXPECT_EQ(parse_case(loaded.resolved_toml, "b.toml").resolved_toml, loaded.resolved_toml);
   EXPECT_EQ(parse_case("", "a.toml").resolved_toml.find("irregularity"), std::string::npos);
 }
@@ -52,12 +52,12 @@ TEST(IrregularityCaseFile, AFileStandsForItsPoints) {
                                                 "10, 5, -40\n20, 5, 0\n";
   const LoadedCase loaded = parse_case(
       "[[irregularity]]\nkind = \"file\"\nfile = \"squat.csv\"\nsmoothing = \"4 mm\"\n", folder.path() / "a.toml");
-  const Irregularity& is = loaded.spec.irregularities.at(0);
+  const HeightPoints& is = std::get<HeightPoints>(loaded.spec.irregularities.at(0).shape);
   EXPECT_EQ(is.y, (std::vector<double>{-5e-3, -5e-3, -5e-3, 5e-3, 5e-3, 5e-3}));
   EXPECT_EQ(is.z.at(4), -40e-6);
   EXPECT_EQ(is.file, "");
   EXPECT_EQ(loaded.inputs.size(), 1u);
-  EXPECT_EQ(parse_case(loaded.resolved_toml, "b.toml").spec.irregularities.at(0).z, is.z);
+  EXPECT_EQ(std::get<HeightPoints>(parse_case(loaded.resolved_toml, "b.toml").spec.irregularities.at(0).shape).z, is.z);
 }
 
 TEST(IrregularityCaseFile, FaultsNameTheKeyAndTheRemedy) {

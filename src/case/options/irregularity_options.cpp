@@ -1,3 +1,7 @@
+#include "options/irregularity_options.hpp"
+
+#include <cassert>
+
 #include "options/case_tables.hpp"
 #include "options/option_slots.hpp"
 
@@ -7,72 +11,127 @@ namespace {
 using namespace dimension;
 using namespace option_slot;
 using I = Irregularity;
-using Kind = IrregularityKind;
 
 template <auto Member>
 Slot irregularity(CaseSpec& spec, std::size_t index) {
   return entry<&CaseSpec::irregularities, Member>(spec, index);
 }
-template <Kind... Kinds>
-bool is(const CaseSpec& spec, std::size_t index) {
-  return ((spec.irregularities.at(index).kind == Kinds) || ...);
+
+template <class Kind, class Part, class T>
+constexpr bool belongs(T Part::*) {
+  return std::is_base_of_v<Part, Kind>;
+}
+/// Whether the entry is of a kind with one of these members.
+template <auto... Members>
+bool has(const CaseSpec& spec, std::size_t index) {
+  return std::visit([]<class Kind>(const Kind&) { return (belongs<Kind>(Members) || ...); },
+                    spec.irregularities.at(index).shape);
+}
+/// The first of the members that the kind of the entry has; else that of the first of these kinds, with its default:
+/// the key is read and refused (rules/irregularity_rules.hpp).
+template <class Kind, auto First, auto... More>
+Slot slot_in(Kind& kind) {
+  if constexpr (belongs<Kind>(First))
+    return slot_of(kind.*First);
+  else if constexpr (sizeof...(More) > 0)
+    return slot_in<Kind, More...>(kind);
+}
+template <class Part, class T>
+Part part_of(T Part::*);
+template <auto First, auto... More>
+Slot of_kinds(CaseSpec& spec, std::size_t index) {
+  return std::visit(
+      []<class Kind>(Kind& kind) -> Slot {
+        if constexpr (belongs<Kind>(First) || (belongs<Kind>(More) || ...)) {
+          return slot_in<Kind, First, More...>(kind);
+        } else {
+          thread_local decltype(part_of(First)) nowhere;
+          nowhere = {};
+          return slot_of(nowhere.*First);
+        }
+      },
+      spec.irregularities.at(index).shape);
+}
+template <auto... Members>
+Option row(std::string_view key, std::string_view doc, const Dimension& dimension, const Range& range) {
+  return option(key, of_kinds<Members...>, doc, dimension, range).where(has<Members...>);
+}
+bool has_middle(const CaseSpec& spec, std::size_t index) {
+  return !std::holds_alternative<Roughness>(spec.irregularities.at(index).shape);
 }
 
 const Range kHeightWay{-100, 100};  // m
 
 std::vector<Option> height_shape_options() {
-  return {
-      option("length", irregularity<&I::length>, "indentation, step, flat: length from end to end", kLength,
-             above(0, 20)),
-      option("wavelength", irregularity<&I::wavelength>, "corrugation: wavelength", kLength, above(0, 20)),
-      option("order", irregularity<&I::order>, "out_of_round: number of waves around the wheel", kNumber, {1, 1000})
-          .where(is<Kind::out_of_round>),
-      option("depth", irregularity<&I::depth>,
-             "Depth from peak to valley; for an indentation, and for a flat with worn, rounded edges. A fresh flat is "
-             "a chord and needs only its length",
-             kLength, {0, 0.02}),
-      option("height", irregularity<&I::height>, "step: height of the following rail relative to the preceding one",
-             kLength, {-0.02, 0.02}),
-      option("width", irregularity<&I::width>, "Lateral width, with a cosine shape; not given: uniform across", kLength,
-             above(0, 0.2)),
-      option("offset", irregularity<&I::offset>,
-             "Lateral position of the middle, from the first contact to the field side", kLength, {-0.1, 0.1}),
-      option("angle", irregularity<&I::angle>, "dip: angle between its two ramps", kSlope, {0, 0.2}),
-      option("ramp", irregularity<&I::ramp>, "dip: length of each ramp", kLength, above(0, 20)).where(is<Kind::dip>),
-      choice<&I::shape>("shape", irregularity<&I::shape>, "dip: shape of the ramps",
-                        {{"parabola", RampShape::parabola}, {"line", RampShape::line}})
-          .where(is<Kind::dip>)};
+  return {row<&Indentation::length, &Step::length, &Flat::length>(
+              "length", "indentation, step, flat: length from end to end", kLength, above(0, 20)),
+          row<&Corrugation::wavelength>("wavelength", "corrugation: wavelength", kLength, above(0, 20)),
+          row<&OutOfRound::order>("order", "out_of_round: number of waves around the wheel", kNumber, {1, 1000}),
+          row<&Indentation::depth, &Corrugation::depth, &Flat::depth, &OutOfRound::depth>(
+              "depth",
+              "Depth from peak to valley; for an indentation, and for a flat with worn, rounded edges. A fresh flat is "
+              "a chord and needs only its length",
+              kLength, {0, 0.02}),
+          row<&Step::height_behind>("height", "step: height of the following rail relative to the preceding one",
+                                    kLength, {-0.02, 0.02}),
+          option("width", irregularity<&I::width>, "Lateral width, with a cosine shape; not given: uniform across",
+                 kLength, above(0, 0.2)),
+          option("offset", irregularity<&I::offset>,
+                 "Lateral position of the middle, from the first contact to the field side", kLength, {-0.1, 0.1}),
+          row<&Dip::angle>("angle", "dip: angle between its two ramps", kSlope, {0, 0.2}),
+          row<&Dip::ramp>("ramp", "dip: length of each ramp", kLength, above(0, 20)),
+          choice<&Dip::shape>("shape", of_kinds<&Dip::shape>, "dip: shape of the ramps",
+                              {{"parabola", RampShape::parabola}, {"line", RampShape::line}})
+              .where(has<&Dip::shape>)};
 }
 
 std::vector<Option> height_spectrum_options() {
-  return {option("rms", irregularity<&I::rms>, "roughness: root mean square height", kLength, above(0, 1e-3)),
-          option("shortest", irregularity<&I::shortest>, "roughness: shortest wave", kLength, above(0, 20)),
-          option("longest", irregularity<&I::longest>, "roughness: longest wave", kLength, above(0, 20)),
-          option("exponent", irregularity<&I::exponent>,
-                 "roughness: exponent e; the spectral density is proportional to the wave number to the power -e",
-                 kNumber, {0, 10})
-              .where(is<Kind::roughness>),
-          option("seed", irregularity<&I::seed>, "roughness: seed of its random phases", kNumber, {0, 2147483647})
-              .where(is<Kind::roughness>)};
+  return {
+      row<&Roughness::rms>("rms", "roughness: root mean square height", kLength, above(0, 1e-3)),
+      row<&Roughness::shortest>("shortest", "roughness: shortest wave", kLength, above(0, 20)),
+      row<&Roughness::longest>("longest", "roughness: longest wave", kLength, above(0, 20)),
+      row<&Roughness::exponent>(
+          "exponent", "roughness: exponent e; the spectral density is proportional to the wave number to the power -e",
+          kNumber, {0, 10}),
+      row<&Roughness::seed>("seed", "roughness: seed of its random phases", kNumber, {0, 2147483647})};
 }
 
 std::vector<Option> height_point_options() {
-  return {
-      option("file", irregularity<&I::file>,
-             "A CSV file with columns x and z, or x, y and z of a grid, with units, relative to the case file; the "
-             "resolved case contains its values")
-          .where(never),
-      option("smoothing", irregularity<&I::smoothing>,
-             "file: length of the cosine-weighted mean that smooths its heights along x; 0: not smoothed", kLength,
-             {0, 1})
-          .where(is<Kind::file>),
-      option("x", irregularity<&I::x>, "Instead of the file: position along the way, from `at`", kLength, kHeightWay),
-      option("y", irregularity<&I::y>, "Instead of the file: lateral position, from `offset`", kLength, {-0.2, 0.2}),
-      option("z", irregularity<&I::z>, "Instead of the file: heights, positive out of the body", kLength,
-             {-0.02, 0.02})};
+  using P = HeightPoints;
+  return {option("file", of_kinds<&P::file>,
+                 "A CSV file with columns x and z, or x, y and z of a grid, with units, relative to the case file; the "
+                 "resolved case contains its values")
+              .where(never),
+          row<&P::smoothing>(
+              "smoothing", "file: length of the cosine-weighted mean that smooths its heights along x; 0: not smoothed",
+              kLength, {0, 1}),
+          row<&P::x>("x", "Instead of the file: position along the way, from `at`", kLength, kHeightWay),
+          row<&P::y>("y", "Instead of the file: lateral position, from `offset`", kLength, {-0.2, 0.2}),
+          row<&P::z>("z", "Instead of the file: heights, positive out of the body", kLength, {-0.02, 0.02})};
+}
+
+Option kind_option() {
+  Option out = option("kind", irregularity<&I::shape>, "Its shape");
+  out.first = true;
+  for (const IrregularityKind& kind : irregularity_kinds())
+    out.choices.push_back({kind.word, static_cast<int>(out.choices.size())});
+  return out;
 }
 
 }  // namespace
+
+const std::vector<IrregularityKind>& irregularity_kinds() {
+  static const std::vector<IrregularityKind> all{{"indentation", {"at", "length", "depth"}},
+                                                 {"corrugation", {"wavelength", "depth"}},
+                                                 {"dip", {"at", "angle"}},
+                                                 {"step", {"at", "length", "height"}},
+                                                 {"flat", {"at", "length"}},
+                                                 {"out_of_round", {"depth"}},
+                                                 {"roughness", {"rms", "shortest", "longest"}},
+                                                 {"file", {"x", "z"}}};
+  assert(all.size() == std::variant_size_v<IrregularityShape>);
+  return all;
+}
 
 OptionTable irregularity_table() {
   OptionTable out{
@@ -80,21 +139,15 @@ OptionTable irregularity_table() {
       "A height along the running surface of rail or wheel, positive out of the body; several add up",
       {choice<&I::on>("on", irregularity<&I::on>, "Body; on the wheel x is the arc from the first contact",
                       {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
-       choice<&I::kind>("kind", irregularity<&I::kind>, "Its shape",
-                        {{"indentation", Kind::indentation},
-                         {"corrugation", Kind::corrugation},
-                         {"dip", Kind::dip},
-                         {"step", Kind::step},
-                         {"flat", Kind::flat},
-                         {"out_of_round", Kind::out_of_round},
-                         {"roughness", Kind::roughness},
-                         {"file", Kind::file}}),
+       kind_option(),
        option("at", irregularity<&I::at>, "Distance of its middle (waves: a crest; file: x = 0) from the first contact",
-              kLength, kHeightWay),
-       option("from", irregularity<&I::from>,
-              "corrugation, roughness: start; the height grows smoothly over the longest wave", kLength, kHeightWay),
-       option("to", irregularity<&I::to>, "corrugation, roughness: end; the height fades in the same way", kLength,
-              kHeightWay)},
+              kLength, kHeightWay)
+           .where(has_middle),
+       row<&Corrugation::from, &Roughness::from>(
+           "from", "corrugation, roughness: start; the height grows smoothly over the longest wave", kLength,
+           kHeightWay),
+       row<&Corrugation::to, &Roughness::to>("to", "corrugation, roughness: end; the height fades in the same way",
+                                             kLength, kHeightWay)},
       list_of<&CaseSpec::irregularities>(),
       {{"file", "x"}, {"file", "y"}, {"file", "z"}}};
   for (const auto& rows : {height_shape_options(), height_spectrum_options(), height_point_options()})

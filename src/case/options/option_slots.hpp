@@ -19,7 +19,7 @@ concept HasRows = requires(typename T::value_type& row) {
 
 template <class T>
 Slot slot_of(T& member) {
-  if constexpr (std::is_enum_v<T>)
+  if constexpr (std::is_enum_v<T> || requires { std::variant_size<T>::value; })
     return ChoiceSlot(member);
   else if constexpr (HasRows<T>)
     return RowsSlot(member);

@@ -2,6 +2,7 @@
 // The keys of a case file: one table per option struct of spec/case_spec.hpp. The reader, the range check, "did you
 // mean", the resolved case, the JSON schema and the reference page all come from these tables, so that a new option is
 // one member in case_spec.hpp and one row here.
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -22,6 +23,15 @@ class ChoiceSlot {
       : member_(&member),
         read_([](const void* m) { return static_cast<int>(*static_cast<const Enum*>(m)); }),
         write_([](void* m, int value) { *static_cast<Enum*>(m) = static_cast<Enum>(value); }) {}
+  /// One of several kinds: the value is the number of the kind, which begins with its defaults.
+  template <class... Kinds>
+  explicit ChoiceSlot(std::variant<Kinds...>& member)
+      : member_(&member),
+        read_([](const void* m) { return static_cast<int>(static_cast<const std::variant<Kinds...>*>(m)->index()); }),
+        write_([](void* m, int value) {
+          const std::array<std::variant<Kinds...>, sizeof...(Kinds)> all{Kinds{}...};
+          *static_cast<std::variant<Kinds...>*>(m) = all.at(static_cast<std::size_t>(value));
+        }) {}
   int operator*() const { return read_(member_); }  ///< as of the pointers beside it in Slot
   void set(int value) const { write_(member_, value); }
   friend bool operator==(const ChoiceSlot& a, const ChoiceSlot& b) { return a.member_ == b.member_; }
@@ -142,6 +152,7 @@ struct Option {
   std::string_view example{};  ///< of a list or a table by depth
   RowForm form = RowForm::by_depth;
   bool takes_mass = false;  ///< of one force: a mass stands for its weight
+  bool first = false;       ///< read before the others, whose places depend on it
 
   /// The same option with one thing more, for the rows of the tables.
   Option where(bool (*condition)(const CaseSpec&, std::size_t)) const {

@@ -114,11 +114,12 @@ void read_table_file(const std::string& key, std::string& name, LoadedCase& load
 void read_height_files(LoadedCase& loaded, CaseSource& source) {
   CaseSpec& spec = loaded.spec;
   for (std::size_t i = 0; i < spec.irregularities.size(); ++i)
-    read_table_file(fmt::format("irregularity.{}.file", i), spec.irregularities[i].file, loaded, source,
-                    [&](const std::string& text, const std::filesystem::path& file) {
-                      read_heights(text, file, spec, i);
-                      return std::string();
-                    });
+    if (auto* points = std::get_if<HeightPoints>(&spec.irregularities[i].shape))
+      read_table_file(fmt::format("irregularity.{}.file", i), points->file, loaded, source,
+                      [&](const std::string& text, const std::filesystem::path& file) {
+                        read_heights(text, file, spec, i);
+                        return std::string();
+                      });
 }
 
 /// The rows of a collective stand in the case or in a file.

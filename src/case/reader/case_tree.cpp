@@ -155,10 +155,17 @@ class TreeReader {
   }
 
   void read_table(const OptionTable& table, const std::string& name, std::size_t index, const toml::table& entries) {
+    for (const bool first : {true, false}) read_keys(table, name, index, entries, first);
+    for (const auto& rivals : table.rivals) check_rivals(rivals, name, entries);
+  }
+
+  void read_keys(const OptionTable& table, const std::string& name, std::size_t index, const toml::table& entries,
+                 bool first) {
     for (const auto& [key, node] : entries) {
       const std::string word(key.str()), full = fmt::format("{}.{}", name, word);
       const auto option =
           std::find_if(table.options.begin(), table.options.end(), [&](const Option& o) { return o.key == word; });
+      if ((option != table.options.end() && option->first) != first) continue;
       if (option == table.options.end()) {
         source_.remember(full, place_of(key.source()));
         unknown_key(table, full, word);
@@ -170,7 +177,6 @@ class TreeReader {
       else
         read_value(source_, spec_, {*option, full, node, index});
     }
-    for (const auto& rivals : table.rivals) check_rivals(rivals, name, entries);
   }
 
   void check_rivals(const std::vector<std::string_view>& rivals, const std::string& name, const toml::table& entries) {

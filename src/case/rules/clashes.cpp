@@ -62,7 +62,7 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
     kJoint{"irregularity",
            [](const C&c) {
              return std::any_of(c.irregularities.begin(), c.irregularities.end(), [](const Irregularity& is) {
-               return is.kind == IrregularityKind::dip || is.kind == IrregularityKind::step;
+               return std::visit([]<class Kind>(const Kind&) { return Kind::kJoint; }, is.shape);
              });
            },
            "a dip or a step"},

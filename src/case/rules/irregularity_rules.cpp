@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -12,54 +11,34 @@
 
 #include "core/faults.hpp"
 #include "geometry/height_field.hpp"
+#include "options/irregularity_options.hpp"
 #include "options/option_table.hpp"
 #include "tables/unit_table.hpp"
 
 namespace railstrata {
 namespace {
 
-using Kind = IrregularityKind;
-using Words = std::vector<std::string_view>;
-
-struct KindKeys {
-  Words needed, further;
-  bool rail = true, wheel = true;  ///< on which body
-};
-
-const KindKeys& keys_of_kind(Kind kind) {
-  static const std::map<Kind, KindKeys> all{
-      {Kind::indentation, {{"at", "length", "depth"}, {}}},
-      {Kind::corrugation, {{"wavelength", "depth"}, {"at", "from", "to"}}},
-      {Kind::dip, {{"at", "angle"}, {"ramp", "shape"}, true, false}},
-      {Kind::step, {{"at", "length", "height"}, {}, true, false}},
-      {Kind::flat, {{"at", "length"}, {"depth"}, false, true}},
-      {Kind::out_of_round, {{"depth"}, {"at", "order"}, false, true}},
-      {Kind::roughness, {{"rms", "shortest", "longest"}, {"exponent", "seed", "from", "to"}}},
-      {Kind::file, {{"x", "z"}, {"at", "file", "smoothing", "y"}}}};
-  return all.at(kind);
-}
-
-bool holds(const Words& words, std::string_view key) {
-  return std::find(words.begin(), words.end(), key) != words.end();
-}
-
 class IrregularityRules {
  public:
   IrregularityRules(const CaseSpec& spec, std::size_t index, CaseSource& source)
-      : spec_(spec), is_(spec.irregularities[index]), index_(index), source_(source) {}
+      : spec_(spec),
+        is_(spec.irregularities[index]),
+        points_(std::get_if<HeightPoints>(&is_.shape)),
+        kind_(irregularity_kinds().at(is_.shape.index())),
+        index_(index),
+        source_(source) {}
 
   void check() {
     if (!source_.sound({name_ + ".kind"})) return;
     check_keys();
     if (!source_.sound({name_, "geometry.wheel_radius"})) return;
     check_numbers();
-    if (is_.kind == Kind::file) check_points();
+    if (points_) check_points(*points_);
     if (!source_.sound({name_})) return;
     if (const double slope = steepest_slope(is_, spec_.geometry.wheel_radius); slope > kSteepestHeight)
-      refuse(is_.kind == Kind::file ? "file" : "kind",
+      refuse(points_ ? "file" : "kind",
              fmt::format("its steepest slope is {:.2g}, contact takes up to {:g}", slope, kSteepestHeight),
-             is_.kind == Kind::file ? "give more smoothing, or check the units of x and z"
-                                    : "make it longer, less deep or less high");
+             points_ ? "give more smoothing, or check the units of x and z" : "make it longer, less deep or less high");
   }
 
  private:
@@ -68,60 +47,70 @@ class IrregularityRules {
     source_.complain(full, fmt::format("{}: {}", full, what), remedy);
   }
 
-  std::string word() const {
-    for (const Option& o : find_table("irregularity")->options)
-      if (o.key == "kind")
-        for (const Choice& c : o.choices)
-          if (c.value == static_cast<int>(is_.kind)) return fmt::format("kind = \"{}\"", c.word);
-    return {};
-  }
+  std::string word() const { return fmt::format("kind = \"{}\"", kind_.word); }
 
   bool given(const Option& option) const {
+    if (source_.has(fmt::format("{}.{}", name_, option.key))) return true;
     CaseSpec copy = spec_;
     const Slot slot = option.slot(copy, index_);
-    if (const auto* maybe = std::get_if<std::optional<double>*>(&slot)) return (*maybe)->has_value();
-    if (const auto* list = std::get_if<std::vector<double>*>(&slot)) return !(*list)->empty();
-    return source_.has(fmt::format("{}.{}", name_, option.key));
+    const auto* list = std::get_if<std::vector<double>*>(&slot);
+    return list && !(*list)->empty();  // from a file
+  }
+  bool needed(const Option& option) const {
+    return std::find(kind_.needed.begin(), kind_.needed.end(), option.key) != kind_.needed.end();
+  }
+  /// Whether the kind has the key; one that every kind has applies always.
+  bool has(const Option& option) const {
+    return option.key == "file" ? points_ != nullptr : !option.applies || option.applies(spec_, index_);
+  }
+  std::string its_keys() const {
+    std::vector<std::string_view> further;
+    for (const Option& o : find_table("irregularity")->options)
+      if (has(o) && (o.applies || o.key == "file") && !needed(o)) further.push_back(o.key);
+    return fmt::format("its keys: {}{}{}", fmt::join(kind_.needed, ", "), further.empty() ? "" : ", ",
+                       fmt::join(further, ", "));
   }
 
   void check_keys() {
-    const KindKeys& keys = keys_of_kind(is_.kind);
-    if (!(is_.on == BodyId::rail ? keys.rail : keys.wheel))
-      refuse("on", fmt::format("{} is of the {}", word(), keys.rail ? "rail" : "wheel"),
-             fmt::format("give on = \"{}\"", keys.rail ? "rail" : "wheel"));
-    constexpr std::array<std::string_view, 4> kAll{"on", "kind", "width", "offset"};
+    const auto [on_rail, on_wheel] = std::visit(
+        []<class Kind>(const Kind&) {
+          return std::pair{Kind::kOnRail, Kind::kOnWheel};
+        },
+        is_.shape);
+    if (!(is_.on == BodyId::rail ? on_rail : on_wheel))
+      refuse("on", fmt::format("{} is of the {}", word(), on_rail ? "rail" : "wheel"),
+             fmt::format("give on = \"{}\"", on_rail ? "rail" : "wheel"));
     for (const Option& option : find_table("irregularity")->options) {
-      const bool needed = holds(keys.needed, option.key), have = given(option);
-      if (needed && !have && source_.sound({fmt::format("{}.{}", name_, option.key), name_ + ".file"}))
-        source_.complain(name_, fmt::format("{}: {} needs {}", name_, word(), option.key),
-                         is_.kind == Kind::file ? "give file = \"heights.csv\" with the columns x and z"
-                                                : fmt::format("add {} = …", option.key));
-      if (have && !needed && !holds(keys.further, option.key) &&
-          std::find(kAll.begin(), kAll.end(), option.key) == kAll.end())
-        refuse(option.key, fmt::format("{} has no {}", word(), option.key),
-               fmt::format("its keys: {}{}{}", fmt::join(keys.needed, ", "), keys.further.empty() ? "" : ", ",
-                           fmt::join(keys.further, ", ")));
+      const bool have = given(option);
+      if (needed(option) && !have && source_.sound({fmt::format("{}.{}", name_, option.key), name_ + ".file"}))
+        source_.complain(
+            name_, fmt::format("{}: {} needs {}", name_, word(), option.key),
+            points_ ? "give file = \"heights.csv\" with the columns x and z" : fmt::format("add {} = …", option.key));
+      if (have && !has(option)) refuse(option.key, fmt::format("{} has no {}", word(), option.key), its_keys());
     }
   }
 
   void check_numbers() {
-    if (is_.from && is_.to && !(*is_.from < *is_.to)) refuse("to", "must lie beyond from", "exchange them");
-    if (is_.kind == Kind::roughness && !(*is_.shortest < *is_.longest))
+    const auto* rough = std::get_if<Roughness>(&is_.shape);
+    const auto* waves = std::get_if<Corrugation>(&is_.shape);
+    if (const WaveStretch* s = rough ? static_cast<const WaveStretch*>(rough) : waves)
+      if (s->from && s->to && !(*s->from < *s->to)) refuse("to", "must lie beyond from", "exchange them");
+    if (rough && !(*rough->shortest < *rough->longest))
       refuse("longest", "must be longer than shortest", "exchange them");
   }
 
-  void check_points() {
-    if (is_.x.size() != is_.z.size() || (!is_.y.empty() && is_.y.size() != is_.z.size()))
-      return refuse("z", fmt::format("{} heights at {} places", is_.z.size(), is_.x.size()),
+  void check_points(const HeightPoints& p) {
+    if (p.x.size() != p.z.size() || (!p.y.empty() && p.y.size() != p.z.size()))
+      return refuse("z", fmt::format("{} heights at {} places", p.z.size(), p.x.size()),
                     "give every point one x and one z, on a grid one y too");
     std::set<std::pair<double, double>> places;
     std::map<double, int> lines;
-    for (std::size_t i = 0; i < is_.x.size(); ++i) {
-      const double y = is_.y.empty() ? 0 : is_.y[i];
-      if (!places.insert({y, is_.x[i]}).second)
+    for (std::size_t i = 0; i < p.x.size(); ++i) {
+      const double y = p.y.empty() ? 0 : p.y[i];
+      if (!places.insert({y, p.x[i]}).second)
         return refuse(source_.has(name_ + ".file") ? "file" : "x",
-                      fmt::format("two heights at x = {}", format_quantity(is_.x[i], dimension::kLength)),
-                      is_.y.empty() ? "keep one of them; a grid has a column y" : "keep one of them");
+                      fmt::format("two heights at x = {}", format_quantity(p.x[i], dimension::kLength)),
+                      p.y.empty() ? "keep one of them; a grid has a column y" : "keep one of them");
       ++lines[y];
     }
     for (const auto& [y, points] : lines)
@@ -132,6 +121,8 @@ class IrregularityRules {
 
   const CaseSpec& spec_;
   const Irregularity& is_;
+  const HeightPoints* points_;  // of a file
+  const IrregularityKind& kind_;
   std::size_t index_;
   CaseSource& source_;
   std::string name_ = fmt::format("irregularity.{}", index_);

@@ -74,12 +74,13 @@ std::vector<ForceLine> force_spectrum(const CaseSpec& spec, const std::vector<Hi
 std::optional<ForceLine> passing_force(const CaseSpec& spec, const std::vector<HistoryRow>& history) {
   constexpr double kHeldWaves = 8, kFewestWaves = 4;
   for (const Irregularity& is : spec.irregularities) {
-    const bool corrugation = is.kind == IrregularityKind::corrugation;
-    if (!corrugation && is.kind != IrregularityKind::out_of_round) continue;
-    const double wave = corrugation ? *is.wavelength : kTurn * spec.geometry.wheel_radius / is.order;
+    const auto* corrugation = std::get_if<Corrugation>(&is.shape);
+    const auto* oval = std::get_if<OutOfRound>(&is.shape);
+    if (!corrugation && !oval) continue;
+    const double wave = corrugation ? *corrugation->wavelength : kTurn * spec.geometry.wheel_radius / oval->order;
     double from = spec.run.run_up, to = history.empty() ? 0 : history.back().position;
-    if (corrugation && is.from) from = std::max(from, *is.from + wave);
-    if (corrugation && is.to) to = std::min(to, *is.to - wave);
+    if (corrugation && corrugation->from) from = std::max(from, *corrugation->from + wave);
+    if (corrugation && corrugation->to) to = std::min(to, *corrugation->to - wave);
     const double wanted = spec.track.held() ? kHeldWaves * wave : spec.track.support.spacing,
                  waves = std::floor(std::min(wanted, to - from) / wave);
     if (waves < kFewestWaves) continue;

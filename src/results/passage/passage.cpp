@@ -21,7 +21,7 @@ constexpr double kP1Within = 2e-3, kP2After = 2.2e-3, kP2Over = 2e-3;  // s
 void add_dip(const RollingSystem& system, const Rows& rows, PassageSummary& out) {
   const CaseSpec& spec = system.model.spec;
   const auto dip = std::find_if(spec.irregularities.begin(), spec.irregularities.end(),
-                                [](const Irregularity& is) { return is.kind == IrregularityKind::dip; });
+                                [](const Irregularity& is) { return std::holds_alternative<Dip>(is.shape); });
   if (dip == spec.irregularities.end() || spec.track.held()) return;
   const double tip = *dip->at;
   const auto after = std::find_if(rows.begin(), rows.end(), [&](const HistoryRow& r) { return r.position >= tip; });
@@ -30,9 +30,9 @@ void add_dip(const RollingSystem& system, const Rows& rows, PassageSummary& out)
     if (!(wheel_force(*row) < out.P1)) out.P1 = wheel_force(*row);
   out.P2 = second_peak(rows, after->time + kP2After);
   const double load = system.model.load;
-  const JointForces jenkins = joint_forces(
-      {load, *dip->angle, spec.drive.speed, spec.vehicle.wheel_mass, 1.5 * load / system.model.hertz.approach},
-      rail_beam(system.model), spec.track.support);
+  const JointForces jenkins = joint_forces({load, *std::get<Dip>(dip->shape).angle, spec.drive.speed,
+                                            spec.vehicle.wheel_mass, 1.5 * load / system.model.hertz.approach},
+                                           rail_beam(system.model), spec.track.support);
   out.P1_jenkins_low = jenkins.P1_low;
   out.P1_jenkins_high = jenkins.P1_high;
   out.P2_jenkins_low = jenkins.P2_low;
