@@ -10,27 +10,27 @@ namespace railstrata {
 namespace {
 
 TEST(StopRequest, StopsItsOwnThreadOnceItIsSet) {
-  stop_if_wished();
+  stop_if_requested();
   std::atomic<bool> flag{false};
   {
-    const StopRequest wish(&flag);
-    stop_if_wished();
+    const StopRequest stop(&flag);
+    stop_if_requested();
     flag = true;
-    EXPECT_THROW(stop_if_wished(), Interrupted);
-    std::thread([] { EXPECT_NO_THROW(stop_if_wished()); }).join();
+    EXPECT_THROW(stop_if_requested(), Interrupted);
+    std::thread([] { EXPECT_NO_THROW(stop_if_requested()); }).join();
     const std::atomic<bool> never{false};
     const StopRequest inner(&never);
-    EXPECT_NO_THROW(stop_if_wished());
+    EXPECT_NO_THROW(stop_if_requested());
   }
-  EXPECT_NO_THROW(stop_if_wished());
+  EXPECT_NO_THROW(stop_if_requested());
 }
 
 TEST(StopRequest, WaitsForTheEndOfAParallelLoop) {
   const std::atomic<bool> flag{true};
-  const StopRequest wish(&flag);
+  const StopRequest stop(&flag);
 #pragma omp parallel for
-  for (int i = 0; i < 8; ++i) EXPECT_NO_THROW(stop_if_wished());
-  EXPECT_THROW(stop_if_wished(), Interrupted);
+  for (int i = 0; i < 8; ++i) EXPECT_NO_THROW(stop_if_requested());
+  EXPECT_THROW(stop_if_requested(), Interrupted);
 }
 
 }  // namespace

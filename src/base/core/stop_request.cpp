@@ -7,15 +7,15 @@
 namespace railstrata {
 namespace {
 
-thread_local const std::atomic<bool>* wish = nullptr;
+thread_local const std::atomic<bool>* requested = nullptr;
 
 }  // namespace
 
-StopRequest::StopRequest(const std::atomic<bool>* flag) : before_(wish) { wish = flag; }
-StopRequest::~StopRequest() { wish = before_; }
+StopRequest::StopRequest(const std::atomic<bool>* flag) : before_(requested) { requested = flag; }
+StopRequest::~StopRequest() { requested = before_; }
 
-void stop_if_wished() {
-  if (wish != nullptr && *wish && omp_in_parallel() == 0) throw Interrupted("stopped");
+void stop_if_requested() {
+  if (requested != nullptr && *requested && omp_in_parallel() == 0) throw Interrupted("stopped");
 }
 
 }  // namespace railstrata

@@ -1,6 +1,6 @@
 #pragma once
 // A request to stop what a thread computes. The caller of a computation has a flag and a StopRequest; solvers that
-// iterate call stop_if_wished between two iterations.
+// iterate call stop_if_requested between two iterations.
 #include <atomic>
 
 namespace railstrata {
@@ -19,6 +19,6 @@ class StopRequest {
 
 /// Throws Interrupted where a StopRequest of this thread is set; inside a parallel loop, which nothing may leave, it
 /// waits for the loop's end.
-void stop_if_wished();
+void stop_if_requested();
 
 }  // namespace railstrata

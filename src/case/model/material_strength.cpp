@@ -216,7 +216,7 @@ std::optional<StrainLifeOfMaterial> strain_life_of(const MaterialSpec& material,
                   name, kToMega * tensile, key)};
 }
 
-bool says_strength(const StrengthSpec& s) {
+bool has_strength(const StrengthSpec& s) {
   return s.yield_strength || s.hardness || !s.strength_table.empty() || !s.hardness_table.empty() || !s.grade.empty();
 }
 

@@ -56,7 +56,7 @@ std::optional<StrainLifeOfMaterial> strain_life_of(const MaterialSpec& material,
                                                    const std::string& key);
 
 /// Whether a case gives a material's strength.
-bool says_strength(const StrengthSpec& strength);
+bool has_strength(const StrengthSpec& strength);
 
 /// The law of a material that yields (material/plastic.hpp), with depth:
 ///   hardening = "…"        a ready set; of known hardness it is scaled by HV(z) over the hardness the set stands for

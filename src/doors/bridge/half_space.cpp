@@ -61,7 +61,7 @@ std::size_t patch_asked(const Call& call) { return static_cast<std::size_t>(call
 /// (n, 6) stresses at (n, 3) points.
 void stresses_at(Call& call) {
   const auto run = call.made<HalfSpaceRun>("run");
-  const StopRequest wish(&call.control.stop);
+  const StopRequest stop(&call.control.stop);
   const std::vector<InteriorPoint> found = interior(*run, call.text("body"), patch_asked(call))
                                                .at(points_of(call.array("points")), call.flag("below_interface"));
   std::vector<Sym3> out;

@@ -29,7 +29,7 @@ void solve_wheelset(Call& call) {
   const auto shared = call.made<SharedWheelset>("wheelset");
   const std::lock_guard hold(shared->one_at_a_time);
   const ThreadsOfCaller threads(call.whole("threads"));
-  const StopRequest wish(&call.control.stop);
+  const StopRequest stop(&call.control.stop);
   const WheelsetForces found = solve(shared->set, record_of<WheelsetState>(kWheelsetState, call.argument("state")));
   call.answer = json_of(kWheelsetForces, found);
   call.answer["left"] = json_of(kWheelForces, found.wheels[kLeft]);

@@ -135,7 +135,7 @@ Complex times_i(Complex z) { return {-z.imag(), z.real()}; }
 }  // namespace
 
 void InfluenceOperator::normal(const double* p, double* u_n) const {
-  stop_if_wished();
+  stop_if_requested();
   fft_.apply({p}, {u_n}, nx(), ScalarProduct{nn_hat_.data()});
 }
 
@@ -144,7 +144,7 @@ void InfluenceOperator::precondition_normal(const double* u_n, double* p) const 
 }
 
 void InfluenceOperator::tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const {
-  stop_if_wished();
+  stop_if_requested();
   fft_.apply({q_x, q_y}, {u_x, u_y}, rows, SymmetricProduct{xx_hat_.data(), xy_hat_.data(), yy_hat_.data()});
 }
 

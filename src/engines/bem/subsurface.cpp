@@ -45,7 +45,7 @@ Subsurface::~Subsurface() = default;
 Subsurface::Subsurface(Subsurface&&) noexcept = default;
 
 StatePlane Subsurface::plane(double depth) const {
-  stop_if_wished();
+  stop_if_requested();
   StatePlane out;
   out.depth = depth;
   const PlaneFft fft(grid_.nx, grid_.ny, reach_x_, reach_y_);
@@ -56,7 +56,7 @@ StatePlane Subsurface::plane(double depth) const {
            [](const InteriorInfluence& t, std::size_t load, std::size_t s) { return t[load].*kState[s]; });
   straighten_steps(depth, out);
   if (layered_) {
-    stop_if_wished();
+    stop_if_requested();
     layered_->add(loads_, out);
   }
   return out;
@@ -76,7 +76,7 @@ DisplacementPlane Subsurface::displacement(double depth) const {
            cleared(out, grid_.size()),
            [](const InteriorDisplacement& t, std::size_t load, std::size_t axis) { return t[load].*kAxis[axis]; });
   if (layered_) {
-    stop_if_wished();
+    stop_if_requested();
     layered_->add(loads_, out);
   }
   return out;

@@ -168,9 +168,9 @@ bool moments_of_tiles(const SweptBody& mesh, const Ties& ties) {
   return ties.levels().size() <= 1 && !axle_carries(mesh);
 }
 
-std::ptrdiff_t sent_numbers(const SentRanges& gift) {
+std::ptrdiff_t sent_numbers(const SentRanges& sent) {
   std::ptrdiff_t out = 0;
-  for (const StationRanges& line : gift)
+  for (const StationRanges& line : sent)
     for (const StationRange& r : line) out += 3 * (r.end - r.begin);
   return out;
 }
@@ -186,13 +186,13 @@ std::vector<SentRanges> sent_ranges(const SharedLines& body, const std::vector<L
         for (int n : body.lines[block])
           for (const StationRange& r : reaches[rank].forces[block][n])
             for (int j = r.begin; j < r.end; ++j) wanted.add({block, n}, j);
-    SentRanges gift(body.layout.blocks[block].nodes);
+    SentRanges sent(body.layout.blocks[block].nodes);
     for (int n : body.lines[block])
       for (const StationRange& r : wanted.ranges({block, n})) {
         const StationRange inside{std::max(r.begin, plane + 1), std::min(r.end, end)};
-        if (inside.begin < inside.end) gift[n].push_back(inside);
+        if (inside.begin < inside.end) sent[n].push_back(inside);
       }
-    out.push_back(std::move(gift));
+    out.push_back(std::move(sent));
   }
   return out;
 }

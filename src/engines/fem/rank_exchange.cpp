@@ -101,7 +101,7 @@ void RankExchange::place_windows(RollingBodies& bodies, const AxlePose& pose) {
     const SharedLines shared{
         b.mesh, b.layout, b.tiling, b.ties, bodies[k].cut, lines_[k], bodies[k].scaling.chains(), contact[k], width[k]};
     std::vector<LineReach> reaches = line_reaches(shared, ranks_.count);
-    for (SentRanges& gift : sent_ranges(shared, reaches)) sent_.push_back(std::move(gift));
+    for (SentRanges& sent : sent_ranges(shared, reaches)) sent_.push_back(std::move(sent));
     parts_[k].values = std::move(reaches[ranks_.rank].values);
     parts_[k].forces = std::move(reaches[ranks_.rank].forces);
   }

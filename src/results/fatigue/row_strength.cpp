@@ -73,7 +73,7 @@ bool RowStrength::any() const {
 bool strength_given(const CaseSpec& spec, BodyId body) {
   const int layers = static_cast<int>(layers_on(spec, body).size());
   for (int zone = 0; zone <= layers; ++zone)
-    if (says_strength(zone_material(spec, body, zone).strength)) return true;
+    if (has_strength(zone_material(spec, body, zone).strength)) return true;
   return false;
 }
 

@@ -26,7 +26,7 @@ bool any_zone(const CaseSpec& spec, BodyId body, const std::function<bool(const 
                      [&](const LayerSpec& layer) { return layer.on == body && says(layer.material.strength); });
 }
 
-bool says_dang_van(const StrengthSpec& s) { return s.fatigue.limit && s.fatigue.dang_van; }
+bool has_dang_van(const StrengthSpec& s) { return s.fatigue.limit && s.fatigue.dang_van; }
 
 /// Rows without a limit do not count.
 std::vector<DangVanLimit> dang_van_limits(const CaseSpec& spec, BodyId body, const StressHistory& history,
@@ -35,8 +35,8 @@ std::vector<DangVanLimit> dang_van_limits(const CaseSpec& spec, BodyId body, con
   std::vector<DangVanLimit> out;
   for (int r = 0; r < history.rows(); ++r) {
     const StrengthSpec& s = strength_of_row(spec, body, history, r);
-    out.push_back(says_dang_van(s) ? DangVanLimit{*s.fatigue.dang_van, strength.fatigue_limit[r]}
-                                   : DangVanLimit{0, kNever});
+    out.push_back(has_dang_van(s) ? DangVanLimit{*s.fatigue.dang_van, strength.fatigue_limit[r]}
+                                  : DangVanLimit{0, kNever});
   }
   return out;
 }
@@ -47,7 +47,7 @@ FatigueValue place(const CaseSpec& spec, BodyId body, const StressHistory& histo
 
 void add_dang_van(const CaseSpec& spec, BodyId body, const StressHistory& history, const RowStrength& strength,
                   ResidualRows residual, BodyFatigue& out) {
-  if (!any_zone(spec, body, says_dang_van)) return;
+  if (!any_zone(spec, body, has_dang_van)) return;
   const std::vector<DangVanLimit> limits = dang_van_limits(spec, body, history, strength);
   const DangVanSection found = dang_van(history, residual, limits);
   if (!found.row) return;
