@@ -118,14 +118,14 @@ ContactArrays::ContactArrays(Device& device, const RollingSystem& sys, double dt
   make(starts_, t.starts, slots);
   make(slips_, t.slips, slots);
   make(changes_, t.changes, std::max(slots, std::size_t{kRowNumbers}));
-  make(rail_before_, t.rail_nodes.before, slots);
-  make(rail_after_, t.rail_nodes.after, slots);
-  make(rail_force_, t.rail_nodes.force, slots);
-  make(rail_answer_, t.rail_nodes.answer, slots);
-  make(wheel_before_, t.wheel_nodes.before, band);
-  make(wheel_after_, t.wheel_nodes.after, band);
-  make(wheel_force_, t.wheel_nodes.force, band);
-  make(wheel_answer_, t.wheel_nodes.answer, band);
+  const auto make_nodes = [&](Nodes& nodes_of, auto& views, std::size_t size) {
+    make(nodes_of.before, views.before, size);
+    make(nodes_of.after, views.after, size);
+    make(nodes_of.force, views.force, size);
+    make(nodes_of.answer, views.answer, size);
+  };
+  make_nodes(rail_nodes_, t.rail_nodes, slots);
+  make_nodes(wheel_nodes_, t.wheel_nodes, band);
   make(numbers_, t.totals.numbers, kRowNumbers * slots);
   make(parts_, t.totals.parts, std::size_t{kRowNumbers} * kRowParts);
 }
@@ -133,9 +133,9 @@ ContactArrays::ContactArrays(Device& device, const RollingSystem& sys, double dt
 std::size_t ContactArrays::bytes() const {
   std::size_t out = 0;
   const auto add = [&](const auto&... arrays) { ((out += arrays.bytes()), ...); };
-  add(tractions_, corrections_, active_, near_, edge_, slips_, hits_, rows_, starts_, weights_, changes_, rail_answer_,
-      wheel_answer_, numbers_, parts_, rail_before_, rail_after_, rail_force_, wheel_before_, wheel_after_,
-      wheel_force_);
+  add(tractions_, corrections_, active_, near_, edge_, slips_, hits_, rows_, starts_, weights_, changes_, numbers_,
+      parts_);
+  for (const Nodes* n : {&rail_nodes_, &wheel_nodes_}) add(n->before, n->after, n->force, n->answer);
   return out;
 }
 

@@ -45,8 +45,12 @@ class ContactArrays {
   DeviceArray<mortar_law::Hit> hits_;
   DeviceArray<RowRecord> rows_;
   DeviceArray<RowStart> starts_;
-  DeviceArray<double> weights_, changes_, rail_answer_, wheel_answer_, numbers_, parts_;
-  DeviceArray<Vec3> rail_before_, rail_after_, rail_force_, wheel_before_, wheel_after_, wheel_force_;
+  DeviceArray<double> weights_, changes_, numbers_, parts_;
+  struct Nodes {
+    DeviceArray<Vec3> before, after, force;
+    DeviceArray<double> answer;
+  };
+  Nodes rail_nodes_, wheel_nodes_;
 };
 
 }  // namespace railstrata::device

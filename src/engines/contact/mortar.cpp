@@ -36,9 +36,9 @@ MortarContact::MortarContact(ContactSurface rail, ContactSurface wheel)
       wheel_(std::move(wheel)),
       inner_columns_(rail_.columns - 2),
       apart_(independent_distance(rail_, wheel_)) {
-  find_angles(wheel_, sin_t_, cos_t_);
+  find_angles(wheel_, wheel_turn_.sin, wheel_turn_.cos);
   if (!rail_.rises) return;
-  find_angles(rail_, rail_sin_, rail_cos_);
+  find_angles(rail_, rail_turn_.sin, rail_turn_.cos);
   for (int c = 0; c + 1 < rail_.columns; ++c) rail_.width[c] *= 0.5 * std::abs(rail_.node[c].z + rail_.node[c + 1].z);
 }
 
@@ -47,7 +47,8 @@ Vec3 MortarContact::rail_point(const Field& u, int c, int j, double wy, double w
   if (rail_.rises)
     return in_wheel_axes(
         wheel_,
-        wheel_point(rail_, rail_sin_, rail_cos_, SurfaceField{u, rail_}, {0, 0, 0, rail_psi_}, rail_turned_,
+        wheel_point(rail_, rail_turn_.sin, rail_turn_.cos, SurfaceField{u, rail_}, {0, 0, 0, rail_turn_.psi},
+                    rail_turn_.by,
                     Hit{.column = c, .station = j, .weight_y = wy, .weight_t = wx, .offset = {}, .inside = true}));
   const Vec3 p = mortar_law::rail_point(rail_, SurfaceField{u, rail_}, c, j, wy, wx);
   if (rail_.heights.none()) return in_wheel_axes(wheel_, p);
@@ -77,7 +78,7 @@ void MortarContact::raise_wheel(const AxlePose& pose, Hit& h) const {
 }
 
 Vec3 MortarContact::rail_normal(int c, int j) const {
-  const double along = rail_.rises ? rail_.radius * (rail_.contact_at + rail_psi_ - rail_.stations.at[j]) : 0.0;
+  const double along = rail_.rises ? rail_.radius * (rail_.contact_at + rail_turn_.psi - rail_.stations.at[j]) : 0.0;
   const Vec3 normal = rail_.rail_normal(c, along);
   if (rail_.heights.none()) return normal;
   const Vec3 tilted = normal - Vec3{rail_height(c, j, 0, 0).along, 0, 0};
@@ -85,14 +86,15 @@ Vec3 MortarContact::rail_normal(int c, int j) const {
 }
 
 void MortarContact::turn_to(const AxlePose& pose) {
-  turned_ = rotation_by(pose.psi);
-  rail_psi_ = pose.rail_psi;
-  rail_turned_ = rotation_by(rail_psi_);
+  wheel_turn_.by = rotation_by(pose.psi);
+  rail_turn_.psi = pose.rail_psi;
+  rail_turn_.by = rotation_by(rail_turn_.psi);
 }
 
 MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose, Vec3 p, Tangential correction,
                                            const Hit& guess) const {
-  Hit h = mortar_law::opposite(wheel_, sin_t_, cos_t_, SurfaceField{u, wheel_}, pose, turned_, p, correction, guess);
+  Hit h = mortar_law::opposite(wheel_, wheel_turn_.sin, wheel_turn_.cos, SurfaceField{u, wheel_}, pose, wheel_turn_.by,
+                               p, correction, guess);
   if (!wheel_.heights.none()) raise_wheel(pose, h);
   return h;
 }
@@ -196,7 +198,7 @@ void MortarContact::search(const Field& u_rail, const Field& u_wheel, const Axle
                            double gap_limit) {
   const AxlePose pose = in_wheel_axes(wheel_, in_model);
   turn_to(pose);
-  const double centre = rail_.rises ? rail_.contact_at + rail_psi_ : wheel_.origin.x + in_model.x - rail_.origin.x;
+  const double centre = rail_.rises ? rail_.contact_at + rail_turn_.psi : wheel_.origin.x + in_model.x - rail_.origin.x;
   const Window window = window_around(rail_, centre, half_length / rail_.radius);
   window_first_ = window.first;
   window_stations_ = window.stations;

@@ -107,11 +107,13 @@ class MortarContact {
   void choose_node(int column, int station);
   void append_weights(const WheelPatch& patch, double area);
 
-  ContactSurface rail_, wheel_;              // width of a ring: area of its facets per unit of the sweep coordinate
-  std::vector<double> sin_t_, cos_t_;        // of the wheel's stations
-  std::vector<double> rail_sin_, rail_cos_;  // of those of a rail that is a ring
-  Rotation<double> turned_, rail_turned_;    // by psi and rail_psi
-  double rail_psi_ = 0;
+  ContactSurface rail_, wheel_;  // width of a ring: area of its facets per unit of the sweep coordinate
+  struct Turn {
+    std::vector<double> sin, cos;  // of the stations
+    double psi = 0;
+    Rotation<double> by;  // psi
+  };
+  Turn wheel_turn_, rail_turn_;                 // the latter of a rail that is a ring
   int window_first_ = 0, window_stations_ = 0;  // rail stations that the last search looked at
   int inner_columns_ = 0;                       // of the rail: the outermost are tied to the coarser mesh
   int apart_ = 1;                               // columns or stations between rows that share no wheel node
