@@ -85,7 +85,6 @@ ALLOWED = {
     "src/results/lives": "the same",
     "src/results/passes/following_contact.cpp": "each round of a pass solves its contact anew: forces alone",
     "src/work/ask": "the one that is asked",
-    "src/doors/capi": "a live contact, state after state: forces alone",
     "src/work/runs/solve_fem.cpp": "finite elements: damage, and the fatigue of a way; shakedown by judge_sections",
     "src/work/collective/collective.cpp": "the life of all rows together",
 }
