@@ -69,22 +69,22 @@ void write_loops(const std::filesystem::path& file, std::vector<std::string> rem
   remarks.emplace_back(
       "The last pass, station by station as the load passes. point: its place in passes.json, loops. strain: tensor "
       "shears.");
-  struct Step {
+  struct LoopStep {
     int point;
     double y, depth, x;
     const StationState& state;
   };
-  std::vector<Step> steps;
+  std::vector<LoopStep> steps;
   for (std::size_t k = 0; k < loops.size(); ++k)
     for (std::size_t i = 0; i < loops[k].states.size(); ++i)
       steps.push_back({static_cast<int>(k), loops[k].y, loops[k].depth, loops[k].x[i], loops[k].states[i]});
-  Columns<Step> columns{{"point", unit::kCount, &Step::point},
-                        {"y", unit::kMillimetres, &Step::y},
-                        {"depth", unit::kMillimetres, &Step::depth},
-                        {"x", unit::kMillimetres, &Step::x}};
-  append(columns, tensor_columns<Step>("sigma", unit::kMPa, [](const Step& s) { return s.state.stress; }));
-  append(columns, tensor_columns<Step>("strain", unit::kNone, [](const Step& s) { return s.state.strain; }));
-  append(columns, {{"plastic_strain_accumulated", unit::kNone, [](const Step& s) { return s.state.accumulated; }}});
+  Columns<LoopStep> columns{{"point", unit::kCount, &LoopStep::point},
+                            {"y", unit::kMillimetres, &LoopStep::y},
+                            {"depth", unit::kMillimetres, &LoopStep::depth},
+                            {"x", unit::kMillimetres, &LoopStep::x}};
+  append(columns, tensor_columns<LoopStep>("sigma", unit::kMPa, [](const LoopStep& s) { return s.state.stress; }));
+  append(columns, tensor_columns<LoopStep>("strain", unit::kNone, [](const LoopStep& s) { return s.state.strain; }));
+  append(columns, {{"plastic_strain_accumulated", unit::kNone, [](const LoopStep& s) { return s.state.accumulated; }}});
   write_csv(file, remarks, steps, columns);
 }
 
