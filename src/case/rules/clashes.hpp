@@ -24,7 +24,7 @@ struct Use {
 namespace uses {
 
 inline constexpr Use kAny{"any use"}, kFiniteElements{"the finite elements"}, kHalfSpaces{"half-spaces"},
-    kRanks{"several ranks"}, kReceptance{"receptances"};
+    kRanks{"several ranks"}, kReceptance{"a receptance"};
 /// Elements and half-spaces of a case that rolls; the latter without a history in time.
 extern const Use kRollingElements, kSteadyRolling;
 inline constexpr Use kRolledPasses{"passes by finite elements", &kRollingElements},
