@@ -111,8 +111,10 @@ TEST(Guards, AWheelFliesOverAHollowAndComesDown) {
   spec.run.positions = {0.14};
   spec.irregularities.emplace_back();
   spec.irregularities.back().at = 0.07;
-  spec.irregularities.back().length = 0.04;
-  spec.irregularities.back().depth = 1e-3;
+  Indentation hollow;
+  hollow.length = 0.04;
+  hollow.depth = 1e-3;
+  spec.irregularities.back().shape = hollow;
   const RunResult run = run_rolling(small_system(spec), {});
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const HistoryRow& row : run.history) {

@@ -115,7 +115,9 @@ class FrontDoor(unittest.TestCase):
 
     def test_the_demo_goes_through_the_program_in_the_folder_of_the_caller(self):
         out = self.call("demo", "--out", "here")
-        self.assertEqual(out.stdout, f"program: run {self.root}/cases/quick --out here\n", out.stderr)
+        self.assertTrue(out.stdout.startswith(f"program: run {self.root}/cases/quick --out here\n"), out.stderr)
+        self.assertIn("\nResults: here\n", out.stdout)
+        self.assertEqual(self.call("demo", "--json").stdout, f"program: run {self.root}/cases/quick --json\n")
         self.assertFalse((self.root / "results").exists())
 
 

@@ -166,8 +166,11 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   CaseSpec spec = one_of_each();
   spec.layers.resize(2);
   spec.layers[1].on = BodyId::wheel;
-  spec.irregularities[0].at = spec.irregularities[0].depth = 1e-3;
-  spec.irregularities[0].length = 20e-3;
+  spec.irregularities[0].at = 1e-3;
+  Indentation hollow;
+  hollow.length = 20e-3;
+  hollow.depth = 1e-3;
+  spec.irregularities[0].shape = hollow;
   spec.stretches[0].along = {{0.1, 1, 1}, {0.2, 1.5, 0.5}};
   spec.friction = {.law = FrictionForm::coulomb,
                    .kinetic_coefficient = 0.1,
