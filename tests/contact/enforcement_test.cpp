@@ -121,6 +121,7 @@ TEST(Multipliers, AnswerWhichNodesSlip) {
 
 // A node that slid counts as sliding through a pause shorter than the mesh's fastest vibration, and no longer.
 TEST(Multipliers, TakeAShortPauseForSlip) {
+  constexpr double kPressure = 1e6;  // Pa; below, round-off of the velocities above decides
   Impact c(exact());
   const auto after_steps = [&](long steps, bool slides) {
     for (NodeTraction& t : c.memory.all())
@@ -136,7 +137,7 @@ TEST(Multipliers, TakeAShortPauseForSlip) {
       enforce_contact(touching, kStep, exact(10), again, c.memory);
     }
     int slipping = 0;
-    for (const NodeTraction& t : c.memory.all()) slipping += t.slips();
+    for (const NodeTraction& t : c.memory.all()) slipping += t.p > kPressure && t.slips();
     return slipping;
   };
   EXPECT_EQ(after_steps(2, false), 0);

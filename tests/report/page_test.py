@@ -1130,7 +1130,7 @@ class Command(unittest.TestCase):
         self.assertNotIn("cpu", json.loads(data)["runs"][0]["provenance"])
 
     def test_several_folders_need_a_place(self):
-        self.refused(2, [FEM, BEM], "2 folders are given and no --out",
+        self.refused(2, [FEM, BEM, FEM], "3 folders are given and no --out",
                      "remedy: say where the page is to be written, e.g. --out comparison.html")
 
 
