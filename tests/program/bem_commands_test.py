@@ -500,7 +500,7 @@ young_ratio = 2.0
         out = ["--out", self.folder / "sweep"]
         self.refused(2, ["sweep", BASE, "--vary", "drive.traction=0.1,0.2", *out], "unknown key drive.traction",
                      "traction_coefficient")
-        self.refused(2, ["sweep", BASE, "--vary", "drive.speed", *out], '--vary "drive.speed" names no key',
+        self.refused(2, ["sweep", BASE, "--vary", "drive.speed", *out], '--vary "drive.speed"',
                      "remedy: write --vary key=value,value")
         self.refused(2, ["sweep", BASE, "--vary", "drive.speed=10 m/s,,20 m/s", *out], "has an empty value")
         self.refused(2, ["sweep", BASE, "--vary", "drive.speed=10 m/s", "--vary", "drive.speed=20 m/s", *out],

@@ -144,7 +144,7 @@ TEST(DeviceOptions, NoneIsForgotten) {
   std::set<std::string> varied;
   for (const Overrides& set : taken())
     for (const std::string& o : set) varied.insert(o.substr(0, o.find('=')));
-  for (const char* name : {"vehicle", "drive", "friction", "third_body", "mesh", "contact", "run"})
+  for (const char* name : {"vehicle", "drive", "friction", "third_body", "mesh", "run"})
     for (const Option& option : find_table(name)->options) {
       const std::string key = std::string(name) + "." + std::string(option.key);
       EXPECT_TRUE(varied.contains(key) != others().contains(key)) << key;
