@@ -9,7 +9,8 @@ to 1.5 mm), leaves out those that are refused, touch at several places or fail a
 quarter, not below 0.08 mm. A row is written as soon as it is there; a file that exists is gone on with. Some seconds a
 case. `cover` solves every row on its cell and prints by column how many references lie within the bars, percentiles of
 error over bar, and the median bar. bench/results/cell_errors.csv (seed 20, 150 cases) gave the constants of
-src/results/judge/cell_errors.hpp: the 98th percentile is 1 or a little less. tests/data/reference/cell_errors.csv (seed 21, 50
+src/results/judge/cell_errors.hpp: the 98th percentile is 1 or a little less.
+tests/data/reference/cell_errors.csv (seed 21, 50
 cases) are those that the test holds them against.
 """
 import argparse

@@ -4,10 +4,10 @@
 usage: check_expect.py CASE RESULTS            CASE: a case file, or a folder with case.toml; RESULTS: the run's folder
        check_expect.py CASE --run BINARY       runs the case first, in a folder of its own, and wants exit code 0; one
                                                of the folder contact, with a [transient] table, a line contact or a
-                                               yawed wheel on a roller by half-spaces, one with [[load]] as a collective, whose numbers stand
-                                               in collective.json, one with [collective] too, on coarse cells and
-                                               without passes for its lives, one with [passes] as a few passes on
-                                               coarse cells: passes.json
+                                               yawed wheel on a roller by half-spaces, one with [[load]] as a
+                                               collective, whose numbers stand in collective.json, one with
+                                               [collective] too, on coarse cells and without passes for its lives,
+                                               one with [passes] as a few passes on coarse cells: passes.json
 
 The expectations of NAME.toml stand beside it in NAME.expect.toml, those of case.toml in expect.toml; one table a
 quantity:

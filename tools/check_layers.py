@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Checks every #include of src/ against src/LAYERS: a room sees itself and the rooms on lower floors, nothing else. A
-room is a folder of its wing, src/<wing>/<room>. Beside src/, extras/LAYERS has for each extra the floors of src/ it sees and the rooms that see it. Every room has
-a card, README.md, whose first heading is the room's name; the files that a card names exist. Below the highest room
-nothing prints, logs, ends the program or touches signals: others can call it.
+room is a folder of its wing, src/<wing>/<room>. extras/LAYERS gives for each extra the floors of src/ it sees and the
+rooms that see it. Every room has a card, README.md, whose first heading is the room's name; the files that a card names
+exist. Below the highest room nothing prints, logs, ends the program or touches signals: others can call it.
 
 usage: check_layers.py SRC
 """
@@ -221,7 +221,8 @@ def test_cards():
     with tempfile.TemporaryDirectory() as name:
         src = pathlib.Path(name) / "src"
         cards = {
-            "good": "# good\n`a.hpp`, `bad/a.hpp`, `src/house/good/a.hpp`, `<name>.cpp`, [rooms](../../LAYERS), `patch.csv`\n",
+            "good": "# good\n`a.hpp`, `bad/a.hpp`, `src/house/good/a.hpp`, `<name>.cpp`, [rooms](../../LAYERS), "
+                    "`patch.csv`\n",
             "bad": "# good\n`a.hpp`\n`gone.hpp`, `tests/gone`, [page](gone.md#part), `Body`\n",
             "none": None,
         }

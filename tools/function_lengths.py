@@ -19,8 +19,8 @@ MOST = 60
 MOST_OF_FILE = 500
 MOST_FIELDS = 25  # wanted: 20
 COMMAND = [
-    "ctags", "-R", "--languages=C++", "--langmap=C++:.cpp.hpp", "--kinds-C++=fm", "--fields=+neKs", "--output-format=json",
-    "-f", "-"
+    "ctags", "-R", "--languages=C++", "--langmap=C++:.cpp.hpp", "--kinds-C++=fm", "--fields=+neKs",
+    "--output-format=json", "-f", "-"
 ]
 
 
@@ -51,7 +51,7 @@ def long_files(tags):
 
 
 def findings(paths, most=MOST):
-    """A line for each function of more than `most` lines, as compilers write theirs, longest first; then types, files."""
+    """A line for each function of more than `most` lines, as compilers write theirs, longest first; types; files."""
     tags = tags_of(paths)
     long = sorted((f for f in functions(tags) if f[3] > most), key=lambda f: -f[3])
     return [f"{file}:{line}: warning: {name} has {n} lines, at most {most} are wanted [function-length]"

@@ -37,8 +37,8 @@ TEST(CInterface, HasTheNumbersOfTheCppOne) {
 
 TEST(CInterface, StatesHaveTheNumbersOfTheirCases) {
   Handle contact, other({"geometry.lateral_shift=0.5 mm", "drive.creepage=-0.0008", "drive.spin=0.1 1/m",
-                          "drive.lateral_creepage=0.0005", "drive.speed=20 m/s", "drive.friction_coefficient=0.4",
-                          "vehicle.wheel_load=70 kN"});
+                         "drive.lateral_creepage=0.0005", "drive.speed=20 m/s", "drive.friction_coefficient=0.4",
+                         "vehicle.wheel_load=70 kN"});
   ASSERT_NE(other.handle, nullptr) << other.error.message;
   rs_state state =
       state_of(RS_LATERAL_SHIFT | RS_CREEPAGE_X | RS_CREEPAGE_Y | RS_SPIN | RS_SPEED | RS_FRICTION | RS_LOAD);

@@ -1,4 +1,4 @@
-"""Members of states and forces: the lists in src/work/ask, railstrata.h and what tools/write_interface.py makes of it."""
+"""Members of states and forces: the lists in src/work/ask, railstrata.h, what tools/write_interface.py writes."""
 import re
 import subprocess
 import sys

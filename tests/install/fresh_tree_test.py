@@ -53,7 +53,8 @@ def missing_lines(shown, printed):
 def demo(tree, source):
     printed = tree.run(f"cd {HOME} && ./railstrata demo 2>&1")
     shown = re.search(r"```text\n(  p_max.*?)```", (source / "README.md").read_text(), re.S)[1]
-    assert not missing_lines(shown, printed), ("README.md shows what demo does not print", missing_lines(shown, printed))
+    missed = missing_lines(shown, printed)
+    assert not missed, ("README.md shows what demo does not print", missed)
     results = tree.folder / HOME[1:] / "results/quick"
     assert json.loads((results / "summary.json").read_text())["contact"]["p_max_Pa"] > 1e9
     assert (results / "report.html").stat().st_size > 100000

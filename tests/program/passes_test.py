@@ -170,7 +170,8 @@ class Passes(FromOutside):
         self.assertLessEqual(max(abs(y) for y in one), 6.5)
         self.assertNotEqual(one, places(2))
         self.refused(2, ["passes", BASE, *COARSE, *strength(400), "--out", self.folder / "none", "--set",
-                         'passes.lateral_positions=["0 mm", "200 mm"]'], "another part of the profile", "passes.lateral_positions")
+                         'passes.lateral_positions=["0 mm", "200 mm"]'], "another part of the profile",
+                     "passes.lateral_positions")
 
     @slow
     def test_strains_that_are_no_longer_small_are_said_in_result_screen_and_page(self):

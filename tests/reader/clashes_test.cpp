@@ -1,4 +1,4 @@
-// The table of what excludes what, row by row: an example that breaks the rule, and what the message says of it.
+// The table of what excludes what, row by row: an example that breaks the rule, and what the message must name.
 #include "rules/clashes.hpp"
 
 #include <gtest/gtest.h>

@@ -33,7 +33,8 @@ def engine_is_todays(sources):
     are those of the commit that it names."""
     commit = re.search(r"\((\w+)\)", (sources / "web/dist/engine_version.txt").read_text())[1]
     try:
-        return subprocess.run(["git", "-C", sources, "diff", "--quiet", commit, "--", "src/*.cpp", "src/*.hpp", "src/*.h",
+        return subprocess.run(["git", "-C", sources, "diff", "--quiet", commit, "--", "src/*.cpp", "src/*.hpp",
+                               "src/*.h",
                                "web/engine"], capture_output=True).returncode == 0
     except FileNotFoundError:
         return False

@@ -158,8 +158,8 @@ using enum ClashRule;
 constexpr const char *kOneOut = "take one of them out", *kOut = "take it out",
                      *kByBem = "take it out, or solve the case with `railstrata bem`",
                      *kByRun = "take it out, or roll over it with `railstrata run`",
-                     *kCpu = "give run.device = \"cpu\"", *kNoWindow = "give run.window = \"0 mm\"",
-                     *kMixes = "averaging over the window would mix different sections of the rail",
+                     *kCpu = "give run.device = \"cpu\"", *kNoWindow = "give run.window = \"0 mm\"";
+constexpr const char *kMixes = "averaging over the window would mix different sections of the rail",
                      *kPoint = "leave it out, or give geometry.contact = \"point\"",
                      *kFilmThickness = "give the film's thickness, e.g. third_body.thickness = \"20 um\"";
 constexpr const char *kStraight = "its wheel rolls straight on and level", *kAcross = "all places across are the same",
@@ -395,7 +395,7 @@ constexpr Clash kClashes[] = {
     {kRollingDevice, idle_with, uses::kHalfSpaces, "half-spaces are computed on processors", ""},
 
     // Commands
-    {"geometry.contact = \"line\"", excludes, uses::kCreepCurve, "the fast theories beside it need ellipses",
+    {"geometry.contact = \"line\"", excludes, uses::kCreepCurve, "the fast theories need elliptic patches",
      "take `railstrata sweep` over drive.creepage, or geometry.contact = \"point\""},
     {uses::kCreepCurve, needs, kFriction, "", "give drive.friction_coefficient above 0"},
     {"transient.kind", idle_with, uses::kCreepCurve, "it assumes steady rolling", ""},

@@ -29,11 +29,12 @@ inline constexpr Use kAny{"any use"}, kFiniteElements{"the finite elements"}, kH
 extern const Use kRollingElements, kSteadyRolling;
 inline constexpr Use kRolledPasses{"passes by finite elements", &kRollingElements},
     kElasticShakedown{"shakedown by finite elements", &kFiniteElements},
-    kDeck{"a deck for another program", &kFiniteElements}, kPasses{"passes by half-spaces", &kSteadyRolling},
-    kCreepCurve{"a creep curve", &kSteadyRolling}, kCreepTable{"a creep table", &kSteadyRolling},
+    kDeck{"a deck for another program", &kFiniteElements}, kPasses{"passes by half-spaces", &kSteadyRolling};
+inline constexpr Use kCreepCurve{"a creep curve", &kSteadyRolling}, kCreepTable{"a creep table", &kSteadyRolling},
     kCollective{"`railstrata collective`", &kSteadyRolling}, kWearLoop{"the wear loop", &kCollective},
-    kExplorer{"the explorer", &kHalfSpaces}, kWheelset{"a wheelset", &kHalfSpaces},
-    kContactResult{"a result for CONTACT", &kHalfSpaces}, kContactInput{"an input file of CONTACT", &kContactResult};
+    kExplorer{"the explorer", &kHalfSpaces};
+inline constexpr Use kWheelset{"a wheelset", &kHalfSpaces}, kContactResult{"a result for CONTACT", &kHalfSpaces},
+    kContactInput{"an input file of CONTACT", &kContactResult};
 
 }  // namespace uses
 

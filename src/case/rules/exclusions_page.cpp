@@ -71,7 +71,7 @@ std::string exclusions_markdown() {
     if (use->part_of) out += fmt::format("Besides what {} cannot take:\n\n", use->part_of->name);
     out += rows;
   }
-  out += "## Settings without effect\n\nA note says so, and the case is computed.\n\n";
+  out += "## Settings without effect\n\nA note reports the setting, and the case is computed.\n\n";
   out += table(nullptr, {idle_with}, "setting | has no effect with");
   out += table(nullptr, {idle_without}, "setting | has no effect without");
   for (const Use* use : all_uses())

@@ -49,7 +49,8 @@ def main():
     for file in files:
         with tempfile.TemporaryDirectory() as folder:
             command = [nvcc, "-std=c++20", "--expt-relaxed-constexpr", "-O3", "-ccbin", host, "-arch=sm_90", "-Xptxas"]
-            command += ["-v", "-I", f"{source}/src", "-I", f"{source}/extras", "-c", str(file), "-o", f"{folder}/out.o"]
+            wings = [f"-I{wing}" for wing in sorted(pathlib.Path(source, "src").iterdir()) if wing.is_dir()]
+            command += ["-v", *wings, "-I", f"{source}/extras", "-c", str(file), "-o", f"{folder}/out.o"]
             run = subprocess.run(command, capture_output=True, text=True, check=False)
         if run.returncode:
             print(run.stdout + run.stderr)
