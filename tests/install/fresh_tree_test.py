@@ -42,10 +42,10 @@ def words_and_numbers(line):
 
 
 def missing_lines(shown, printed):
-    """Lines of a page that a command's output does not have, to three units of the last digit (processors differ)."""
+    """Lines of a page that begin none of an output's lines, to three units of the last digit (processors differ)."""
     there = [words_and_numbers(line) for line in printed.splitlines()]
     return [line for line in shown.splitlines() if not any(
-        words == words_and_numbers(line)[0]
+        words.startswith(words_and_numbers(line)[0])
         and all(abs(a - b) <= 3 * last for (a, last), (b, _) in zip(words_and_numbers(line)[1], numbers))
         for words, numbers in there)]
 
