@@ -87,7 +87,7 @@ class Packages(unittest.TestCase):
         where = {pathlib.Path(path).name: name for path, name in seen.items()}
         self.assertEqual(where["railstrata.h"], "librailstrata-dev")
         self.assertEqual(where["librailstrata.so"], "librailstrata-dev")
-        self.assertEqual(where["railstrata-bem.1.gz"], "railstrata")
+        self.assertEqual(where["railstrata.1.gz"], "railstrata")
         self.assertEqual(where["__init__.py"], "python3-railstrata")
         if PLUG_IN:
             self.assertEqual(where["railstrata_mpi.so"], "railstrata-mpi")
@@ -150,9 +150,9 @@ class Installed(unittest.TestCase):
     def test_the_manual_is_read(self):
         if not shutil.which("man"):
             self.skipTest("man is not installed (Debian: man-db)")
-        out = done("man", "-M", TREE / "usr/share/man", "railstrata-bem",
+        out = done("man", "-M", TREE / "usr/share/man", "railstrata",
                    env=environment(MANWIDTH="80", LC_ALL="C.UTF-8"))
-        self.assertIn("--cell", out)
+        self.assertIn("railstrata bem cases/quick", out)
 
 
 if __name__ == "__main__":
