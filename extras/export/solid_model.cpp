@@ -9,7 +9,7 @@
 #include "core/rotation.hpp"
 #include "mesh/station_weights.hpp"
 #include "mesh/unstructured.hpp"
-#include "rules/engine_scope.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -182,7 +182,7 @@ double missed_by_nodes(const SolidModel& model) {
 }
 
 SolidModel solid_model(const Model& m) {
-  require_finite_elements(m.spec);
+  require_support(uses::kFiniteElements, m.spec);
   if (!m.spec.track.held())
     throw CaseError("a rail on a track (track.preset) is not exported: the decks hold its foot", "take [track] out",
                     "track.preset");

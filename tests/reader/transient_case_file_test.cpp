@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "reader/case_file.hpp"
-#include "rules/engine_scope.hpp"
+#include "rules/support.hpp"
 #include "tables/history_table.hpp"
 #include "tests/places.hpp"
 

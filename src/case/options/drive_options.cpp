@@ -34,7 +34,7 @@ double creepage_of_rotation(const CaseSpec& spec, std::size_t, double rotation) 
 bool traction_given(const CaseSpec& spec, std::size_t) { return spec.drive.traction().has_value(); }
 bool load_given(const CaseSpec& spec, std::size_t) { return !spec.vehicle.approach; }
 
-/// Not all of them are in both engines (rules/engine_scope.hpp).
+/// Not all of them are in both engines (rules/support.hpp).
 std::vector<Option> creepage_options() {
   return {
       option("creepage", at<&C::drive, &D::creepage>,

@@ -19,7 +19,7 @@ struct LoadedCase {
   std::vector<std::string> elastic_notes;     ///< the same where nothing yields: laws that are not read
   std::vector<std::string> static_notes;      ///< the same where run.rolling counts: what its false makes void
   std::vector<std::filesystem::path> inputs;  ///< every file that went in: the case and the profile files
-  std::vector<Diagnostic> not_in_fem;         ///< what the finite element engine refuses (rules/engine_scope.hpp)
+  std::vector<Diagnostic> not_in_fem;         ///< what the finite element engine refuses (rules/support.hpp)
   /// Folder against which relative profile names are understood.
   std::filesystem::path folder() const { return file.parent_path(); }
 };
@@ -34,6 +34,16 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
 
 /// The same faults, those that name a key of the case alone (in `where`) at its place in the file, others at the file.
 CaseError in_case_file(const LoadedCase& loaded, const CaseError& error);
+
+/// The work's result; CaseErrors of it get their places in the case.
+template <class Work>
+auto with_places(const LoadedCase& loaded, Work&& work) {
+  try {
+    return work();
+  } catch (const CaseError& e) {
+    throw in_case_file(loaded, e);
+  }
+}
 
 /// The spec as a case file with every option written out.
 std::string resolved_case(const CaseSpec& spec);

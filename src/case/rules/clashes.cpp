@@ -6,7 +6,7 @@
 
 #include "geometry/profile_names.hpp"
 #include "model/material_strength.hpp"
-#include "rules/engine_scope.hpp"
+#include "rules/support.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {
@@ -45,6 +45,9 @@ bool yields(const MaterialSpec& material) {
   const StrengthSpec& s = material.strength;
   return !s.elastic && !(s.hardening.empty() && std::isnan(MaterialStrength(s, {}, {}).yield(0)));
 }
+
+// The words of features name these limits.
+static_assert(kThinnestMeshedLayer == 0.05e-3 && kLargestMeshedPoisson == 0.495 && kLargestRunCreepage == 0.1);
 
 // Features that are more than a value at a key.
 constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return !is_flat(c.geometry.wheel_profile); },

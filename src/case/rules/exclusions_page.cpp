@@ -54,10 +54,9 @@ std::string heading(std::string name) {
 std::string exclusions_markdown() {
   std::string out =
       "# What excludes what\n\n<!-- Written by `railstrata info --schema --exclusions` from "
-      "src/case/rules/clashes.cpp; a "
-      "test "
-      "holds this page against the program. -->\n\nA case that breaks one of these rules is refused before anything is "
-      "meshed or solved, with the place in its\nfile. Ranges of numbers are in the [case reference](case-reference.md)."
+      "src/case/rules/clashes.cpp; a test holds this page against the program. -->\n\n"
+      "A case that breaks one of these rules is refused before anything is meshed or solved, with the place in its\n"
+      "file. Ranges of numbers are in the [case reference](case-reference.md)."
       "\n\n## Settings that exclude each other\n\n";
   out += table(nullptr, {excludes}, "setting | cannot be combined with");
   out += "## Settings that need another\n\n" + table(nullptr, {needs}, "setting | needs");

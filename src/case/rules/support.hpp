@@ -7,6 +7,9 @@
 
 namespace railstrata {
 
+/// Largest creepage of a run of finite elements, in either direction.
+inline constexpr double kLargestRunCreepage = 0.1;
+
 /// Empty for a case that it takes.
 std::vector<Refusal> refused_by(const Use& use, const CaseSpec& spec);
 

@@ -5,7 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/shipped_files.hpp"
-#include "rules/engine_scope.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -42,7 +42,7 @@ LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
 
 LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use) {
   LoadedCase loaded = load_case_of(options, use);
-  with_places(loaded, [&] { require_half_spaces(loaded.spec); });
+  with_places(loaded, [&] { require_support(uses::kHalfSpaces, loaded.spec); });
   const RunSpec& run = loaded.spec.run;
   if (run.rolling && run.device != ComputeDevice::cpu)  // else a note of the case reports it
     spdlog::warn("run.device is ignored: half-spaces are computed on the CPU");

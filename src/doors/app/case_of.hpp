@@ -19,16 +19,6 @@ LoadedCase load_case_of(const CommandOptions& options, CaseUse use = CaseUse::co
 /// The same for the half-space engine, which warns that it ignores run.device.
 LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use = CaseUse::contact);
 
-/// The work's result; CaseErrors of it get their places in the case (in_case_file).
-template <class Work>
-auto with_places(const LoadedCase& loaded, Work&& work) {
-  try {
-    return work();
-  } catch (const CaseError& e) {
-    throw in_case_file(loaded, e);
-  }
-}
-
 /// Throws CaseError with what the finite element engine refuses of the case.
 void require_finite_elements(const LoadedCase& loaded);
 

@@ -16,7 +16,7 @@
 #include "core/printable.hpp"
 #include "fem/memory_need.hpp"
 #include "io/output_folder.hpp"
-#include "rules/engine_scope.hpp"
+#include "rules/support.hpp"
 #include "runs/device_at_hand.hpp"
 
 namespace railstrata {
@@ -57,15 +57,6 @@ ExitCode check_without_mesh(const LoadedCase& loaded, bool json) {
   return ExitCode::ok;
 }
 
-bool in_half_spaces(const CaseSpec& spec) {
-  try {
-    require_half_spaces(spec);
-  } catch (const CaseError&) {
-    return false;
-  }
-  return true;
-}
-
 /// Where the bodies touch but cannot be meshed there (a contact on the flange), `run` alone refuses the case.
 Model model_for_run(const LoadedCase& loaded) {
   try {
@@ -76,7 +67,7 @@ Model model_for_run(const LoadedCase& loaded) {
         "the bodies touch at y = {:.3f} mm, z = {:.3f} mm, at an angle of {:.1f} degrees; {}`railstrata run` "
         "refuses the case:",
         1e3 * c.point.y, 1e3 * c.point.z, c.angle * 180 / std::numbers::pi,
-        in_half_spaces(loaded.spec) ? "`railstrata bem` makes no mesh and takes it, " : "");
+        refused_by(uses::kHalfSpaces, loaded.spec).empty() ? "`railstrata bem` makes no mesh and takes it, " : "");
     if (e.diagnostics.front().where.empty()) throw;
     throw in_case_file(loaded, e);
   }

@@ -38,12 +38,8 @@ void answer_half_space(Call& call) {
   how.observer = [&](const TransientState& state) {
     call.report(Json::array({static_cast<double>(state.step) / state.steps}));
   };
-  try {
-    run->answer = ask(loaded->spec, run->placement, wanted, how);
-    if (run->answer.stopped) throw Interrupted("stopped");
-  } catch (const CaseError& e) {
-    throw in_case_file(*loaded, e);
-  }
+  run->answer = with_places(*loaded, [&] { return ask(loaded->spec, run->placement, wanted, how); });
+  if (run->answer.stopped) throw Interrupted("stopped");
   call.answer["summary"] = summary_json(run->answer.summary);
   call.answer["notes"] = run->answer.result.notes;
   call.answer["patches"] = Json::array({patch_of(run->patch(0).field)});

@@ -8,8 +8,8 @@
 #include "core/faults.hpp"
 #include "halfspace/creep_theories.hpp"
 #include "model/drive_at_contact.hpp"
-#include "rules/engine_scope.hpp"
 #include "rules/irregularity_rules.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -24,7 +24,7 @@ void vary(VariedCreepage varied, double creepage, RollingContact& contact) {
 
 std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, VariedCreepage varied,
                                          const std::vector<double>& creepages, const BemOptions& options) {
-  require_half_spaces(spec);
+  require_support(uses::kHalfSpaces, spec);
   require_same_along(spec, "a creep curve");
   if (!(spec.drive.friction_coefficient > 0))
     throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero",

@@ -13,8 +13,8 @@
 #include "bem/several_patches.hpp"
 #include "core/faults.hpp"
 #include "model/drive_at_contact.hpp"
-#include "rules/engine_scope.hpp"
 #include "rules/irregularity_rules.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 
@@ -424,7 +424,7 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   const auto begin = std::chrono::steady_clock::now();
   if (spec.drive.creepage_of == CreepageOf::wheel)
     return solve_bem(with_drive_at_contact(spec, placement.contact), placement, options);
-  require_half_spaces(spec);
+  require_support(uses::kHalfSpaces, spec);
   if (spec.run.rolling) require_same_along(spec, "steady rolling of half-spaces");
   SharedLoad shared =
       spec.vehicle.approach ? press_to_approach(spec, placement, options) : bear_weight(spec, placement, options);

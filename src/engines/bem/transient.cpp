@@ -12,8 +12,8 @@
 
 #include "bem/several_patches.hpp"
 #include "core/faults.hpp"
-#include "rules/engine_scope.hpp"
 #include "rules/irregularity_rules.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -268,7 +268,7 @@ int transient_steps(const CaseSpec& spec, const Placement& placement, double cel
 
 TransientState solve_transient(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                                const TransientObserver& observer) {
-  require_half_spaces(spec);
+  require_support(uses::kHalfSpaces, spec);
   return Course(spec, placement, options).run(observer);
 }
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "halfspace/creep_theories.hpp"
-#include "rules/engine_scope.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {

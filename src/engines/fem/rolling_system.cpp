@@ -8,7 +8,7 @@
 #include "core/faults.hpp"
 #include "fem/lateral_start.hpp"
 #include "fem/plastic_zone.hpp"
-#include "rules/engine_scope.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 
@@ -157,7 +157,7 @@ ContactSurface wheel_surface_of(const Model& m, const Body& wheel) {
 }  // namespace
 
 RollingSystem::RollingSystem(const Model& m)
-    : model((require_finite_elements(m.spec), m)),
+    : model((require_support(uses::kFiniteElements, m.spec), m)),
       options(explicit_options(m)),
       bodies{Body(m.rail, m.rail_materials, element_options(m.spec)),
              Body(m.wheel, m.wheel_materials, element_options(m.spec))},

@@ -7,7 +7,7 @@
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "fem/static_vector.hpp"
-#include "rules/engine_scope.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -59,7 +59,7 @@ Stepper::Stepper(const RollingSystem& system, const Ranks& ranks)
       track_(system.pads),
       interface_(system.rail()) {
   require_stable(system.pads, system.rail(), dt(), system.model.spec.run.step_safety);
-  if (!ranks.alone()) require_shareable(system.model.spec);
+  if (!ranks.alone()) require_support(uses::kRanks, system.model.spec);
   if (!ranks.alone()) exchange_.emplace(ranks, system.model, bodies_);
 }
 

@@ -113,13 +113,7 @@ ChosenMaterial choose_material(const LoadedCase& card, const std::string& word) 
 }
 
 ChosenLaw law_of(const LoadedCase& card, const ChosenMaterial& chosen, double depth) {
-  const auto law = [&] {
-    try {
-      return plastic_law(chosen.spec, chosen.name, chosen.key);
-    } catch (const CaseError& e) {
-      throw in_case_file(card, e);
-    }
-  }();
+  const auto law = with_places(card, [&] { return plastic_law(chosen.spec, chosen.name, chosen.key); });
   if (!law)
     throw CaseError(
         chosen.spec.strength.elastic ? fmt::format("{} is elastic on purpose: there is no law to drive", chosen.key)

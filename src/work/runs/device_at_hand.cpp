@@ -1,7 +1,7 @@
 #include "runs/device_at_hand.hpp"
 
 #include "device/device_of.hpp"
-#include "rules/engine_scope.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -13,7 +13,7 @@ bool on_a_device(const CaseSpec& spec) { return spec.run.rolling && spec.run.dev
 }  // namespace
 
 void require_device(const CaseSpec& spec, const Ranks& ranks) {
-  if (spec.run.rolling && !ranks.alone()) require_shareable(spec);
+  if (spec.run.rolling && !ranks.alone()) require_support(uses::kRanks, spec);
   if (!on_a_device(spec)) return;
   if (!ranks.alone())
     throw CaseError("several ranks share a run on processors only", "start one rank, or run.device = \"cpu\"", kKey);
@@ -22,9 +22,7 @@ void require_device(const CaseSpec& spec, const Ranks& ranks) {
 
 void require_device(const LoadedCase& loaded, const Ranks& ranks) {
   try {
-    require_device(loaded.spec, ranks);
-  } catch (const CaseError& e) {
-    throw in_case_file(loaded, e);
+    with_places(loaded, [&] { require_device(loaded.spec, ranks); });
   } catch (const EnvironmentError& e) {
     const Diagnostic found = in_case_file(loaded, CaseError(e.what(), e.remedy, kKey)).diagnostics.front();
     throw EnvironmentError(found.where + ": " + found.message, found.remedy);

@@ -29,16 +29,6 @@ void require_steady(const LoadedCase& loaded) {
                     loaded.file.string());
 }
 
-/// The work's result; CaseErrors of it get their places in the case.
-template <class Work>
-auto with_places(const LoadedCase& loaded, Work&& work) {
-  try {
-    return work();
-  } catch (const CaseError& e) {
-    throw in_case_file(loaded, e);
-  }
-}
-
 class SteadyPasses : public PassJob {
  public:
   SteadyPasses(LoadedCase loaded, const PassOrder& order, Control& control)

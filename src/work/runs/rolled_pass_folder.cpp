@@ -17,12 +17,10 @@ namespace {
 
 RolledPasses passes_of(const LoadedCase& loaded, double roll_length) {
   if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
-  try {
+  return with_places(loaded, [&] {
     require_same_along(loaded.spec, "a series of passes");
-    return {loaded.spec, loaded.folder(), roll_length};
-  } catch (const CaseError& e) {
-    throw in_case_file(loaded, e);
-  }
+    return RolledPasses(loaded.spec, loaded.folder(), roll_length);
+  });
 }
 
 class RolledPassJob : public PassJob {
