@@ -95,7 +95,8 @@ int solve_patches(int ire, ModuleOne& wheel, Problem& base) {
   Patches patches(ire);
   solve_wheel(wheel, base, patches, remarks);
   int at_border = 0;
-  for (int k = 1; k <= static_cast<int>(wheel.patches.size()); ++k) at_border += patches.patch(k).solved->border_cells;
+  for (int k = 1; k <= static_cast<int>(wheel.found.patches.size()); ++k)
+    at_border += patches.patch(k).solved->border_cells;
   for (const std::string& remark : remarks) registry().report(ire, -1, &base, kCall, 0, remark);
   return at_border;
 }
@@ -149,7 +150,7 @@ int calculate_blocks(int ire, int icp) noexcept {
     const ModuleOne* wheel = icp < 1 ? registry().find_wheel(ire) : nullptr;
     if (!wheel) return solve_blocks(problem);
     Patches patches(ire);
-    for (int k = 1; k <= static_cast<int>(wheel->patches.size()); ++k) {
+    for (int k = 1; k <= static_cast<int>(wheel->found.patches.size()); ++k) {
       Problem& patch = patches.patch(k);
       patch.blocks = problem.blocks;
       solve_blocks(patch);

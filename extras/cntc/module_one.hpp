@@ -39,6 +39,13 @@ struct WheelRailPatch {
   Vec3 force, moment_on_rail, force_of_wheelset, moment_on_wheel;
 };
 
+/// Results.
+struct FoundPlace {
+  double sunk = 0;  ///< m, of the last height that was found under a load below that of the first touch
+  std::vector<WheelRailPatch> patches;
+  Marker wheelset_at, wheel_in_wheelset, rail_at;
+};
+
 struct ModuleOne {
   std::optional<Outline> rail, wheel;
   TrackPlace track;
@@ -53,10 +60,7 @@ struct ModuleOne {
   double relative_step = 1;  ///< DQREL
   std::vector<FrictionSlice> slices;
   int friction_digit = 0, varies = 0;  ///< L, V
-  // Results.
-  double sunk = 0;  ///< m, of the last height that was found under a load below that of the first touch
-  std::vector<WheelRailPatch> patches;
-  Marker wheelset_at, wheel_in_wheelset, rail_at;
+  FoundPlace found;
 };
 
 using Numbers = std::span<const double>;

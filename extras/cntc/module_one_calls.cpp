@@ -105,7 +105,7 @@ void cntc_getwheelsetvelocity(const int* ire, const int* lenarr, double* values)
 void cntc_getnumcontactpatches(const int* ire, int* npatch) {
   *npatch = -1;
   with_wheel(*ire, "cntc_getnumcontactpatches",
-             [&](ModuleOne& one, Problem&) { *npatch = static_cast<int>(one.patches.size()); });
+             [&](ModuleOne& one, Problem&) { *npatch = static_cast<int>(one.found.patches.size()); });
 }
 
 void cntc_getcontactlocation(const int* ire, const int* icp, const int* lenarr, double* values) {

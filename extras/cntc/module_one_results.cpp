@@ -25,8 +25,8 @@ class List {
 };
 
 const WheelRailPatch* patch_of(const ModuleOne& one, int number) {
-  return number >= 1 && number <= static_cast<int>(one.patches.size())
-             ? &one.patches[static_cast<std::size_t>(number - 1)]
+  return number >= 1 && number <= static_cast<int>(one.found.patches.size())
+             ? &one.found.patches[static_cast<std::size_t>(number - 1)]
              : nullptr;
 }
 
@@ -57,15 +57,16 @@ std::vector<double> contact_location(const ModuleOne& one, const Problem& base, 
   out.put(13, {-arc(*one.wheel, patch->on_wheel), side * patch->on_wheel.roll()});
   const Vec3 pressed = centre_of_pressure(*patch, problem);
   out.put(15, {pressed.x / length, side * pressed.y / length});
-  const Marker wheel = placed(one.wheelset_at, one.wheel_in_wheelset);
+  const Marker wheel = placed(one.found.wheelset_at, one.found.wheel_in_wheelset);
   put(21, wheel);
   out.put(24, {side * wheel.roll(), side * wheel.yaw()});
-  out.put(26, {side * one.rail_at.at.y / length, one.rail_at.at.z / length, side * one.rail_at.roll()});
-  const Marker in_wheelset = seen_from(one.wheelset_at, m);
+  out.put(26,
+          {side * one.found.rail_at.at.y / length, one.found.rail_at.at.z / length, side * one.found.rail_at.roll()});
+  const Marker in_wheelset = seen_from(one.found.wheelset_at, m);
   put(30, in_wheelset);
   out.put(33, {side * in_wheelset.roll()});
-  put(34, one.wheel_in_wheelset);
-  out.put(37, {side * one.wheel_in_wheelset.roll(), side * one.wheel_in_wheelset.yaw()});
+  put(34, one.found.wheel_in_wheelset);
+  out.put(37, {side * one.found.wheel_in_wheelset.roll(), side * one.found.wheel_in_wheelset.yaw()});
   return out.take();
 }
 
@@ -79,7 +80,7 @@ std::vector<double> global_forces(const ModuleOne& one, const Problem& base, int
     on_wheel += p.moment_on_wheel;
   };
   if (number == -1)
-    for (const WheelRailPatch& p : one.patches) add(p);
+    for (const WheelRailPatch& p : one.found.patches) add(p);
   else if (const WheelRailPatch* p = patch_of(one, number))
     add(*p);
   const double side = side_of(base), body = base.units.body, length = base.units.length;
@@ -89,8 +90,8 @@ std::vector<double> global_forces(const ModuleOne& one, const Problem& base, int
   };
   put(1, track, on_rail);
   put(7, wheelset, on_wheel);
-  put(13, one.rail_at.turned_back(track), one.rail_at.turned_back(on_rail));
-  put(19, one.wheel_in_wheelset.turned_back(wheelset), one.wheel_in_wheelset.turned_back(on_wheel));
+  put(13, one.found.rail_at.turned_back(track), one.found.rail_at.turned_back(on_rail));
+  put(19, one.found.wheel_in_wheelset.turned_back(wheelset), one.found.wheel_in_wheelset.turned_back(on_wheel));
   return out.take();
 }
 
@@ -143,7 +144,7 @@ std::vector<double> profile_values(const ModuleOne& one, const Problem& base, in
   const std::vector<double> at = places(p, ints.size() > 1 ? ints[1] : 0, kMilli * step);
   if (task == 0) return {static_cast<double>(at.size())};
   std::vector<double> first, second;
-  const Marker place = of_wheel ? placed(one.wheelset_at, one.wheel_in_wheelset) : one.rail_at;
+  const Marker place = of_wheel ? placed(one.found.wheelset_at, one.found.wheel_in_wheelset) : one.found.rail_at;
   for (const double s : at) {
     const double inside = std::clamp(s, p.s_min(), p.s_max());
     const Outline::Point q = outline->along(inside);

@@ -52,19 +52,19 @@ RigidPair place(ModuleOne& one, const Problem& base, double z) {
     const GaugePoint gauge = gauge_point(*one.rail, t.cant, t.gauge_depth);
     at = {0, 0.5 * t.gauge - gauge.y, on_roller(base) ? 0 : -gauge.top};
   }
-  one.rail_at = marker(at + Vec3{0, side * shift[0], shift[1]}, -t.cant + side * shift[2]);
+  one.found.rail_at = marker(at + Vec3{0, side * shift[0], shift[1]}, -t.cant + side * shift[2]);
   const auto& flexible = one.flexibility.at;
   const double tread = one.tape_y ? one.wheel->at(*one.tape_y).z : 0;
-  one.wheel_in_wheelset = marker({flexible[0], 0.5 * one.flange_distance - one.flange_place + side * flexible[1],
-                                  one.wheel_radius - tread + flexible[2]},
-                                 side * flexible[3], side * flexible[4]);
+  one.found.wheel_in_wheelset = marker({flexible[0], 0.5 * one.flange_distance - one.flange_place + side * flexible[1],
+                                        one.wheel_radius - tread + flexible[2]},
+                                       side * flexible[3], side * flexible[4]);
   const auto& p = one.wheelset.at;
-  one.wheelset_at = marker({0, side * p[1], z - one.wheel_radius}, side * p[3], side * p[4]);
+  one.found.wheelset_at = marker({0, side * p[1], z - one.wheel_radius}, side * p[3], side * p[4]);
   RigidPair out;
   out.rail = &*one.rail;
   out.wheel = &*one.wheel;
-  out.rail_at = one.rail_at;
-  out.wheel_at = placed(one.wheelset_at, one.wheel_in_wheelset);
+  out.rail_at = one.found.rail_at;
+  out.wheel_at = placed(one.found.wheelset_at, one.found.wheel_in_wheelset);
   out.wheel_radius = one.wheel_radius;
   out.roller_radius = on_roller(base) ? t.roller_radius : 0;
   return out;
@@ -81,12 +81,12 @@ struct Moving {
 Moving of_rail(const ModuleOne& one, const Problem& base, const Marker& patch) {
   const double side = side_of(base), curvature = one.track.curvature;
   const auto& shift = one.rail_shift;
-  const Vec3 arm = patch.at - one.rail_at.at;
+  const Vec3 arm = patch.at - one.found.rail_at.at;
   Moving out;
   if (!on_roller(base)) {
     const double turning = -side * one.wheelset.rate[0] * curvature;
     out.turn = {side * shift[5], 0, turning};
-    out.velocity = Vec3{-turning * one.rail_at.at.y, side * shift[3], shift[4]} + cross(out.turn, arm);
+    out.velocity = Vec3{-turning * one.found.rail_at.at.y, side * shift[3], shift[4]} + cross(out.turn, arm);
     return out;
   }
   const Vec3 from_axle = patch.at - Vec3{0, 0, one.track.roller_radius};
@@ -110,16 +110,16 @@ Rolling rolling(const ModuleOne& one, const Problem& base, const WheelRailPatch&
   const Vec3 point = m.at + patch.approach * m.axes[2];
   const Moving rail = of_rail(one, base, m);
   const auto &r = one.wheelset.rate, &f = one.flexibility.rate;
-  const Vec3 in_wheelset = one.wheelset_at.to_inner(point);
+  const Vec3 in_wheelset = one.found.wheelset_at.to_inner(point);
   const Vec3 bending = mirrored_turn(f[3], f[5], f[4], side);
-  const Vec3 own = mirrored({f[0], f[1], f[2]}, side) + cross(bending, in_wheelset - one.wheel_in_wheelset.at);
-  const Vec3 turn = one.wheelset_at.turned(mirrored_turn(r[3], r[5], r[4], side));
-  const Vec3 arm = one.wheelset_at.turned(in_wheelset);
-  const Vec3 wheel = mirrored({r[0], r[1], r[2]}, side) + cross(turn, arm) + one.wheelset_at.turned(own);
-  const double around = cross(one.wheelset_at.turned({0, r[5], 0}), arm).x;
+  const Vec3 own = mirrored({f[0], f[1], f[2]}, side) + cross(bending, in_wheelset - one.found.wheel_in_wheelset.at);
+  const Vec3 turn = one.found.wheelset_at.turned(mirrored_turn(r[3], r[5], r[4], side));
+  const Vec3 arm = one.found.wheelset_at.turned(in_wheelset);
+  const Vec3 wheel = mirrored({r[0], r[1], r[2]}, side) + cross(turn, arm) + one.found.wheelset_at.turned(own);
+  const double around = cross(one.found.wheelset_at.turned({0, r[5], 0}), arm).x;
   Rolling out;
   const Vec3 slip = m.turned_back(rail.velocity - wheel);
-  const Vec3 spin = m.turned_back(rail.turn - turn - one.wheelset_at.turned(bending));
+  const Vec3 spin = m.turned_back(rail.turn - turn - one.found.wheelset_at.turned(bending));
   const bool shift = flag(base.settings, kTang) == 1;
   if (shift) {
     out.speed = 1;
@@ -226,7 +226,7 @@ class Wheel {
   void run() {
     require_settings(one_, base_);
     keep_before();
-    one_.patches.clear();
+    one_.found.patches.clear();
     if (flag(base_.settings, kNorm) == 0)
       press(one_.wheelset.at[2], true);
     else
@@ -236,11 +236,11 @@ class Wheel {
  private:
   /// The patches of the case before, which P = 0 goes on from, whatever heights are tried.
   void keep_before() {
-    for (std::size_t k = 0; k < one_.patches.size(); ++k) {
+    for (std::size_t k = 0; k < one_.found.patches.size(); ++k) {
       Problem& problem = problems_.patch(static_cast<int>(k) + 1);
       if (problem.solved && flag(base_.settings, kTime) == 0) {
-        put_on_lattice(one_.patches[k], problem.solved->on.grid);
-        before_.push_back({one_.patches[k].overlap.extent, std::move(problem.solved)});
+        put_on_lattice(one_.found.patches[k], problem.solved->on.grid);
+        before_.push_back({one_.found.patches[k].overlap.extent, std::move(problem.solved)});
       }
       problem.solved.reset();
     }
@@ -275,7 +275,7 @@ class Wheel {
     one_.wheelset.at[2] = z;
     const RigidPair pair = place(one_, base_, z);
     const Search search = search_overlaps(pair, one_.steps);
-    one_.patches.clear();
+    one_.found.patches.clear();
     if (search.overlaps.size() > kMostProblems)
       throw Refused(kSearch, fmt::format("{} patches are more than {}", search.overlaps.size(), kMostProblems));
     double force = 0;
@@ -289,15 +289,15 @@ class Wheel {
       patch.on_rail = seen_from(pair.rail_at, patch.plane.reference);
       patch.along = one_.wheelset.at[0] + patch.plane.reference.at.x;
       patch.across = one_.rail->arc(patch.on_rail.at.y) - one_.rail->zero_arc();
-      one_.patches.push_back(std::move(patch));
-      force +=
-          solve_patch(static_cast<int>(one_.patches.size()), std::move(distance.gap), with_friction, pair.wheel_at);
+      one_.found.patches.push_back(std::move(patch));
+      force += solve_patch(static_cast<int>(one_.found.patches.size()), std::move(distance.gap), with_friction,
+                           pair.wheel_at);
     }
     return force;
   }
 
   double solve_patch(int number, std::vector<double> gap, bool with_friction, const Marker& wheel) {
-    WheelRailPatch& patch = one_.patches[static_cast<std::size_t>(number - 1)];
+    WheelRailPatch& patch = one_.found.patches[static_cast<std::size_t>(number - 1)];
     Problem& problem = problems_.patch(number);
     const PatchPlane& plane = patch.plane;
     problem.units = base_.units;
@@ -337,9 +337,9 @@ class Wheel {
     const Marker& m = patch.plane.reference;
     patch.force = m.turned(on_rail.force);
     const Vec3 moment = m.turned(on_rail.moment);
-    patch.moment_on_rail = cross(m.at - one_.rail_at.at, patch.force) + moment;
-    patch.force_of_wheelset = one_.wheelset_at.turned_back(patch.force);
-    patch.moment_on_wheel = one_.wheelset_at.turned_back(cross(m.at - wheel.at, patch.force) + moment);
+    patch.moment_on_rail = cross(m.at - one_.found.rail_at.at, patch.force) + moment;
+    patch.force_of_wheelset = one_.found.wheelset_at.turned_back(patch.force);
+    patch.moment_on_wheel = one_.found.wheelset_at.turned_back(cross(m.at - wheel.at, patch.force) + moment);
   }
 
   /// The height under the load: F = k (z - z_0)^(3/2) through the last heights, between heights that bracket it.
@@ -347,12 +347,12 @@ class Wheel {
     const double load = one_.load, touching = search_overlaps(place(one_, base_, 0), one_.steps).least_gap;
     constexpr double kFirst = 5e-5;  // m
     const bool near = flag(base_.settings, kTime) == 0 || flag(base_.settings, kEstimate) > 0;
-    double low = touching, high = touching, z = touching + (near && one_.sunk > 0 ? one_.sunk : kFirst);
+    double low = touching, high = touching, z = touching + (near && one_.found.sunk > 0 ? one_.found.sunk : kFirst);
     double force = 0;
     bool bracketed = false;
     for (int k = 0; k < kMostHeights; ++k) {
       force = press(z, true);
-      one_.sunk = z - touching;
+      one_.found.sunk = z - touching;
       if (std::abs(force - load) <= base_.settings.tolerance * load) return;
       if (force < load)
         low = std::max(low, z);

@@ -45,7 +45,6 @@ struct Files {
 };
 
 Files deck(const LoadedCase& loaded, ExportTarget target, bool friction) {
-  require_finite_elements(loaded);
   const SolidModel model = solid_model(build_model(loaded.spec, loaded.folder()));
   Files out;
   out.comparison = deck_comparison(model, target);
@@ -56,15 +55,6 @@ Files deck(const LoadedCase& loaded, ExportTarget target, bool friction) {
   const DeckFlavour flavour = target == ExportTarget::abaqus ? DeckFlavour::abaqus : DeckFlavour::calculix;
   out.add("preload.inp", "the deck", abaqus_deck(model, {flavour, friction}));
   return out;
-}
-
-void require_steady_patch(const CaseSpec& spec) {
-  if (spec.transient.kind != TransientKind::none)
-    throw CaseError("transient.kind: a history of loads and motions has no place in one result of CONTACT",
-                    "export a steady case: --set transient.kind=\"none\"");
-  if (spec.geometry.in_line())
-    throw CaseError("geometry.contact: a line contact is not exported",
-                    "export a case with a patch: --set geometry.contact=\"point\"");
 }
 
 /// Options of the other kind of program.
@@ -78,7 +68,6 @@ void require_used(const ExportOptions& wanted, const CommandOptions& options, Ex
 
 /// Several patches are CONTACT's cases 1, 2, …
 Files contact_result(const LoadedCase& loaded, const std::string& cell) {
-  require_steady_patch(loaded.spec);
   const Placement placement = place(loaded.spec, loaded.folder());
   BemOptions bem;
   bem.cell = cell_size(cell);
@@ -93,7 +82,7 @@ Files contact_result(const LoadedCase& loaded, const std::string& cell) {
     out.add(name + ".mat", "the contact, for loadcase.m", contact_mat(spec, placement, *patches[k]));
     out.add(name + ".subs", "stresses in the rail, for loadstrs.m", contact_stresses(result.rail, *patches[k]));
     const std::string input = k == 0 ? "rail.inp" : fmt::format("rail_{}.inp", k + 1);
-    if (spec.layers.empty() && spec.friction.law == FrictionForm::coulomb && !spec.third_body.thickness)
+    if (clashes_with(uses::kContactInput, spec).empty())
       out.add(input, "the case, module 3", contact_input(spec, placement, *patches[k]));
   }
   return out;
@@ -104,7 +93,7 @@ std::vector<std::string> export_words() { return {"calculix", "abaqus", "lsdyna"
 ExitCode command_export(const ExportOptions& wanted, const CommandOptions& options) {
   const ExportTarget target = kTargets.at(wanted.to);
   require_used(wanted, options, target);
-  const LoadedCase loaded = load_case_of(options);
+  const LoadedCase loaded = load_case_of(options, target == ExportTarget::contact ? uses::kContactResult : uses::kDeck);
   const std::filesystem::path out = output_folder_of(options, loaded, "-" + wanted.to);
   const Files files =
       target == ExportTarget::contact ? contact_result(loaded, options.cell) : deck(loaded, target, wanted.friction);

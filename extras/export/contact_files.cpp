@@ -4,9 +4,9 @@
 
 #include "bem/case_patch.hpp"
 #include "bem/profile_gap.hpp"
-#include "core/faults.hpp"
 #include "export/deck_text.hpp"
 #include "material/elastic.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -56,17 +56,6 @@ void add_heading(std::string& out, const CaseSpec& spec, const PatchGrid& g) {
   add_row(out, {0, 0, kToMilli * spec.drive.speed, friction, friction});
 }
 
-void require_plain(const CaseSpec& spec) {
-  const auto refuse = [](const char* what, const char* key) {
-    throw CaseError(fmt::format("CONTACT's input has no {}: {}", what, key),
-                    "take it out for the comparison, e.g. with --set, or compare with the result (.mat) alone");
-  };
-  if (!spec.layers.empty()) refuse("elastic layers", "layer");
-  if (spec.geometry.rail_radius) refuse("roller here", "geometry.rail_radius");
-  if (spec.friction.law != FrictionForm::coulomb) refuse("friction law of this form", "friction.law");
-  if (spec.third_body.thickness) refuse("film of this form", "third_body.thickness");
-}
-
 /// Rigid slip of a cell beyond creepages and spin about the patch's middle, in CONTACT's signs: the variation of the
 /// rolling radius across the patch and the local angle of spin. Empty: none.
 PlanePair extra_rigid_slip(const CaseSpec& spec, const Placement& placement, const BemPatch& patch) {
@@ -112,7 +101,7 @@ std::string contact_mat(const CaseSpec& spec, const Placement& placement, const 
 }
 
 std::string contact_input(const CaseSpec& spec, const Placement& placement, const BemPatch& patch) {
-  require_plain(spec);
+  require_support(uses::kContactInput, spec);
   const PatchGrid& g = patch.grid;
   const Corner low = low_corner(g);
   const bool rolling = rolls(spec);

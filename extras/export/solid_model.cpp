@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "core/faults.hpp"
 #include "core/rotation.hpp"
 #include "mesh/station_weights.hpp"
 #include "mesh/unstructured.hpp"
@@ -182,15 +181,7 @@ double missed_by_nodes(const SolidModel& model) {
 }
 
 SolidModel solid_model(const Model& m) {
-  require_support(uses::kFiniteElements, m.spec);
-  if (!m.spec.track.held())
-    throw CaseError("a rail on a track (track.preset) is not exported: the decks hold its foot", "take [track] out",
-                    "track.preset");
-  if (m.spec.geometry.rail_radius)
-    throw CaseError(
-        "a rail that is a ring (geometry.rail_radius) is not exported: the decks have a rail at rest and a "
-        "wheel that travels",
-        "take it out");
+  require_support(uses::kDeck, m.spec);
   const RigidContact& contact = m.placement.contact;
   const double h = m.spec.mesh.element_size, reach = 1.5 * m.hertz.a + 3 * h;
   SolidModel out;

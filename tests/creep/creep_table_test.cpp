@@ -257,7 +257,7 @@ TEST(ScaledCreepTable, IsRefusedWithTheReasonWhereNothingScalesIt) {
   std::vector<std::string> two = kCreepageEnds;
   two.erase(two.begin() + 1);
   EXPECT_NE(refusal_of_scaled(pressed, kCreepageEnds).find("scaled by the load, which is a result"), std::string::npos);
-  EXPECT_NE(refusal_of_scaled(smooth, kCreepageEnds).find("without friction"), std::string::npos);
+  EXPECT_NE(refusal_of_scaled(smooth, kCreepageEnds).find("needs drive.friction_coefficient"), std::string::npos);
   EXPECT_NE(refusal_of_scaled(ball(), two).find("needs an axis of drive.lateral_creepage"), std::string::npos);
 }
 

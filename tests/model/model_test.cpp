@@ -78,23 +78,6 @@ TEST(Place, AnUnknownProfileIsACaseErrorThatNamesIt) {
   }
 }
 
-// The half-space engine is verified from 10 um and up to 0.499, the elements are not.
-TEST(BuildModel, RefusesWhatOnlyTheHalfSpaceEngineTakes) {
-  CaseSpec thin = crossed_cylinders(), incompressible = crossed_cylinders();
-  thin.layers.push_back({});
-  thin.layers[0].thickness = 0.04e-3;
-  incompressible.wheel_material.poisson = 0.498;
-  for (const CaseSpec& spec : {thin, incompressible}) {
-    EXPECT_NO_THROW(place(spec, {}));
-    try {
-      build_model(spec, {});
-      FAIL();
-    } catch (const CaseError& e) {
-      EXPECT_NE(std::string(e.what()).find("`railstrata bem` takes it"), std::string::npos) << e.what();
-    }
-  }
-}
-
 TEST(BuildModel, AnUnbondedStretchLiesBeyondTheReachOfTheWheelAtItsStart) {
   CaseSpec spec = crossed_cylinders();
   spec.run.rolling = true;

@@ -395,12 +395,12 @@ young_ratio = 2.0
         rc, text, err = railstrata("creep", SOURCE / "cases" / "transient" / "fretting.toml", *COARSE, "--points",
                                    2, "--json", "--out", out)
         self.assertEqual(rc, 0, err)
-        self.assertIn("warning: [transient] is ignored: creep curves", err)
-        self.assertIn("[transient] is ignored", json.loads(text)["notes"][0])
-        self.assertIn("# [transient] is ignored", (out / "creep_curve.csv").read_text())
+        self.assertIn("warning: transient.kind has no effect on a creep curve", err)
+        self.assertIn("transient.kind has no effect", json.loads(text)["notes"][0])
+        self.assertIn("# transient.kind has no effect", (out / "creep_curve.csv").read_text())
         _, _, err = railstrata("creep", BASE, *COARSE, "--points", 2, "--set", "run.rolling=false", "--out", out,
                                "--force")
-        self.assertIn("run.rolling = false is ignored", err)
+        self.assertIn("run.rolling = false has no effect", err)
         self.refused(2, ["creep", self.case(TWO_PATCHES), *COARSE, "--out", self.folder / "no"],
                      "the wheel touches at y = -27.6 mm", "at another angle at y = -12.7 mm",
                      "a creep curve needs a single contact patch")
@@ -419,7 +419,7 @@ young_ratio = 2.0
         self.assertEqual(err.count(void), 1, err)
         _, _, err = railstrata("creep", still, *COARSE, "--axis", "creepage_x=-0.001,0.001", "--places", 1,
                                   "--out", self.folder / "table")
-        self.assertIn("run.rolling = false is ignored: creep tables", err)
+        self.assertIn("run.rolling = false has no effect on a creep table", err)
         self.assertNotIn("drive.", err)
         self.assertGreater(float(table(self.folder / "table" / "creep_table.csv")[0]["force_x_N"]), 1000)
 
@@ -521,7 +521,7 @@ young_ratio = 2.0
         self.assertEqual(worst["load"], "locomotive, driving")  # the one left out has less, and does not count
         for name in ["collective.csv", "rail_damage.csv", "report.html", "shown_load/summary.json"]:
             self.assertTrue((out / name).exists(), name)
-        self.refused(2, ["collective", BASE, "--out", self.folder / "none"], "the case has no load collective")
+        self.refused(2, ["collective", BASE, "--out", self.folder / "none"], "`railstrata collective` needs load")
 
     @slow
     def test_a_wear_loop_goes_on_where_it_stopped_to_the_same_profile(self):

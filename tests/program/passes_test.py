@@ -121,7 +121,7 @@ class Passes(FromOutside):
         self.assertLessEqual(fine["row_m"], 0.05e-3 * (1 + 1e-9))
         self.assertGreater(fine["rows"], usual["rows"])
         self.refused(2, ["passes", BASE, *few, "--engine", "fem", "--set", "passes.window=6", "--out",
-                         self.folder / "none"], "passes.window", "stationary method")
+                         self.folder / "none"], "passes.window", "--engine bem")
         self.refused(2, ["passes", BASE, *few, "--set", "passes.patch_cells=1", "--out", self.folder / "none"],
                      "passes.patch_cells", "2")
 

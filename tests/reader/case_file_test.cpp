@@ -12,6 +12,8 @@
 namespace railstrata {
 namespace {
 
+std::vector<Diagnostic> not_in_fem(const LoadedCase& loaded) { return refused_by(uses::kFiniteElements, loaded); }
+
 /// The whole text of the error a case gives; fails the test when there is none.
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
@@ -547,7 +549,7 @@ TEST(CaseFile, KeysThatAreGoneAreAnsweredByWhatTakesTheirPlace) {
 TEST(CaseFile, ADriveThatAStaticCaseMakesVoidIsNoted) {
   const std::string still = "[run]\nrolling = false\n";
   const auto noted = [&](const std::string& more, const std::vector<std::string>& overrides = {}) {
-    return parse_case(still + more, "a.toml", overrides).static_notes;
+    return notes_at_rest(parse_case(still + more, "a.toml", overrides));
   };
   for (const std::string key : {"creepage = 0.001", "traction_coefficient = 0.1", "tractive_force = \"5 kN\"",
                                 "lateral_creepage = 0.001", "lateral_traction_coefficient = 0.1", "spin = \"1 1/m\""}) {
@@ -560,8 +562,8 @@ TEST(CaseFile, ADriveThatAStaticCaseMakesVoidIsNoted) {
   EXPECT_EQ(noted("", {"drive.traction_coefficient=0.2"}).size(), 1u) << "the default's value, but asked for";
   EXPECT_TRUE(noted("").empty());
   EXPECT_TRUE(noted("[drive]\ntraction_coefficient = 0.0\n").empty());
-  EXPECT_TRUE(parse_case(resolved_case(parse_case(still, "a.toml").spec), "b.toml").static_notes.empty());
-  EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.001\n", "a.toml").static_notes.empty());
+  EXPECT_TRUE(notes_at_rest(parse_case(resolved_case(parse_case(still, "a.toml").spec), "b.toml")).empty());
+  EXPECT_TRUE(notes_at_rest(parse_case("[drive]\ncreepage = 0.001\n", "a.toml")).empty());
 }
 
 TEST(CaseFile, AnEmptyFileIsNoted) {
@@ -774,44 +776,46 @@ TEST(CaseFile, ForcesBeyondFrictionAndTooTightCurvesAreRefused) {
 }
 
 TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
-  EXPECT_TRUE(parse_case("[vehicle]\naxle_load = \"22.5 t\"\n[geometry]\nyaw = \"5 mrad\"\n"
-                         "[drive]\nlateral_force = \"1 kN\"\ncreepage = -0.001\n",
-                         "a.toml")
-                  .not_in_fem.empty());
+  EXPECT_TRUE(not_in_fem(parse_case("[vehicle]\naxle_load = \"22.5 t\"\n[geometry]\nyaw = \"5 mrad\"\n"
+                                    "[drive]\nlateral_force = \"1 kN\"\ncreepage = -0.001\n",
+                                    "a.toml"))
+                  .empty());
   const LoadedCase loaded = parse_case("[geometry]\ncurve_radius = \"300 m\"\n[drive]\nlateral_creepage = 0.2\n",
                                        "a.toml", {"drive.creepage=-0.5"});
-  ASSERT_EQ(loaded.not_in_fem.size(), 3u);
-  EXPECT_EQ(loaded.not_in_fem[0].where, "a.toml:2:16");
-  EXPECT_TRUE(loaded.not_in_fem[0].message.starts_with("geometry.curve_radius is not supported by"));
-  EXPECT_EQ(loaded.not_in_fem[1].where, "--set drive.creepage=-0.5");
-  EXPECT_EQ(loaded.not_in_fem[2].where, "a.toml:4:20");
-  EXPECT_EQ(loaded.not_in_fem[0].remedy, "take it out, or solve the case with `railstrata bem`");
-  EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.5\n[run]\nrolling = false\n", "a.toml").not_in_fem.empty());
+  ASSERT_EQ(not_in_fem(loaded).size(), 3u);
+  EXPECT_EQ(not_in_fem(loaded)[0].where, "a.toml:2:16");
+  EXPECT_TRUE(not_in_fem(loaded)[0].message.starts_with("geometry.curve_radius is not supported by"));
+  EXPECT_EQ(not_in_fem(loaded)[1].where, "--set drive.creepage=-0.5");
+  EXPECT_EQ(not_in_fem(loaded)[2].where, "a.toml:4:20");
+  EXPECT_EQ(not_in_fem(loaded)[0].remedy, "take it out, or solve the case with `railstrata bem`");
+  EXPECT_TRUE(not_in_fem(parse_case("[drive]\ncreepage = 0.5\n[run]\nrolling = false\n", "a.toml")).empty());
   const LoadedCase laws = parse_case(
       "[friction]\nlaw = \"falling_rational\"\nkinetic_coefficient = 0.2\nhalf_velocity = \"1 m/s\"\n", "a.toml");
-  ASSERT_EQ(laws.not_in_fem.size(), 1u);
-  EXPECT_EQ(laws.not_in_fem[0].where, "a.toml:2:7");
-  EXPECT_NE(laws.not_in_fem[0].message.find("(friction.law)"), std::string::npos);
+  ASSERT_EQ(not_in_fem(laws).size(), 1u);
+  EXPECT_EQ(not_in_fem(laws)[0].where, "a.toml:2:7");
+  EXPECT_NE(not_in_fem(laws)[0].message.find("(friction.law)"), std::string::npos);
   const LoadedCase remembering = parse_case(
       "[friction]\nlaw = \"falling_rational\"\nkinetic_coefficient = 0.2\nhalf_velocity = \"1 m/s\"\n"
       "memory_distance = \"20 um\"\n",
       "a.toml");
-  EXPECT_TRUE(remembering.not_in_fem.empty());
+  EXPECT_TRUE(not_in_fem(remembering).empty());
   EXPECT_EQ(remembering.spec.friction.memory_distance, 20e-6);
   EXPECT_EQ(remembering.spec.friction.memory_velocity, 1e-3);
   const LoadedCase film = parse_case("[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"100 MPa\"\n", "a.toml");
-  EXPECT_TRUE(film.not_in_fem.empty());
+  EXPECT_TRUE(not_in_fem(film).empty());
   const LoadedCase ring =
       parse_case("[geometry]\nrail_radius = \"300 mm\"\ncant = 0.01\n[run]\nplasticity = true\n", "a.toml");
-  ASSERT_EQ(ring.not_in_fem.size(), 4u);  // rail_shape and cant are defaults, and count; nothing can yield
-  EXPECT_EQ(ring.not_in_fem[2].where, "a.toml:3:8");
-  EXPECT_EQ(ring.not_in_fem[3].where, "a.toml:5:14");
-  EXPECT_TRUE(ring.not_in_fem[1].message.starts_with("geometry.rail_shape = \"rail\" cannot be combined with"));
-  EXPECT_EQ(parse_case("[geometry]\nrail_radius = \"-600 mm\"\nrail_shape = \"block\"\ncant = 0.0\n", "a.toml")
-                .not_in_fem.size(),
-            1u);
-  EXPECT_TRUE(parse_case("[geometry]\nrail_radius = \"300 mm\"\nrail_shape = \"block\"\ncant = 0.0\n", "a.toml")
-                  .not_in_fem.empty());
+  ASSERT_EQ(not_in_fem(ring).size(), 4u);  // rail_shape and cant are defaults, and count; nothing can yield
+  EXPECT_EQ(not_in_fem(ring)[2].where, "a.toml:3:8");
+  EXPECT_EQ(not_in_fem(ring)[3].where, "a.toml:5:14");
+  EXPECT_TRUE(not_in_fem(ring)[1].message.starts_with("geometry.rail_shape = \"rail\" cannot be combined with"));
+  EXPECT_EQ(
+      not_in_fem(parse_case("[geometry]\nrail_radius = \"-600 mm\"\nrail_shape = \"block\"\ncant = 0.0\n", "a.toml"))
+          .size(),
+      1u);
+  EXPECT_TRUE(
+      not_in_fem(parse_case("[geometry]\nrail_radius = \"300 mm\"\nrail_shape = \"block\"\ncant = 0.0\n", "a.toml"))
+          .empty());
   EXPECT_THROW(require_support(uses::kFiniteElements, loaded.spec), CaseError);
   EXPECT_NO_THROW(require_support(uses::kFiniteElements, CaseSpec()));
 }

@@ -74,6 +74,7 @@ const std::map<std::string, Overrides>& examples() {
       {"vehicle.approach", {"vehicle.approach=0.1 mm"}},
       {"drive.tractive_force", {"drive.tractive_force=5 kN"}},
       {"drive.creepage_of", {"drive.creepage_of=wheel"}},
+      {"creepages of the wheel", {"drive.creepage_of=wheel", "drive.creepage=-0.001"}},
       {"drive.friction_coefficient",
        {"friction.lateral_table=[[\"0 mm\", 0.2], [\"9 mm\", 0.4]]", "drive.friction_coefficient=0.3"}},
       {"drive.creepage", {"drive.creepage=-0.001"}},
@@ -174,10 +175,7 @@ std::vector<Refusal> said(const Clash& c, const Overrides& overrides) {
   std::vector<Refusal> out;
   try {
     const LoadedCase loaded = parse_case("", "a.toml", overrides);
-    for (const auto* notes : {&loaded.notes, &loaded.elastic_notes, &loaded.static_notes})
-      for (const std::string& note : *notes) out.push_back({"", note, note});
-    if (use)
-      for (const std::string& note : idle_in(*use, loaded.spec)) out.push_back({"", note, note});
+    for (const std::string& note : notes_for(use ? *use : uses::kAny, loaded)) out.push_back({"", note, note});
     if (use)
       for (const Refusal& r : refused_by(*use, loaded.spec)) out.push_back(r);
   } catch (const CaseError& e) {

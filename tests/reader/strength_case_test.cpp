@@ -88,9 +88,9 @@ recall = 100
     EXPECT_TRUE(spec.layers.at(0).material.strength.elastic);
     EXPECT_FALSE(spec.layers.at(1).material.strength.elastic);
     EXPECT_EQ(spec.layers.at(1).material.strength.kinematic_hardening, (std::vector<KinematicHardening>{{20e9, 100}}));
-    ASSERT_EQ(loaded.elastic_notes.size(), 4u) << "contact is elastic, with a note for each key";
+    ASSERT_EQ(loaded.idle.size(), 4u) << "contact is elastic, with a note for each key";
     std::string notes;
-    for (const std::string& note : loaded.elastic_notes) notes += note + "\n";
+    for (const IdleSetting& setting : loaded.idle) notes += setting.text + "\n";
     for (const char* key : {"material.wheel.hardening", "material.rail.isotropic_hardening",
                             "material.rail.kinematic_hardening", "layer.1.kinematic_hardening"})
       EXPECT_NE(notes.find(std::string(key) + " has no effect with run.plasticity = false"), std::string::npos)
@@ -210,8 +210,8 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
 
 TEST(StrengthCase, HardeningIsNotedAsUnusedUnlessALifeFollowsPasses) {
   const std::string card = "[material.rail]\nhardening = \"R260\"\n";
-  EXPECT_EQ(parse_case(card, "a.toml").elastic_notes.size(), 1u);
-  EXPECT_TRUE(parse_case(card + "[life]\npasses = 8\n", "a.toml").elastic_notes.empty());
+  EXPECT_EQ(parse_case(card, "a.toml").idle.size(), 1u);
+  EXPECT_TRUE(parse_case(card + "[life]\npasses = 8\n", "a.toml").idle.empty());
 }
 
 }  // namespace

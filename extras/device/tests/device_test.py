@@ -117,7 +117,7 @@ class Refused(FromOutside):
             rc, _, err = railstrata(words[0], case, *words[1:], "--cell", "1 mm", "--no-report", "--out",
                                     self.folder / words[0])
             self.assertIn(rc, (0, 1), err)
-            self.assertIn("run.device is ignored: half-spaces are computed on the CPU", err)
+            self.assertIn("run.device = \"gpu\" has no effect on half-spaces", err)
 
 
 class Emulated(FromOutside):

@@ -246,25 +246,6 @@ void require_sound_mesh(const SweptBody& body, BodyId id, const CaseSpec& spec) 
   }
 }
 
-/// Finite elements take less than the half-space engine, for which the ranges of a case are made.
-void refuse_beyond_elements(const CaseSpec& spec) {
-  constexpr double kLargestPoisson = 0.495;
-  for (const LayerSpec& layer : spec.layers)
-    if (layer.thickness < kThinnestMeshedLayer)
-      throw CaseError(fmt::format("layer \"{}\" is {:g} mm thick; finite elements take layers from {:g} mm on",
-                                  layer.name, 1e3 * layer.thickness, 1e3 * kThinnestMeshedLayer),
-                      "`railstrata bem` takes it");
-  const auto check = [&](const std::string& what, double poisson) {
-    if (poisson > kLargestPoisson)
-      throw CaseError(
-          fmt::format("Poisson's ratio of {} is {:g}; finite elements take up to {:g}", what, poisson, kLargestPoisson),
-          "`railstrata bem` takes it; to the contact the difference is small");
-  };
-  check("the rail", spec.rail_material.poisson);
-  check("the wheel", spec.wheel_material.poisson);
-  for (const LayerSpec& layer : spec.layers) check(fmt::format("layer \"{}\"", layer.name), layer.material.poisson);
-}
-
 /// Of the rail beyond the fine range; on a track as long as its bays ask for.
 double end_length(const CaseSpec& spec, double begin, double end) {
   if (spec.track.held()) return spec.mesh.end_length;
@@ -298,7 +279,6 @@ void refuse_unbonded_at_start(const CaseSpec& spec, double semi_axis, double rai
 
 /// rail: not null: its mesh.
 Model build(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail) {
-  refuse_beyond_elements(spec);
   Model m{spec,
           place(spec, folder),
           {},

@@ -167,18 +167,15 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   read_height_files(loaded, source);
   check_case_rules(loaded.spec, source);
   source.finish();
-  for (const Refusal& r : refused_by(uses::kFiniteElements, loaded.spec))
-    loaded.not_in_fem.push_back(source.diagnosis(r.key, r.message, r.remedy));
   loaded.resolved_toml = resolved_case(loaded.spec);
   if (says_nothing(text))
     loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),
                                        overrides.empty() ? "" : ", but for what --set gives"));
   for (IdleSetting& idle : idle_settings(loaded.spec, &source)) {
-    const bool elastic = idle.by->key == "run.plasticity = false", rest = idle.by->key == "run.rolling = false";
-    std::vector<std::string>& notes = elastic                ? loaded.elastic_notes
-                                      : rest && idle.by->has ? loaded.static_notes
-                                                             : loaded.notes;
-    notes.push_back(std::move(idle.text));
+    if (idle.by && overlooked(*idle.by))
+      loaded.idle.push_back(std::move(idle));
+    else
+      loaded.notes.push_back(std::move(idle.text));
   }
   for (std::string& note : track_notes(loaded.spec, source)) loaded.notes.push_back(std::move(note));
   return loaded;
@@ -203,6 +200,32 @@ CaseError in_case_file(const LoadedCase& loaded, const CaseError& error) {
     else
       all.push_back(d.where.find(':') == std::string::npos ? source.diagnosis(d.where, named(d), d.remedy) : d);
   return CaseError(std::move(all));
+}
+
+std::vector<Diagnostic> refused_by(const Use& use, const LoadedCase& loaded) {
+  std::vector<Diagnostic> all;
+  for (Refusal& r : refused_by(use, loaded.spec))
+    all.push_back({std::move(r.key), std::move(r.message), std::move(r.remedy)});
+  return all.empty() ? all : in_case_file(loaded, CaseError(std::move(all))).diagnostics;
+}
+
+void require_support(const Use& use, const LoadedCase& loaded) {
+  if (std::vector<Diagnostic> all = refused_by(use, loaded); !all.empty()) throw CaseError(std::move(all));
+}
+
+std::vector<std::string> notes_for(const Use& use, const LoadedCase& loaded) {
+  std::vector<std::string> out = loaded.notes;
+  for (const IdleSetting& setting : loaded.idle)
+    if (!overlooked(*setting.by, &use)) out.push_back(setting.text);
+  for (std::string& note : idle_in(use, loaded.spec)) out.push_back(std::move(note));
+  return out;
+}
+
+std::vector<std::string> notes_at_rest(const LoadedCase& loaded) {
+  std::vector<std::string> out;
+  for (const IdleSetting& setting : loaded.idle)
+    if (setting.by->key == "run.rolling = false") out.push_back(setting.text);
+  return out;
 }
 
 std::string resolved_case(const CaseSpec& given) {

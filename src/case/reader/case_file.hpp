@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/faults.hpp"
+#include "rules/clashes.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {
@@ -15,11 +16,9 @@ struct LoadedCase {
   std::string source_text;                    ///< the file as it was read
   std::vector<std::string> overrides;         ///< "key=value", as given
   std::string resolved_toml;                  ///< every option with its value: reads back to the same spec, bit for bit
-  std::vector<std::string> notes;             ///< what is allowed but reported
-  std::vector<std::string> elastic_notes;     ///< the same where nothing yields: laws that are not read
-  std::vector<std::string> static_notes;      ///< the same where run.rolling counts: what its false makes void
+  std::vector<std::string> notes;             ///< what is allowed but reported, whatever the use
+  std::vector<IdleSetting> idle;              ///< settings without effect in some uses alone
   std::vector<std::filesystem::path> inputs;  ///< every file that went in: the case and the profile files
-  std::vector<Diagnostic> not_in_fem;         ///< what the finite element engine refuses (rules/support.hpp)
   /// Folder against which relative profile names are understood.
   std::filesystem::path folder() const { return file.parent_path(); }
 };
@@ -44,6 +43,16 @@ auto with_places(const LoadedCase& loaded, Work&& work) {
     throw in_case_file(loaded, e);
   }
 }
+
+/// What a use does not support of the case (rules/support.hpp), each at its place in the file.
+std::vector<Diagnostic> refused_by(const Use& use, const LoadedCase& loaded);
+/// Throws CaseError with all of them.
+void require_support(const Use& use, const LoadedCase& loaded);
+
+/// Notes on the case and on its settings without effect in a use.
+std::vector<std::string> notes_for(const Use& use, const LoadedCase& loaded);
+/// Those on settings that run.rolling = false takes the effect of.
+std::vector<std::string> notes_at_rest(const LoadedCase& loaded);
 
 /// The spec as a case file with every option written out.
 std::string resolved_case(const CaseSpec& spec);

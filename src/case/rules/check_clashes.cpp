@@ -186,7 +186,8 @@ std::vector<IdleSetting> idle_settings(const CaseSpec& spec, const CaseSource* s
   for (const Found& f : found(spec, source, nullptr, notes)) {
     if (std::find(seen.begin(), seen.end(), f.key) != seen.end()) continue;
     seen.push_back(f.key);
-    out.push_back({&f.row->b, *f.row->remedy ? fmt::format("{}; {}", f.message, f.row->remedy) : f.message});
+    out.push_back({f.row->rule == ClashRule::idle_with ? &f.row->b : nullptr,
+                   *f.row->remedy ? fmt::format("{}; {}", f.message, f.row->remedy) : f.message});
   }
   return out;
 }
@@ -197,10 +198,10 @@ std::vector<std::string> idle_in(const Use& use, const CaseSpec& spec) {
   return out;
 }
 
-bool overlooks(const Use& use, const Feature& feature) {
+bool overlooked(const Feature& feature, const Use* by) {
   const std::span<const Clash> table = clash_table();
   return std::any_of(table.begin(), table.end(), [&](const Clash& c) {
-    return !refuses(c.rule) && c.b.use && use.is(*c.b.use) && c.a.key == feature.key && c.a.has == feature.has;
+    return !refuses(c.rule) && c.b.use && (!by || by->is(*c.b.use)) && c.a.key == feature.key && c.a.has == feature.has;
   });
 }
 

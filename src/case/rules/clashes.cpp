@@ -126,6 +126,12 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
                             c.transient.tractive_force.empty() && c.transient.traction_coefficient.empty();
                    },
                    "a creepage in a history"},
+    kCreepageOfWheel{"drive.creepage_of = \"wheel\"",
+                     [](const C&c) {
+                       return c.drive.creepage_of == CreepageOf::wheel &&
+                              (c.drive.creepage || c.drive.lateral_creepage);
+                     },
+                     "creepages of the wheel"},
     kLargeCreepage{"drive.creepage",
                    [](const C&c) { return std::abs(c.drive.creepage.value_or(0)) > kLargestRunCreepage; },
                    "a creepage beyond 0.1"},
@@ -354,6 +360,8 @@ constexpr Clash kClashes[] = {
     {"geometry.rail_radius", excludes, "stretch", "a roller is the same all round", kOneOut, &uses::kFiniteElements},
     {"run.device = \"gpu\"", excludes, "irregularity", "irregularities are not implemented on the GPU", kCpu,
      &uses::kFiniteElements},
+    {"run.device = \"gpu\"", excludes, "geometry.rail_radius", "the GPU supports straight rails only", kCpu,
+     &uses::kFiniteElements},
     {"run.device = \"gpu\"", excludes, kLayerEnds, "the GPU supports uniform layers only", kCpu,
      &uses::kFiniteElements},
     {"run.device = \"gpu\"", excludes, "layer.unbonded", "the GPU supports bonded layers only", kCpu,
@@ -405,6 +413,10 @@ constexpr Clash kClashes[] = {
     {kAtRest, idle_with, uses::kCreepCurve, "it assumes steady rolling, with the friction of the case", ""},
     {"transient.kind", idle_with, uses::kCreepTable, "it assumes steady rolling", ""},
     {kAtRest, idle_with, uses::kCreepTable, "it assumes steady rolling, with the friction of the case", ""},
+    {"vehicle.approach", excludes, uses::kScaledTable, "its creepages are scaled by the load, which is a result",
+     "give vehicle.wheel_load and --axis load=..., or make the table without --scaled"},
+    {uses::kScaledTable, needs, kFriction, "its creepages are scaled by it",
+     "give drive.friction_coefficient above 0, or make the table without --scaled"},
     {"transient.kind", excludes, uses::kPasses, "they roll steadily", "take out [transient]"},
     {kAtRest, idle_with, uses::kPasses, "passes roll", ""},
     {kElastic, overlooked, uses::kPasses, "", ""},
@@ -426,6 +438,10 @@ constexpr Clash kClashes[] = {
      "take a rail's profile, or an arc for the wheel too"},
     {"transient.kind", excludes, uses::kExplorer, "it shows steady rolling",
      "leave transient.kind out, or use `railstrata bem`"},
+    {"transient.kind", excludes, uses::kStates, "it follows no history in time",
+     "use `railstrata bem`, or rs.bem in Python"},
+    {kCreepageOfWheel, excludes, uses::kStates, "each state gives the creepages of the contact",
+     "take out drive.creepage and drive.lateral_creepage, and give them with each state"},
     {"geometry.rail_radius", excludes, uses::kWheelset, "a wheelset rolls on straight rails", kOut},
     {"geometry.contact = \"line\"", excludes, uses::kWheelset, "both wheels touch in patches", kOut},
     {"run.plasticity = true", excludes, uses::kElasticShakedown, "the theorems of shakedown judge elastic stresses",

@@ -24,16 +24,17 @@ struct Use {
 namespace uses {
 
 inline constexpr Use kAny{"any use"}, kFiniteElements{"the finite elements"}, kHalfSpaces{"half-spaces"},
-    kRanks{"several ranks"}, kReceptance{"a receptance"};
+    kRanks{"several ranks"}, kReceptance{"a receptance", &kFiniteElements};
 /// Elements and half-spaces of a case that rolls; the latter without a history in time.
 extern const Use kRollingElements, kSteadyRolling;
 inline constexpr Use kRolledPasses{"passes by finite elements", &kRollingElements},
     kElasticShakedown{"shakedown by finite elements", &kFiniteElements},
     kDeck{"a deck for another program", &kFiniteElements}, kPasses{"passes by half-spaces", &kSteadyRolling};
 inline constexpr Use kCreepCurve{"a creep curve", &kSteadyRolling}, kCreepTable{"a creep table", &kSteadyRolling},
-    kCollective{"`railstrata collective`", &kSteadyRolling}, kWearLoop{"the wear loop", &kCollective},
-    kExplorer{"the explorer", &kHalfSpaces};
-inline constexpr Use kWheelset{"a wheelset", &kHalfSpaces}, kContactResult{"a result for CONTACT", &kHalfSpaces},
+    kScaledTable{"a scaled creep table", &kCreepTable}, kCollective{"`railstrata collective`", &kSteadyRolling},
+    kWearLoop{"the wear loop", &kCollective}, kExplorer{"the explorer", &kHalfSpaces};
+inline constexpr Use kStates{"a contact that is solved state by state", &kHalfSpaces},
+    kWheelset{"a wheelset", &kStates}, kContactResult{"a result for CONTACT", &kHalfSpaces},
     kContactInput{"an input file of CONTACT", &kContactResult};
 
 }  // namespace uses
@@ -89,7 +90,7 @@ void check_clashes(const CaseSpec& spec, CaseSource& source);
 /// What a use does not support; empty: it takes the case.
 std::vector<Refusal> clashes_with(const Use& use, const CaseSpec& spec);
 
-/// A setting without effect, in one sentence, and the feature that takes its effect away or that it needs.
+/// A setting without effect, in one sentence, and the feature that takes its effect away; null: it needs one.
 struct IdleSetting {
   const Feature* by;
   std::string text;
@@ -97,8 +98,8 @@ struct IdleSetting {
 std::vector<IdleSetting> idle_settings(const CaseSpec& spec, const CaseSource* source = nullptr);
 /// Settings without effect in a use.
 std::vector<std::string> idle_in(const Use& use, const CaseSpec& spec);
-/// Whether a use does not look at a feature, so that nothing is idle by it.
-bool overlooks(const Use& use, const Feature& feature);
+/// Whether this use, or any (null), does not look at a feature, so that nothing is idle by it.
+bool overlooked(const Feature& feature, const Use* by = nullptr);
 
 /// Keys that would be refused or without effect if this case were given them for this use, and why.
 std::map<std::string, std::string> excluded_keys(const Use& use, const CaseSpec& spec);

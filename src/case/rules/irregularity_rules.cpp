@@ -169,22 +169,6 @@ bool changes_on_way(const CaseSpec& spec) {
   return spec.run.rolling && !(varying_key(spec).empty() && spec.track.held());
 }
 
-void require_same_along(const CaseSpec& spec, const char* what) {
-  if (!spec.track.held())
-    throw CaseError(fmt::format("{} is of a rail that is the same all along: on sleepers it is not", what),
-                    "take [track] out; `railstrata run` rolls over it", "track.preset");
-  const std::string key = varying_key(spec);
-  if (key.empty()) return;
-  const bool heights = !spec.irregularities.empty();
-  throw CaseError(fmt::format("{} is of a rail and a wheel that are the same all along: the case has {}", what,
-                              heights ? "an [[irregularity]]" : "a layer that ends or is unbonded, or a [[stretch]]"),
-                  heights ? "take it out; half-spaces roll over it with transient.kind = \"rolling\", the finite "
-                            "elements with `railstrata run`"
-                          : "take from, to and unbonded of layers and [[stretch]] out; the finite elements roll over "
-                            "them with `railstrata run`",
-                  key);
-}
-
 void read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec, std::size_t index) {
   const OptionTable& options = *find_table("irregularity");
   UnitTableForm form{{}, {}, "heights", "x [mm], z [um]"};

@@ -25,8 +25,6 @@ void require_fine_enough(const CaseSpec& spec, double size, const char* what, co
 std::string varying_key(const CaseSpec& spec);
 /// Whether a wheel rolls over what is not the same everywhere, sleepers too.
 bool changes_on_way(const CaseSpec& spec);
-/// Throws CaseError for a case whose rail or wheel varies along the way: `what` needs steady rolling.
-void require_same_along(const CaseSpec& spec, const char* what);
 
 /// Reads columns x, z or x, y, z into an entry. Throws CaseError with file, line and remedy.
 void read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec, std::size_t index);

@@ -5,14 +5,9 @@
 #include <spdlog/spdlog.h>
 
 #include "app/shipped_files.hpp"
-#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
-
-void warn_of(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) spdlog::warn("{}", note);
-}
 
 /// Under its own title a changed case would be taken for the case as it stands in its file. What is written of a result
 /// changes none.
@@ -27,30 +22,16 @@ std::string title_of(const std::string& title, const std::vector<std::string>& o
 
 }  // namespace
 
-LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
+LoadedCase load_case_of(const CommandOptions& options, const Use& use) {
   std::filesystem::path file = shipped_unless_there(options.case_file);
   std::error_code error;  // a name that is too long: load_case reports it
   if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error))
     file /= "case.toml";
   LoadedCase loaded = load_case(file, options.overrides);
   loaded.spec.title = title_of(loaded.spec.title, options.overrides);
-  warn_of(loaded.notes);
-  if (use != CaseUse::yielding) warn_of(loaded.elastic_notes);
-  if (use == CaseUse::contact) warn_of(loaded.static_notes);
+  require_support(use, loaded);
+  for (const std::string& note : notes_for(use, loaded)) spdlog::warn("{}", note);
   return loaded;
-}
-
-LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use) {
-  LoadedCase loaded = load_case_of(options, use);
-  with_places(loaded, [&] { require_support(uses::kHalfSpaces, loaded.spec); });
-  const RunSpec& run = loaded.spec.run;
-  if (run.rolling && run.device != ComputeDevice::cpu)  // else a note of the case reports it
-    spdlog::warn("run.device is ignored: half-spaces are computed on the CPU");
-  return loaded;
-}
-
-void require_finite_elements(const LoadedCase& loaded) {
-  if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
 }
 
 std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,

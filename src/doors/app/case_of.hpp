@@ -9,18 +9,9 @@
 
 namespace railstrata {
 
-/// How a command uses a case. contact: elastic, rolling or at rest; steady_rolling: elastic, run.rolling is ignored;
-/// yielding: the same over a body that yields.
-enum class CaseUse { contact, steady_rolling, yielding };
-
-/// The case with the overrides applied; those of its notes that hold for the use are logged.
-LoadedCase load_case_of(const CommandOptions& options, CaseUse use = CaseUse::contact);
-
-/// The same for the half-space engine, which warns that it ignores run.device.
-LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use = CaseUse::contact);
-
-/// Throws CaseError with what the finite element engine refuses of the case.
-void require_finite_elements(const LoadedCase& loaded);
+/// The case with the overrides applied, for a use that supports it; its notes for this use are logged. Throws
+/// CaseError.
+LoadedCase load_case_of(const CommandOptions& options, const Use& use);
 
 /// --out, or results/<case name><suffix>.
 std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,

@@ -37,7 +37,7 @@ double blow_time(const std::string& text) {
 }  // namespace
 
 ExitCode check_receptance(const ReceptanceOptions& wanted, const CommandOptions& options) {
-  const LoadedCase loaded = load_case_of(options);
+  const LoadedCase loaded = load_case_of(options, uses::kReceptance);
   const std::filesystem::path out = output_folder_of(options, loaded, "-receptance");
   answer_interrupt_with("\nstopped: nothing was written\n");
   const double time = blow_time(wanted.time);

@@ -27,7 +27,7 @@ double depth_option(const std::string& text) {
 }  // namespace
 
 ExitCode collective_wear(const WearOptions& wanted, const CommandOptions& options) {
-  LoadedCase loaded = load_half_space_case_of(options);
+  LoadedCase loaded = load_case_of(options, uses::kWearLoop);
   const WearLoopOrder order{job_order_of(options, loaded, "-wear-loop", wanted.resume), wanted.steps, wanted.passages,
                             depth_option(wanted.max_wear), cell_size(options.cell)};
   return code_of(carry_out_wear_loop(std::move(loaded), order, control_by_signals(), [&](const WornRail& rail) {

@@ -53,7 +53,7 @@ void require_strength(const LoadedCase& loaded) {
 }
 
 HalfSpaceJob job_of(const CommandOptions& options) {
-  LoadedCase loaded = load_half_space_case_of(options);
+  LoadedCase loaded = load_case_of(options, uses::kHalfSpaces);
   Placement placement = place(loaded.spec, loaded.folder());
   HalfSpaceJob job{std::move(loaded), std::move(placement), {}, {}, {}};
   job.out = output_folder_of(options, job.loaded, "-bem");

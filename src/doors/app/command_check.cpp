@@ -40,20 +40,19 @@ std::string lacking_here(const LoadedCase& loaded) {
 }
 
 /// For a case of the half-space engine alone: reports where the bodies touch, and why `run` refuses it.
-ExitCode check_without_mesh(const LoadedCase& loaded, bool json) {
+ExitCode check_without_mesh(const LoadedCase& loaded, const std::vector<Diagnostic>& refused, bool json) {
   const Placement placement = place(loaded.spec, loaded.folder());
   for (const std::string& note : placement.notes) spdlog::info("{}", note);
   if (json) {
     nlohmann::ordered_json out = placement_json(loaded.spec, placement);
     out["not_in_fem"] = nlohmann::ordered_json::array();
-    for (const Diagnostic& d : loaded.not_in_fem) out["not_in_fem"].push_back(d.message);
+    for (const Diagnostic& d : refused) out["not_in_fem"].push_back(d.message);
     fmt::print("{}\n", out.dump(2));
     return ExitCode::ok;
   }
   print_case(loaded, placement);
   fmt::print("\nfor `railstrata bem` alone; `run` refuses it:\n");
-  for (const Diagnostic& d : loaded.not_in_fem)
-    fmt::print("{}\n", printable(fmt::format("{}: {}", d.where, d.message)));
+  for (const Diagnostic& d : refused) fmt::print("{}\n", printable(fmt::format("{}: {}", d.where, d.message)));
   return ExitCode::ok;
 }
 
@@ -92,9 +91,10 @@ void require_nothing_to_write(const CommandOptions& options) {
 ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
   if (own.receptance) return check_receptance(own.blows, options);
   if (!own.mesh) require_nothing_to_write(options);
-  const LoadedCase loaded = load_case_of(options);
-  if (own.mesh) require_finite_elements(loaded);
-  if (!loaded.not_in_fem.empty()) return check_without_mesh(loaded, options.json);
+  const LoadedCase loaded = load_case_of(options, uses::kAny);
+  if (own.mesh) require_support(uses::kFiniteElements, loaded);
+  if (const std::vector<Diagnostic> refused = refused_by(uses::kFiniteElements, loaded); !refused.empty())
+    return check_without_mesh(loaded, refused, options.json);
   const Model model = model_for_run(loaded);
   for (const std::string& note : model.placement.notes) spdlog::info("{}", note);
   if (own.mesh) write_meshes(options, loaded, model);

@@ -102,7 +102,7 @@ void warn_of_passes(const std::vector<CollectiveRow>& rows) {
 }
 
 ExitCode command_collective(const CommandOptions& options) {
-  const LoadedCase loaded = load_half_space_case_of(options);
+  const LoadedCase loaded = load_case_of(options, uses::kCollective);
   std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
   const double cell = cell_size(options.cell);
   const Placement placement = place(loaded.spec, loaded.folder());

@@ -27,7 +27,8 @@ ExitCode command_explore(const CommandOptions& given) {
   if (!options.force && std::filesystem::exists(page))
     throw CaseError(fmt::format("{}: there is a file of this name", page.string()),
                     "choose another name with --out, or replace it with --force");
-  const std::string text = explorer_page(load_half_space_case_of(options), options.case_file, cell_size(options.cell));
+  const std::string text =
+      explorer_page(load_case_of(options, uses::kExplorer), options.case_file, cell_size(options.cell));
   if (page.has_parent_path()) make_folder(page.parent_path());
   write_whole_file(page, text);
   if (options.json) fmt::print("{}\n", json_text(nlohmann::json{{"page", page.generic_string()}}));

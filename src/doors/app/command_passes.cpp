@@ -55,8 +55,7 @@ ExitCode command_rolled_passes(const PassesOptions& own, const CommandOptions& o
   CommandOptions plastic = options;  // with run.plasticity, so that what it asks of others is checked
   plastic.overrides.emplace_back("run.plasticity=true");
   plastic.overrides.emplace_back("run.rolling=true");
-  LoadedCase loaded = load_case_of(plastic, CaseUse::yielding);
-  require_finite_elements(loaded);
+  LoadedCase loaded = load_case_of(plastic, uses::kRolledPasses);
   PassOrder order = order_of(own, options, loaded);
   order.roll_length = roll_length(own);
   order.checkpoint_every = wall_time("--checkpoint-every", own.checkpoint_every);
@@ -66,7 +65,7 @@ ExitCode command_rolled_passes(const PassesOptions& own, const CommandOptions& o
 ExitCode command_passes(const PassesOptions& own, const CommandOptions& options) {
   if (own.engine == engine_word(Engine::fem)) return command_rolled_passes(own, options);
   require_stationary(own);
-  LoadedCase loaded = load_half_space_case_of(options, CaseUse::yielding);
+  LoadedCase loaded = load_case_of(options, uses::kPasses);
   PassOrder order = order_of(own, options, loaded);
   order.cell = cell_size(options.cell);
   return code_of(passes_in_folder(std::move(loaded), order, control_by_signals()).end);

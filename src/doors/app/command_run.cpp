@@ -45,7 +45,8 @@ void warn_of_shared_processors(int threads) {
 ExitCode run_along(const std::filesystem::path& resumed, const CommandOptions& options, const FemOptions& fem) {
   spdlog::set_level(spdlog::level::off);
   if (!resumed.empty()) require_resume_alone(options);
-  RankedRun run = resumed.empty() ? join_run(load_case_of(options), fem.ranks) : join_resumed_run(resumed, fem.ranks);
+  RankedRun run = resumed.empty() ? join_run(load_case_of(options, uses::kFiniteElements), fem.ranks)
+                                  : join_resumed_run(resumed, fem.ranks);
   follow_run(run, fem);
   return ExitCode::ok;
 }
@@ -53,7 +54,7 @@ ExitCode run_along(const std::filesystem::path& resumed, const CommandOptions& o
 ExitCode run_and_report(const std::filesystem::path& resumed, const CommandOptions& options, const FemOptions& fem) {
   const bool resume = !resumed.empty();
   if (resume) require_resume_alone(options);
-  LoadedCase loaded = resume ? case_to_resume(resumed) : load_case_of(options);
+  LoadedCase loaded = resume ? case_to_resume(resumed) : load_case_of(options, uses::kFiniteElements);
   JobOrder order = job_order_of(options, loaded, "", resume);
   if (resume) order.folder = resumed;
   RunJob job(std::move(loaded), order, fem, control());

@@ -32,13 +32,12 @@ struct SweepWords {
 
 /// Notes of cases that the case itself does not have, each once.
 void warn_of_notes(const LoadedCase& base, const std::vector<SweepCase>& cases) {
-  std::set<std::string> reported(base.static_notes.begin(), base.static_notes.end());
-  reported.insert(base.notes.begin(), base.notes.end());
+  const std::vector<std::string> known = notes_for(uses::kHalfSpaces, base);
+  std::set<std::string> reported(known.begin(), known.end());
   for (const SweepCase& c : cases) {
     if (!c.loaded) continue;
-    for (const auto* notes : {&c.loaded->notes, &c.loaded->static_notes})
-      for (const std::string& note : *notes)
-        if (reported.insert(note).second) spdlog::warn("{}", note);
+    for (const std::string& note : notes_for(uses::kHalfSpaces, *c.loaded))
+      if (reported.insert(note).second) spdlog::warn("{}", note);
   }
 }
 
@@ -70,7 +69,7 @@ void print_table(const CaseTable& table, const std::vector<SweepCase>& cases) {
 
 ExitCode command_sweep(const SweepWords& own, const CommandOptions& options) {
   const std::vector<Axis> axes = parse_axes("--vary", own.vary);
-  const LoadedCase base = load_half_space_case_of(options);
+  const LoadedCase base = load_case_of(options, uses::kHalfSpaces);
   std::vector<SweepCase> cases = plan_sweep(base, options.overrides, axes);
   warn_of_notes(base, cases);
   InfluenceCache cache;

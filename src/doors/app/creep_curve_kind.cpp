@@ -52,22 +52,12 @@ nlohmann::ordered_json as_json(const std::string& title, const std::vector<CsvCo
   return out;
 }
 
-/// Notes on settings of the case that a curve ignores.
-std::vector<std::string> notes_of(const CaseSpec& spec) {
-  std::vector<std::string> out;
-  if (spec.transient.kind != TransientKind::none)
-    out.emplace_back("[transient] is ignored: creep curves assume steady rolling");
-  if (!spec.run.rolling)
-    out.emplace_back("run.rolling = false is ignored: creep curves assume steady rolling, with the case's friction");
-  return out;
-}
-
 }  // namespace
 
 ExitCode creep_curve_in_folder(const CreepCurveOptions& wanted, const CommandOptions& options) {
   const CurveAxis axis = axis_of(wanted);
   const std::vector<double> varied = curve_values(axis, axis.largest, wanted.points, wanted.both_sides);
-  const LoadedCase loaded = load_half_space_case_of(options, CaseUse::steady_rolling);
+  const LoadedCase loaded = load_case_of(options, uses::kCreepCurve);
   const std::filesystem::path out = output_folder_of(options, loaded, "-creep-curve");
   BemOptions bem;
   bem.cell = cell_size(options.cell);
@@ -87,11 +77,10 @@ ExitCode creep_curve_in_folder(const CreepCurveOptions& wanted, const CommandOpt
       "{}/(f F_n) on the wheel against {}; full: half-space theory with the case's layers, its other force and its "
       "moment over f F_n beside it; the others: the Hertz ellipse, homogeneous bodies",
       axis.force, table.front().name);
-  const std::vector<std::string> notes = notes_of(loaded.spec);
+  const std::vector<std::string> notes = idle_in(uses::kCreepCurve, loaded.spec);
   origin.insert(origin.end(), notes.begin(), notes.end());
   write_csv(out / "creep_curve.csv", origin, table);
   if (options.page) write_creep_curve_page(out / "report.html", loaded.spec.title, axis, table, notes);
-  for (const std::string& note : notes) spdlog::warn("{}", note);
   if (options.json)
     fmt::print("{}\n", as_json(loaded.spec.title, table, notes).dump(2));
   else

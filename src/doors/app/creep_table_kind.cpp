@@ -56,11 +56,7 @@ void print(const CreepTable& table, const TableError& error) {
 
 ExitCode creep_table_in_folder(const CreepTableWords& wanted, const CommandOptions& options) {
   std::vector<NumberAxis> axes = parse_number_axes("--axis", wanted.axes);
-  const LoadedCase base = load_half_space_case_of(options, CaseUse::steady_rolling);
-  if (!base.spec.run.rolling)
-    spdlog::warn("run.rolling = false is ignored: creep tables assume steady rolling, with the case's friction");
-  if (base.spec.transient.kind != TransientKind::none)
-    spdlog::warn("[transient] is ignored: creep tables assume steady rolling");
+  const LoadedCase base = load_case_of(options, uses::kCreepTable);
   CreepTableOrder order{job_order_of(options, base, "-creep-table", wanted.resume),
                         options.overrides,
                         std::move(axes),

@@ -19,13 +19,14 @@ Json diagnostics(const std::vector<Diagnostic>& all) {
 }
 
 void answer_case(Call& call, LoadedCase loaded) {
-  std::vector<std::string> notes = loaded.notes;
-  for (const auto* more : {&loaded.elastic_notes, &loaded.static_notes})
-    notes.insert(notes.end(), more->begin(), more->end());
-  call.answer = {{"title", loaded.spec.title},          {"file", loaded.file.string()},
-                 {"overrides", loaded.overrides},       {"source", loaded.source_text},
-                 {"toml", loaded.resolved_toml},        {"notes", notes},
-                 {"static_notes", loaded.static_notes}, {"not_in_fem", diagnostics(loaded.not_in_fem)}};
+  call.answer = {{"title", loaded.spec.title},
+                 {"file", loaded.file.string()},
+                 {"overrides", loaded.overrides},
+                 {"source", loaded.source_text},
+                 {"toml", loaded.resolved_toml},
+                 {"notes", notes_for(uses::kAny, loaded)},
+                 {"static_notes", notes_at_rest(loaded)},
+                 {"not_in_fem", diagnostics(refused_by(uses::kFiniteElements, loaded))}};
   call.make(std::make_shared<LoadedCase>(std::move(loaded)));
 }
 

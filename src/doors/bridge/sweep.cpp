@@ -28,7 +28,7 @@ Json row_of(const SweepCase& c, const std::vector<Axis>& axes) {
   return {{"values", values},
           {"summary", c.summary},
           {"fault", c.fault},
-          {"static_notes", c.loaded ? c.loaded->static_notes : std::vector<std::string>{}}};
+          {"static_notes", c.loaded ? notes_at_rest(*c.loaded) : std::vector<std::string>{}}};
 }
 
 /// rows, the axes (SI unit, number of values), and the columns of a table made from their summaries: (name, path,

@@ -106,12 +106,6 @@ std::string data_block(std::string_view id, std::string_view type, std::string_v
   return fmt::format("<script type=\"{}\" id=\"{}\">{}</script>\n", type, id, text);
 }
 
-void require_steady(const LoadedCase& loaded) {
-  if (loaded.spec.transient.kind != TransientKind::none)
-    throw in_case_file(loaded, CaseError("the explorer shows steady rolling, the case has a history in time",
-                                         "leave transient.kind out, or use `railstrata bem`", "transient.kind"));
-}
-
 /// Seven digits: nothing is computed with them.
 Json rounded(const std::vector<double>& values) {
   Json out = Json::array();
@@ -189,12 +183,12 @@ std::string page_of(const LoadedCase& loaded, const Json& seed) {
 }  // namespace
 
 std::string explorer_page(const LoadedCase& loaded, const fs::path& as_given, double cell) {
-  require_steady(loaded);
+  require_support(uses::kExplorer, loaded);
   return page_of(loaded, seed_of(loaded, as_given, cell));
 }
 
 FramedPage what_if_page(const LoadedCase& loaded, const fs::path& as_given, double cell, const ReportRun& reported) {
-  require_steady(loaded);
+  require_support(uses::kExplorer, loaded);
   Json seed = seed_of(loaded, as_given, cell);
   seed["reported"] = reported_json(reported);
   return {page_of(loaded, seed), " " + scripts(), " " + policy_hash(explorer_style()), kWorkers};

@@ -151,12 +151,6 @@ std::vector<double> stiffness_of(const CaseSpec& spec) {
   return out;
 }
 
-void require_steady(const CaseSpec& spec) {
-  if (spec.transient.kind != TransientKind::none)
-    throw CaseError("the explorer shows steady rolling, the case has a history in time",
-                    "leave transient.kind out, or use `railstrata bem`", "transient.kind");
-}
-
 }  // namespace
 
 /// The last contact, and what of it was computed since.
@@ -186,7 +180,7 @@ struct Explorer::State {
     of.reset();
     sections.reset();
     loaded = parse_case(request.text, request.file, request.overrides);
-    require_steady(loaded.spec);
+    require_support(uses::kExplorer, loaded);
     placement = place(loaded.spec, loaded.folder());
     BemOptions options;
     options.cell = request.cell;
@@ -219,8 +213,8 @@ struct Explorer::State {
     out["strengths"] = strength_to_judge(loaded.spec);
     out["doubts"] = doubts_json(asked.summary);
     out["excluded"] = excluded_keys(uses::kExplorer, loaded.spec);
-    out["notes"] = loaded.notes;
-    for (const auto& further : {loaded.elastic_notes, loaded.static_notes, placement.notes, asked.result.notes})
+    out["notes"] = notes_for(uses::kExplorer, loaded);
+    for (const auto& further : {placement.notes, asked.result.notes})
       for (const std::string& note : further) out["notes"].push_back(note);
     if (request.wants("case")) out["case"] = loaded.resolved_toml;
     if (request.wants("patch")) out["patch"] = patch_json(asked.result, numbers);

@@ -8,7 +8,6 @@
 #include "core/faults.hpp"
 #include "halfspace/creep_theories.hpp"
 #include "model/drive_at_contact.hpp"
-#include "rules/irregularity_rules.hpp"
 #include "rules/support.hpp"
 
 namespace railstrata {
@@ -24,14 +23,7 @@ void vary(VariedCreepage varied, double creepage, RollingContact& contact) {
 
 std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, VariedCreepage varied,
                                          const std::vector<double>& creepages, const BemOptions& options) {
-  require_support(uses::kHalfSpaces, spec);
-  require_same_along(spec, "a creep curve");
-  if (!(spec.drive.friction_coefficient > 0))
-    throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero",
-                    "drive.friction_coefficient");
-  if (spec.geometry.in_line())
-    throw CaseError("the fast theories of a creep curve apply to elliptic contacts, not to a line contact",
-                    "use `railstrata sweep` over drive.creepage, or geometry.contact = \"point\"", "geometry.contact");
+  require_support(uses::kCreepCurve, spec);
   const std::optional<double>& approach = spec.vehicle.approach;
   CasePatch patch = make_case_patch(
       spec, placement, options,

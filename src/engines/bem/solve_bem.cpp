@@ -13,7 +13,6 @@
 #include "bem/several_patches.hpp"
 #include "core/faults.hpp"
 #include "model/drive_at_contact.hpp"
-#include "rules/irregularity_rules.hpp"
 #include "rules/support.hpp"
 
 namespace railstrata {
@@ -424,11 +423,13 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   const auto begin = std::chrono::steady_clock::now();
   if (spec.drive.creepage_of == CreepageOf::wheel)
     return solve_bem(with_drive_at_contact(spec, placement.contact), placement, options);
-  require_support(uses::kHalfSpaces, spec);
-  if (spec.run.rolling) require_same_along(spec, "steady rolling of half-spaces");
+  require_support(spec.run.rolling ? uses::kSteadyRolling : uses::kHalfSpaces, spec);
   SharedLoad shared =
       spec.vehicle.approach ? press_to_approach(spec, placement, options) : bear_weight(spec, placement, options);
-  if (shared.patches.size() > 1) require_same_along(spec, "contact at several places of one wheel");
+  if (shared.patches.size() > 1 && !spec.irregularities.empty())
+    throw CaseError("irregularity: a wheel that touches at several places needs a rail and a wheel without heights",
+                    "take it out, or move the wheel (geometry.lateral_shift) until it touches at one place",
+                    "irregularity");
   BemResult r = result_of(spec, placement, shared.patches, options.apart);
   if (options.neighbour) {
     *options.neighbour = {};

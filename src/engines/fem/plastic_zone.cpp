@@ -63,9 +63,6 @@ class Zone {
     last_ = (end + beyond) * per_metre;
   }
 
-  bool yields() const {
-    return std::any_of(laws_.begin(), laws_.end(), [](const Law& l) { return l.law.has_value(); });
-  }
   /// Of a quadrilateral's elements of a material, also outside the box.
   std::optional<PlasticMaterial> material(int block, int quad, int material) const {
     const Law& law = laws_[material];
@@ -134,9 +131,6 @@ class ProcessStress {
 
 PlasticElements plastic_zone(const Model& model, BodyId id, const Body& body) {
   if (!model.spec.run.plasticity) return {};
-  if (!Zone(model, BodyId::rail, model.rail).yields() && !Zone(model, BodyId::wheel, model.wheel).yields())
-    throw CaseError("run.plasticity = true, but no material of the case has a strength",
-                    "give material.rail.yield_strength, or a ready set: material.rail.hardening = \"R260\"");
   const Zone zone(model, id, body.mesh);
   const ProcessStress process(model, id, body.mesh);
   const RunSpec& run = model.spec.run;

@@ -26,15 +26,9 @@ void by_physics(Work&& work) {
 }
 
 CaseSpec case_of_contact(const LoadedCase& loaded) {
+  require_support(uses::kStates, loaded);
   CaseSpec spec = half_space_case(loaded.spec);
-  if (spec.drive.creepage_of == CreepageOf::wheel && (spec.drive.creepage || spec.drive.lateral_creepage))
-    throw CaseError("a contact that is solved state by state takes creepages of the contact, not of the wheel",
-                    "take out drive.creepage and drive.lateral_creepage, and give them with each state",
-                    "drive.creepage_of");
   spec.drive.creepage_of = CreepageOf::contact;
-  if (spec.transient.kind != TransientKind::none)
-    throw CaseError("a contact that is solved state by state follows no history in time (transient)",
-                    "use `railstrata bem`, or rs.bem in Python", loaded.file.string());
   return spec;
 }
 

@@ -310,11 +310,7 @@ WheelForces forces_of(const Wheel& w, double y, bool mirror) {
 
 Wheel::Wheel(const LoadedCase& loaded) : contact(loaded), at_rest(track()) {
   at_rest.lateral_shift = 0;
-  const GeometrySpec& g = contact.spec().geometry;
-  if (g.rail_radius || g.in_line())
-    throw CaseError("a wheelset rolls on straight rails, in patches that are no lines",
-                    "take out rail_radius and contact = \"line\"",
-                    g.rail_radius ? "geometry.rail_radius" : "geometry.contact");
+  require_support(uses::kWheelset, loaded);
 }
 
 WheelsetForces solve(Wheelset& set, const WheelsetState& state) {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <exception>
 
-#include "core/faults.hpp"
 #include "core/root.hpp"
 #include "fatigue/traffic_damage.hpp"
 #include "io/summary_json.hpp"
 #include "many/each_case.hpp"
 #include "many/result_columns.hpp"
+#include "rules/support.hpp"
 #include "tables/load_rows.hpp"
 
 namespace railstrata {
@@ -76,13 +76,7 @@ std::vector<WheelKind> kinds_of(const std::vector<CollectiveRow>& rows) {
 }  // namespace
 
 std::vector<CollectiveRow> plan_collective(const CaseSpec& spec) {
-  if (spec.loads.empty())
-    throw CaseError("the case has no load collective",
-                    "write rows of [[load]], each with passages and the keys that differ from the case, or name a "
-                    "table with collective.file = \"loads.csv\"");
-  if (!spec.run.rolling)
-    throw CaseError("nothing rolls in this case (run.rolling = false), so there is no wear and no fatigue",
-                    "remove run.rolling");
+  require_support(uses::kCollective, spec);
   std::vector<CollectiveRow> rows;
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
     CollectiveRow& row = rows.emplace_back();

@@ -12,6 +12,7 @@
 #include "many/each_case.hpp"
 #include "model/model.hpp"
 #include "result/result_table.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -165,17 +166,8 @@ void CreepTable::start_scaled(const ScaledCounts& counts) {
 }
 
 void CreepTable::check_scaled() const {
-  for (const Outer& outer : outer_) {
-    if (!outer.spec) continue;
-    if (outer.spec->vehicle.approach)
-      throw CaseError("a scaled table under vehicle.approach: its creepages are scaled by the load, which is a result",
-                      "give vehicle.wheel_load and --axis load=..., or make the table without --scaled",
-                      "vehicle.approach");
-    if (!(outer.spec->drive.friction_coefficient > 0))
-      throw CaseError("a scaled table without friction: its creepages are scaled by it",
-                      "give drive.friction_coefficient above 0, or make the table without --scaled",
-                      "drive.friction_coefficient");
-  }
+  for (const Outer& outer : outer_)
+    if (outer.spec) require_support(uses::kScaledTable, *outer.spec);
 }
 
 /// Where the case refuses a value, the axis is named instead of the setting.

@@ -16,18 +16,10 @@
 #include "passes/pass_way_files.hpp"
 #include "passes/pressed_profile.hpp"
 #include "result/result_table.hpp"
-#include "rules/irregularity_rules.hpp"
 #include "runs/pass_job.hpp"
 
 namespace railstrata {
 namespace {
-
-/// Steady rolling over one rail is what the stationary method knows.
-void require_steady(const LoadedCase& loaded) {
-  if (loaded.spec.transient.kind != TransientKind::none)
-    throw CaseError("passes are of steady rolling, the case is a transient", "take out [transient]",
-                    loaded.file.string());
-}
 
 class SteadyPasses : public PassJob {
  public:
@@ -43,7 +35,6 @@ class SteadyPasses : public PassJob {
 
  private:
   PassRunner runner_of() {
-    require_same_along(loaded_.spec, "a series of passes");
     AskOptions how;
     how.bem.cell = wanted_.cell;
     how.bem.apart = false;
@@ -321,7 +312,7 @@ class SteadyPasses : public PassJob {
 }  // namespace
 
 PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, Control& control) {
-  require_steady(loaded);
+  require_support(uses::kPasses, loaded);
   require_cell(order.cell);
   loaded.spec.run.rolling = true;  // passes roll, as those by finite elements do
   SteadyPasses job(std::move(loaded), order, control);

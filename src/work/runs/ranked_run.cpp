@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/output_folder.hpp"
 #include "runs/device_at_hand.hpp"
@@ -10,7 +9,7 @@
 namespace railstrata {
 
 RankedRun join_run(LoadedCase loaded, const Ranks& ranks) {
-  if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
+  require_support(uses::kFiniteElements, loaded);
   require_device(loaded, ranks);
   return {std::move(loaded)};
 }

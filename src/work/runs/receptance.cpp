@@ -7,11 +7,11 @@
 #include <numbers>
 #include <utility>
 
-#include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "fem/rolling_system.hpp"
 #include "record/output_file.hpp"
 #include "report/page.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -75,9 +75,7 @@ std::vector<double> receptance_frequencies(double largest) {
 
 Receptance beam_receptances(const Model& model, const std::vector<double>& frequency) {
   const TrackSpec& track = model.spec.track;
-  if (track.held())
-    throw CaseError("the foot of this rail is held: there is no track whose receptance could be found",
-                    "give [track] preset = \"delft\", \"medium\" or \"cn60\"");
+  require_support(uses::kReceptance, model.spec);
   const RailBeam beam = rail_beam(model);
   Receptance out{frequency, pinned_pinned_frequency(beam, track.support.spacing), {}};
   for (const ForcePlace& place : kForcePlaces) {

@@ -7,7 +7,6 @@
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/provenance.hpp"
-#include "rules/irregularity_rules.hpp"
 #include "runs/pass_job.hpp"
 #include "runs/rolled_passes.hpp"
 #include "runs/write_fem_result.hpp"
@@ -16,11 +15,8 @@ namespace railstrata {
 namespace {
 
 RolledPasses passes_of(const LoadedCase& loaded, double roll_length) {
-  if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
-  return with_places(loaded, [&] {
-    require_same_along(loaded.spec, "a series of passes");
-    return RolledPasses(loaded.spec, loaded.folder(), roll_length);
-  });
+  require_support(uses::kRolledPasses, loaded);
+  return with_places(loaded, [&] { return RolledPasses(loaded.spec, loaded.folder(), roll_length); });
 }
 
 class RolledPassJob : public PassJob {
@@ -119,25 +115,9 @@ class RolledPassJob : public PassJob {
   std::optional<RunState> begun_;
 };
 
-/// Keys of the stationary method, which rolled passes would pass over in silence.
-void require_rolled(const PassesSpec& passes) {
-  const auto refuse = [](bool asked, const char* what, const char* remedy) {
-    if (asked) throw CaseError(fmt::format("{}: of the stationary method", what), remedy);
-  };
-  const PassesSpec usual;
-  refuse(passes.jump != usual.jump, "passes.jump", "take it out, or use the stationary method (--engine bem)");
-  const char* const of_elements = "take it out and give mesh.element_size, or use the stationary method (--engine bem)";
-  refuse(passes.patch_cells != usual.patch_cells, "passes.patch_cells", of_elements);
-  refuse(passes.patch_rows != usual.patch_rows, "passes.patch_rows", of_elements);
-  refuse(passes.first_row.has_value(), "passes.first_row", of_elements);
-  refuse(passes.window.has_value(), "passes.window", of_elements);
-  refuse(passes.window_tolerance != usual.window_tolerance, "passes.window_tolerance", of_elements);
-}
-
 }  // namespace
 
 PassesEnd rolled_passes_in_folder(LoadedCase loaded, const PassOrder& order, Control& control) {
-  require_rolled(loaded.spec.passes);
   RolledPassJob job(std::move(loaded), order, control);
   const JobEnd end = job.carry_out();
   return {job.passes(), end};

@@ -30,7 +30,7 @@ LoadedCase case_to_resume(const std::filesystem::path& folder) {
 
 RunJob::RunJob(LoadedCase loaded, JobOrder order, const FemOptions& options, Control& control)
     : CaseJob({"run", nullptr, ""}, std::move(loaded), std::move(order), control), options_(options) {
-  if (!order_.resume && !loaded_.not_in_fem.empty()) throw CaseError(loaded_.not_in_fem);
+  if (!order_.resume) require_support(uses::kFiniteElements, loaded_);
   require_device(loaded_, options.ranks);
   if (!order_.resume) place(loaded_.spec, loaded_.folder());  // faults of the input before a folder is made
   options_.control = &control;

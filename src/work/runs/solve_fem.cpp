@@ -10,6 +10,7 @@
 #include "judge/fem_summary.hpp"
 #include "passage/passage.hpp"
 #include "rules/irregularity_rules.hpp"
+#include "rules/support.hpp"
 #include "runs/device_at_hand.hpp"
 
 namespace railstrata {
@@ -97,6 +98,7 @@ RunResult roll(const RollingSystem& system, const RunObserver& observer, const R
 }  // namespace
 
 RollingSystem fem_system(const CaseSpec& spec, const std::filesystem::path& folder) {
+  require_support(uses::kFiniteElements, spec);
   const Model model = build_model(spec, folder);
   require_memory(model);
   return RollingSystem(model);

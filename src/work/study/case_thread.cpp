@@ -55,8 +55,7 @@ class CaseThread : public RunningCase {
   void solve() {
     set_threads(settings_.threads);
     const LoadedCase& loaded = case_.loaded;
-    for (const auto* notes : {&loaded.notes, &loaded.elastic_notes, &loaded.static_notes})
-      for (const std::string& note : *notes) log_ += fmt::format("warning: {}\n", note);
+    for (const std::string& note : notes_for(uses::kHalfSpaces, loaded)) log_ += fmt::format("warning: {}\n", note);
     AskOptions how{.control = &control_};
     if (!settings_.cell.empty()) how.bem.cell = parse_quantity(settings_.cell, dimension::kLength);
     how.bem.cache = settings_.cache;

@@ -10,6 +10,7 @@
 #include "core/faults.hpp"
 #include "lives/zone_life.hpp"
 #include "model/zone.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -27,14 +28,6 @@ double area_between(const std::vector<Vec2>& first, const std::vector<Vec2>& sec
 
 /// A wheel without a flange stands over the rail's axis, whatever the gauge.
 bool has_gauge(const Placement& p) { return !p.wheel.primitive() && !p.rail.primitive(); }
-
-void require_gauge_face(const Placement& original) {
-  if (original.rail.primitive() && !original.wheel.primitive())
-    throw CaseError(
-        "the rail's profile is an arc or a plane; once worn it is a list of points, and a wheel with a flange then "
-        "needs a gauge face, which this profile does not have",
-        "use a rail profile, or an arc for the wheel too");
-}
 
 /// The height that the reader of profiles takes off so that z = 0 at y = 0.
 double origin_height(const WornRail& rail) {
@@ -197,7 +190,7 @@ CaseSpec on_worn_rail(const CaseSpec& spec, const Placement& original, const Wor
 
 WearStep wear_step(const CaseSpec& spec, const std::filesystem::path& folder, const Placement& original,
                    const WornRail& rail, const WearStepOptions& options) {
-  require_gauge_face(original);
+  require_support(uses::kWearLoop, spec);
   WearStep step;
   const CaseSpec worn = on_worn_rail(spec, original, rail);
   step.gauge = worn.geometry.gauge;
