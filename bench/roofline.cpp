@@ -19,6 +19,7 @@
 #include "counted.hpp"
 #include "fem/stepper.hpp"
 #include "machine_peaks.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {
@@ -238,7 +239,7 @@ CachedTimes cached_times(int threads) {
     for (Vec2& n : mesh.blocks[0].section.nodes) n.z -= 0.43;
     for (double& t : mesh.blocks[0].stations.at) t /= 0.43;
   }
-  const Body body(mesh, {elastic(210e9, 0.3, 7800)}, {ElementKind::full, 0.05, Precision::single_precision});
+  const Body body(mesh, {elastic(210e9, 0.3, 7800)}, {ElementKind::full, Precision::single_precision});
   const NodeStep step = node_step<kind>({}, {}, 1e-7, 0, 0);
   std::vector<ScratchRows<Real>> scratch(static_cast<std::size_t>(threads));
   std::vector<NodeInCache, CacheLineAllocator<NodeInCache>> nodes(static_cast<std::size_t>(threads));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/shell_word.hpp"
+#include "record/escaped_text.hpp"
 
 namespace railstrata {
 namespace {

@@ -107,7 +107,7 @@ Engine::Engine(Device& device, const RollingSystem& system, const RollingBodies&
       bore_loads_(device, 4 * bore_.size()),
       results_(device, kResults),
       now_(device, 1),
-      groups_(device, static_cast<std::size_t>(system.options.vehicle.suspension_groups)),
+      groups_(device, kSuspensionGroups),
       log_(device, kMostSteps),
       records_(kMostSteps) {
   std::size_t longest = 4 * bore_.size() + dashpots_.size() + end_loads_.size(), moments = 0;

@@ -120,7 +120,7 @@ class DeckWriter {
     add(out_, "** 2: it carries the load\n*STEP, NLGEOM, INC=200\n*STATIC\n1., 1.\n");
     add(out_, "*BOUNDARY, OP=NEW\nFIXED, 1, 3\nBORE, 1, 2\nAXLE, 1, 2\n");
     add(out_, "*CLOAD\nAXLE, 3, {:.9g}\n", -model_.axle_load);
-    add(out_, "*DLOAD\nALL, GRAV, {:.9g}, 0., 0., -1.\n", kToMilli * model_.gravity);
+    add(out_, "*DLOAD\nALL, GRAV, {:.9g}, 0., 0., -1.\n", kToMilli * kGravity);
     output();
     add(out_, "*END STEP\n");
   }

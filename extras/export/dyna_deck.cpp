@@ -107,7 +107,7 @@ class DynaWriter {
     add(out_, "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n{:10}{:10}{:10}{:10}{:10.3g}{:10}{:10.3f}{:10.3f}\n", parts_ + 1, 3,
         2, kTouch, -kFirstPush * kToMilli * model_.approach, 0, 1.0, 0.0);
     add(out_, "*LOAD_RIGID_BODY\n{:10}{:10}{:10}{:10.7g}\n", parts_ + 1, 3, kLoad, -model_.axle_load);
-    add(out_, "*LOAD_BODY_Z\n{:10}{:10.7g}\n", kLoad, kToMilli * model_.gravity);
+    add(out_, "*LOAD_BODY_Z\n{:10}{:10.7g}\n", kLoad, kToMilli * kGravity);
   }
 
   void contact() {

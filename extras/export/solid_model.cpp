@@ -190,9 +190,7 @@ SolidModel solid_model(const Model& m) {
   out.wheel = solid_body(BodyId::wheel, m.wheel, m.wheel_materials, contact.x, reach);
   out.axle = m.wheel.origin;
   if (contact.yaw != 0) turn_about_axle(out.wheel, out.axle, contact.yaw);
-  const VehicleSpec& v = m.spec.vehicle;
-  out.gravity = v.gravity;
-  out.axle_load = v.load() - meshed_mass(out.wheel) * v.gravity;
+  out.axle_load = m.load - meshed_mass(out.wheel) * kGravity;
   out.static_load = m.load;
   out.approach = m.hertz.approach;
   out.p_max = m.hertz.p0;

@@ -47,7 +47,6 @@ struct SolidModel {
   SolidBody rail, wheel;
   Vec3 axle;                ///< m, centre of the axle
   double axle_load = 0;     ///< N, downwards: what the wheel carries, and its own mass that is not meshed
-  double gravity = 0;       ///< m/s²
   double approach = 0;      ///< m, Hertz's estimate
   double p_max = 0;         ///< Pa, likewise
   double a = 0, b = 0;      ///< m, semi-axes of the patch along x and y, likewise

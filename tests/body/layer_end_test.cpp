@@ -10,6 +10,7 @@
 #include "body/stress.hpp"
 #include "mesh/grading.hpp"
 #include "tests/body/sample_bodies.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {

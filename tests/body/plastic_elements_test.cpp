@@ -5,6 +5,7 @@
 #include "core/faults.hpp"
 #include "tests/body/relaxation.hpp"
 #include "tests/body/same_bits.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {
@@ -22,7 +23,7 @@ YieldingMaterial hardening(double yield) {
 }
 
 Body yielding(SweepKind kind, double yield, Precision precision = Precision::double_precision) {
-  Body body(distorted_body(kind), {kSteel}, {ElementKind::full, 0.05, precision});
+  Body body(distorted_body(kind), {kSteel}, {ElementKind::full, precision});
   body.plastic = PlasticElements(
       body, [&](int, int quad, int) { return quad == 2 ? std::nullopt : std::optional(hardening(yield)); },
       [](int, int quad, const Tile& tile) { return quad % 3 != 1 || tile.first > 0; });
@@ -35,7 +36,7 @@ constexpr double kMove = 3e-5;  // strains of some 1e-2
 TEST(PlasticElements, WithoutYieldHaveTheForcesEnergyAndStressOfElasticOnesToTheLastBit) {
   for (SweepKind kind : {SweepKind::extrude, SweepKind::revolve})
     for (Precision precision : {Precision::double_precision, Precision::single_precision}) {
-      const Body elastic(distorted_body(kind), {kSteel}, {ElementKind::full, 0.05, precision});
+      const Body elastic(distorted_body(kind), {kSteel}, {ElementKind::full, precision});
       const Body body = yielding(kind, kNever, precision);
       ASSERT_FALSE(body.plastic.empty());
       BodyState a(elastic), b(body);
@@ -187,7 +188,7 @@ TEST(PlasticElements, OfAConstantInitialStressThatIsInEquilibriumFeelNothingButI
 }
 
 TEST(PlasticElements, WithOnePointAreRefusedInWords) {
-  Body body(mesh_brick(1, 1, 1, 1, 1, 1), {kSteel}, {ElementKind::one_point, 0.05, Precision::double_precision});
+  Body body(mesh_brick(1, 1, 1, 1, 1, 1), {kSteel}, {ElementKind::one_point, Precision::double_precision});
   EXPECT_THROW(make_plastic(body, hardening(1e8)), CaseError);
 }
 

@@ -4,6 +4,7 @@
 
 #include "body/plastic_pass.hpp"
 #include "tests/body/sample_bodies.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata::fem_checks {
 

@@ -6,6 +6,7 @@
 #include "body/traversal.hpp"
 #include "geometry/profile_names.hpp"
 #include "mesh/bodies.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata::fem_checks {
 

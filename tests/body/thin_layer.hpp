@@ -2,6 +2,7 @@
 // Bodies with a thin stiff layer, and what the tests of time steps do with them.
 #include "tests/body/free_matrix.hpp"
 #include "tests/body/sample_bodies.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata::fem_checks {
 

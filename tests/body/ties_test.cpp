@@ -8,6 +8,7 @@
 #include "geometry/profile_names.hpp"
 #include "tests/body/same_bits.hpp"
 #include "tests/body/sample_bodies.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {

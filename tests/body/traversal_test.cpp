@@ -88,7 +88,7 @@ std::vector<Kind> kinds() {
 TEST(SolidPatchTest, LinearDisplacementsOnASkewedSectionGiveTheExactStressAndNoForceInside) {
   const Eigen::Matrix3d gradient = finite_gradient(), truth = cauchy_of(gradient);
   for (const Kind& kind : kinds()) {
-    const Body solid(distorted_body(kind.sweep), {kSteel}, {kind.element, 0.05});
+    const Body solid(distorted_body(kind.sweep), {kSteel}, {kind.element});
     Field u = nodal_field(solid, [&](Vec3 x) { return apply(gradient, x); }), f = solid.layout.field();
     internal_force(solid, u, 0.0, f);
     const std::vector<char> boundary = boundary_nodes(solid.mesh.blocks[0].section);
@@ -104,7 +104,7 @@ TEST(SolidPatchTest, LinearDisplacementsOnASkewedSectionGiveTheExactStressAndNoF
 TEST(SolidPatchTest, LinearForcesVanishInsideUnderLinearDisplacements) {
   const Eigen::Matrix3d gradient = 1e-3 * finite_gradient();
   for (const Kind& kind : kinds()) {
-    const Body solid(distorted_body(kind.sweep), {kSteel}, {kind.element, 0.05});
+    const Body solid(distorted_body(kind.sweep), {kSteel}, {kind.element});
     Field u = nodal_field(solid, [&](Vec3 x) { return apply(gradient, x); }), f = solid.layout.field();
     linear_force(solid, u, f);
     const std::vector<char> boundary = boundary_nodes(solid.mesh.blocks[0].section);
@@ -116,7 +116,7 @@ TEST(SolidPatchTest, PassesThroughHangingNodesOfAPlaneInterface) {
   const Eigen::Matrix3d gradient = finite_gradient(), truth = cauchy_of(gradient);
   for (const Kind& kind : kinds()) {
     const SweptBody body = tied_body(kind.sweep);
-    const Body solid(body, {kSteel}, {kind.element, 0.05});
+    const Body solid(body, {kSteel}, {kind.element});
     const Ties ties(body, solid.layout);
     Field u = nodal_field(solid, [&](Vec3 x) { return apply(gradient, x); }), exact = u, f = solid.layout.field();
     ties.apply(u, 0.0);
@@ -174,7 +174,7 @@ TEST(Solid, InternalForceIsTheGradientOfTheEnergyAtFiniteStrainAndRotation) {
   const double psi = 0.7;
   for (const Kind& kind : kinds()) {
     const bool ring = kind.sweep == SweepKind::revolve;
-    const Body solid(distorted_body(kind.sweep, ring), {kSteel}, {kind.element, 0.05});
+    const Body solid(distorted_body(kind.sweep, ring), {kSteel}, {kind.element});
     const Field noise = scattered_field(solid, 1e-4), direction = scattered_field(solid, 1.0, 999);
     Field u = nodal_field(solid,
                           [&](Vec3 x) { return rigid_displacement(x, solid.mesh.origin, ring ? psi : 0.0, {}); }),
@@ -198,7 +198,7 @@ TEST(Solid, InternalForceIsTheGradientOfTheEnergyAtFiniteStrainAndRotation) {
 
 TEST(Solid, LinearForceIsTheTangentOfTheInternalForceAtRest) {
   for (const Kind& kind : kinds()) {
-    const Body solid(distorted_body(kind.sweep, kind.sweep == SweepKind::revolve), {kSteel}, {kind.element, 0.05});
+    const Body solid(distorted_body(kind.sweep, kind.sweep == SweepKind::revolve), {kSteel}, {kind.element});
     Field u = scattered_field(solid, 1e-7), minus = u, linear = solid.layout.field(), plus = linear, opposite = linear;
     for (double& v : minus) v = -v;
     linear_force(solid, u, linear);
@@ -212,7 +212,7 @@ TEST(Solid, LinearForceIsTheTangentOfTheInternalForceAtRest) {
 
 TEST(Solid, DiagonalOfTheStiffnessIsThatOfLinearForce) {
   for (const Kind& kind : kinds()) {
-    const Body solid(distorted_body(kind.sweep, kind.sweep == SweepKind::revolve), {kSteel}, {kind.element, 0.05});
+    const Body solid(distorted_body(kind.sweep, kind.sweep == SweepKind::revolve), {kSteel}, {kind.element});
     Field diagonal = solid.layout.field(), f = diagonal;
     stiffness_diagonal(solid, diagonal);
     const BlockLayout& l = solid.layout.blocks[0];

@@ -108,7 +108,7 @@ TEST(Collective, ALayerWornThroughHasItsLifeInGrossTonnes) {
     const Placement placement = place(spec, {});
     const RailDamage damage = rail_damage(rows, placement, 0.5e-3);
     const Lives lives = collective_lives(spec, rows, damage, wheel_damage(rows, placement, 0.5e-3));
-    const double mgt = 1e4 * 2e-9 * rows[0].summary.contact.F_z / spec.vehicle.gravity;
+    const double mgt = 1e4 * 2e-9 * rows[0].summary.contact.F_z / kGravity;
     for (const LifeRow& row : lives.rows)
       if (row.mechanism == "worn through") {
         const std::vector<double> wear = smoothed_wear(damage, WearLaw::usfd);

@@ -1,4 +1,3 @@
-#include "core/apart_loop.hpp"
 
 #include <gtest/gtest.h>
 

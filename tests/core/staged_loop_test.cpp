@@ -1,4 +1,3 @@
-#include "core/staged_loop.hpp"
 
 #include <gtest/gtest.h>
 

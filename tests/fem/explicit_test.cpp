@@ -7,6 +7,7 @@
 #include "fem/stepper.hpp"
 #include "tests/body/free_matrix.hpp"
 #include "tests/body/sample_bodies.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {

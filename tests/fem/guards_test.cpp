@@ -78,7 +78,7 @@ TEST(Guards, ASoundRunPassesThemAllAndEachSaysWhatWentWrong) {
   EXPECT_NE(r.verdict().find("try a smaller mesh.element_size, more elements through the layers"), std::string::npos);
   EXPECT_EQ(r.verdict().find("mesh.element = "), std::string::npos);  // these are full elements
   r.system.model.spec.mesh.element = ElementFormulation::one_point;
-  EXPECT_NE(r.verdict().find("try mesh.element = \"full\", or a larger mesh.hourglass_coefficient"), std::string::npos);
+  EXPECT_NE(r.verdict().find("try mesh.element = \"full\""), std::string::npos);
   r.system.model.spec.mesh.element = ElementFormulation::full;
   r.system.model.spec.run.plasticity = true;  // bending that stays
   EXPECT_EQ(r.verdict(), "sound");

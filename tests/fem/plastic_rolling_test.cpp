@@ -6,6 +6,7 @@
 #include "body/stress.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "fem/plastic_zone.hpp"
 #include "small_rolling.hpp"
 
 namespace railstrata {
@@ -24,6 +25,14 @@ CaseSpec yielding_case(double yield) {
     m->strength.kinematic_hardening = {{20e9, 50}};
   }
   return spec;
+}
+
+/// A system with the elements around its contact hot from the start.
+RollingSystem hot_system(const CaseSpec& spec) {
+  RollingSystem out = small_system(spec);
+  for (const BodyId id : kBodies)
+    out.bodies[index_of(id)].plastic = plastic_zone(out.model, id, out.body(id), {0.06, 0.06});
+  return out;
 }
 
 Stepper& rolled(Stepper& st, int steps) {
@@ -49,8 +58,7 @@ TEST(SlowPlasticRolling, WithoutYieldHasTheBitsOfTheElasticRun) {
   for (ArithmeticPrecision precision : {ArithmeticPrecision::double_precision, ArithmeticPrecision::single_precision}) {
     CaseSpec elastic = small_case(), spec = yielding_case(kNever);
     elastic.run.precision = spec.run.precision = precision;
-    spec.run.plastic_depth = 0.03;  // hot without need
-    const RollingSystem plain = small_system(elastic), system = small_system(spec);
+    const RollingSystem plain = small_system(elastic), system = hot_system(spec);
     for (const BodyId id : kBodies)
       ASSERT_GT(system.body(id).plastic.hot_elements(system.body(id), initial_history(system.body(id))), 500);
     Stepper a(plain, solve_preload(plain, 1e-4)), b(system, solve_preload(system, 1e-4));
@@ -133,10 +141,7 @@ std::array<long, 2> hot_elements(const RollingSystem& sys, const std::array<Plas
 
 // A box around all that yields and none at all: which elements are hot must not be seen.
 TEST(SlowPlasticRolling, ElementsThatBecomeHotOnTheWayGiveTheResultsOfThoseThatWereFromTheStart) {
-  CaseSpec boxed = yielding_case(300e6);
-  boxed.run.plastic_depth = 0.06;
-  boxed.run.plastic_width = 0.06;
-  const RollingSystem wide = small_system(boxed), grown = small_system(yielding_case(300e6));
+  const RollingSystem wide = hot_system(yielding_case(300e6)), grown = small_system(yielding_case(300e6));
   const PreloadResult a = solve_preload(wide, 1e-6), b = solve_preload(grown, 1e-6);
   const auto many = hot_elements(wide, a.history), few = hot_elements(grown, b.history);
   for (int k : {0, 1}) {
@@ -148,10 +153,7 @@ TEST(SlowPlasticRolling, ElementsThatBecomeHotOnTheWayGiveTheResultsOfThoseThatW
 
 TEST(PlasticRolling, WhatComesNearYieldingOnTheWayBecomesHotAndTheBitsDoNotTell) {
   // the same start; in one run nothing but what the start needed is hot, in the other all near the path
-  CaseSpec boxed = yielding_case(300e6);
-  boxed.run.plastic_depth = 0.06;
-  boxed.run.plastic_width = 0.06;
-  const RollingSystem wide = small_system(boxed), grown = small_system(yielding_case(300e6));
+  const RollingSystem wide = hot_system(yielding_case(300e6)), grown = small_system(yielding_case(300e6));
   PreloadResult free = solve_preload(wide, 1e-4), start = free;
   for (std::size_t k = 0; k < 2; ++k) {  // elastic
     free.history[k] = initial_history(wide.bodies[k]);

@@ -114,7 +114,7 @@ TEST(Preload, PeakPressureOfASphereLikePairIsHertzWithin2Percent) {
   s.geometry.wheel_radius = 0.15;
   s.geometry.wheel_profile = "arc:R=150 mm";
   s.geometry.wheel_section.bore_radius = 0.05;
-  s.vehicle.gravity = 2.87;
+  s.vehicle.set_load(0.2925586 * s.vehicle.load());
   s.mesh.element_size = 0.5e-3;
   s.mesh.fine_width = 9e-3;
   s.mesh.fine_depth = 3.5e-3;

@@ -8,6 +8,7 @@
 
 #include "core/faults.hpp"
 #include "mesh/bodies.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {

@@ -9,6 +9,7 @@
 #include "fem/interface_step.hpp"
 #include "mesh/split_interface.hpp"
 #include "small_rolling.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 #include "thread_ranks.hpp"
 
 namespace railstrata {

@@ -5,6 +5,7 @@
 #include "geometry/profile_names.hpp"
 #include "mesh/bodies.hpp"
 #include "mesh_checks.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {

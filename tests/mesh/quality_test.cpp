@@ -5,6 +5,7 @@
 
 #include "mesh/unstructured.hpp"
 #include "mesh_checks.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "mesh/bodies.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {

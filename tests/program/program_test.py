@@ -15,14 +15,6 @@ SOURCE = pathlib.Path(sys.argv[2]).resolve()
 COARSE = ["--threads", "1", "--set", "mesh.element_size=4 mm", "--set", "mesh.fine_depth=12 mm"]
 
 
-# Keys that tune the method alone or say another one's twice: they are to go.
-NO_CASE_NEEDS = {"geometry.inclination", "layer.grading_tolerance", "vehicle.suspension_groups", "vehicle.gravity",
-                 "mesh.hourglass_coefficient", "mesh.elements_through_layer_one",
-                 "run.mass_scaling_step", "run.plastic_depth",
-                 "run.plastic_width", "bem.spin_angle", "collective.bin_scale", "passes.jump_tolerance",
-                 "passes.window_tolerance"}
-
-
 def commands():
     return railstrata("?")[2].split("commands: ")[1].strip().split(", ")
 
@@ -232,7 +224,7 @@ class Program(FromOutside):
                 words += ["transient." + re.split(r"[ \[]", column)[0] for column in head.split(",")]
             shipped |= {shared(word) for word in words}
         found = leaves([], json.loads(railstrata("info", "--schema")[1]))
-        missing = [key for key in map(".".join, found) if shared(key) not in shipped and key not in NO_CASE_NEEDS]
+        missing = [key for key in map(".".join, found) if shared(key) not in shipped]
         self.assertEqual(missing, [], "a case each, or out")
 
     def test_a_receptance_has_its_table_page_and_refusals(self):

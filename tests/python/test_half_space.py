@@ -257,7 +257,7 @@ def test_a_spawned_process_gives_results_back(case):
 def test_a_sweep_keeps_numbers_and_turns_units_into_si(case):
     varied = {"load": ["80 kN", "8 t"], "layer.0.thickness": [1e-3, 3e-3], "run.plasticity": False}
     table = rs.sweep(case, varied, "1 mm")
-    gravity = 9.81  # vehicle.gravity by default
+    gravity = 9.81
     assert table["load"] == pytest.approx([80e3, 80e3, 8000 * gravity, 8000 * gravity], rel=1e-12)
     assert list(table["layer.0.thickness"]) == [1e-3, 3e-3, 1e-3, 3e-3]
     assert table["run.plasticity"].dtype == bool

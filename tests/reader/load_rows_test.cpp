@@ -40,7 +40,7 @@ TEST(LoadRows, ARowIsTheCaseWithWhatTheRowGives) {
   EXPECT_EQ(load_name(spec, 0), "freight");
   EXPECT_EQ(load_name(spec, 1), "load 2");
   EXPECT_EQ(spec.loads[0].passages, 4e5);
-  EXPECT_DOUBLE_EQ(*spec.loads[0].wheel_load, 0.5 * 22e3 * spec.vehicle.gravity);
+  EXPECT_DOUBLE_EQ(*spec.loads[0].wheel_load, 0.5 * 22e3 * kGravity);
 
   const CaseSpec freight = with_load(spec, spec.loads[0]);
   EXPECT_DOUBLE_EQ(freight.vehicle.load(), *spec.loads[0].wheel_load);
@@ -152,15 +152,14 @@ TEST(LoadRows, TonnesBecomePassagesOfAxles) {
   CaseSpec spec;
   read_load_table("Radlast [t]; Mio. t; Querverschiebung [mm]\n11; 22; 2\n", "loads.csv", spec);
   ASSERT_EQ(spec.loads.size(), 1u);
-  EXPECT_DOUBLE_EQ(*spec.loads[0].wheel_load, 11e3 * spec.vehicle.gravity);
+  EXPECT_DOUBLE_EQ(*spec.loads[0].wheel_load, 11e3 * kGravity);
   EXPECT_DOUBLE_EQ(spec.loads[0].passages, 1e6);
   EXPECT_DOUBLE_EQ(*spec.loads[0].lateral_shift, 2e-3);
 }
 
 TEST(LoadRows, TheLoadOfARowMayBeAMass) {
-  const CaseSpec spec =
-      parse_case("[[load]]\nmgt = 22\nwheel_load = \"11 t\"\n[vehicle]\ngravity = \"9.8 m/s^2\"\n", "a").spec;
-  EXPECT_DOUBLE_EQ(spec.loads.at(0).wheel_load.value(), 11e3 * 9.8);
+  const CaseSpec spec = parse_case("[[load]]\nmgt = 22\nwheel_load = \"11 t\"\n", "a").spec;
+  EXPECT_DOUBLE_EQ(spec.loads.at(0).wheel_load.value(), 11e3 * kGravity);
   EXPECT_DOUBLE_EQ(spec.loads.at(0).passages, 1e6);
   expect_says(refusal("[[load]]\nwheel_load = \"11 mm\"\n"), "\"mm\" is not the unit of a force");
   expect_says(refusal("[[load]]\nwheel_load = \"2000 t\"\n"),

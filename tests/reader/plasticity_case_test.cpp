@@ -2,18 +2,14 @@
 
 #include "core/faults.hpp"
 #include "reader/case_file.hpp"
-#include "rules/clashes.hpp"
 
 namespace railstrata {
 namespace {
 
 const std::string kYields = "[material.rail]\nyield_strength = \"500 MPa\"\n[run]\nplasticity = true\n";
 
-TEST(PlasticityCase, KeysAreReadInSiUnits) {
-  const RunSpec run = parse_case(kYields + "plastic_depth = \"12 mm\"\nplastic_width = \"9 mm\"\n", "a.toml").spec.run;
-  EXPECT_TRUE(run.plasticity);
-  EXPECT_EQ(run.plastic_depth, 12e-3);
-  EXPECT_EQ(run.plastic_width, 9e-3);
+TEST(PlasticityCase, IsAskedForAndNoDefault) {
+  EXPECT_TRUE(parse_case(kYields, "a.toml").spec.run.plasticity);
   EXPECT_FALSE(parse_case("", "a.toml").spec.run.plasticity);
 }
 
@@ -28,11 +24,6 @@ TEST(PlasticityCase, WhatDoesNotYieldRightlyIsRefusedWithARemedy) {
     }
   };
   refused(kYields + "[mesh]\nelement = \"one_point\"\n", "mesh.element", "\"full\"");
-}
-
-TEST(PlasticityCase, ABoxWithoutPlasticityIsSaidToBeIdle) {
-  const CaseSpec spec = parse_case("[run]\nplastic_depth = \"12 mm\"\n", "a.toml").spec;
-  EXPECT_EQ(idle_settings(spec).size(), 1);
 }
 
 }  // namespace

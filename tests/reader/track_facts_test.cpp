@@ -65,9 +65,4 @@ TEST(TrackFacts, TheResolvedCaseIsTheSame) {
   EXPECT_EQ(again.resolved_toml, loaded.resolved_toml);
 }
 
-TEST(TrackFacts, InclinationIsAnotherWordForCant) {
-  EXPECT_DOUBLE_EQ(of("inclination = \"1:20\"\n").spec.geometry.cant, 0.05);
-  EXPECT_ANY_THROW(of("inclination = \"1:20\"\ncant = \"1:20\"\n"));
-}
-
 }  // namespace railstrata

@@ -9,6 +9,7 @@
 #include "material/elastic.hpp"
 #include "mesh/bodies.hpp"
 #include "result/patch.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 #include "tests/result/crossed_cylinders.hpp"
 
 namespace railstrata {

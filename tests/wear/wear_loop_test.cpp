@@ -83,7 +83,7 @@ TEST(WearLoop, TheLayerThinsWhereItWearsAndTheStepEndsWhereItIsThrough) {
   EXPECT_NEAR(first.deepest, 0.02e-3, 1e-12);
   EXPECT_NEAR(first.layer_left, 0.03e-3, 1e-9);
   EXPECT_EQ(first.rows[0].spec.layers[0].thickness, 0.05e-3) << "a new rail";
-  EXPECT_NEAR(first.tonnes, 2 * first.passages * first.rows[0].summary.contact.F_z / (1e3 * spec.vehicle.gravity),
+  EXPECT_NEAR(first.tonnes, 2 * first.passages * first.rows[0].summary.contact.F_z / (1e3 * kGravity),
               1e-9 * first.tonnes);
   rail = first.rail;
   rail.file = folder.path() / "worn.csv";

@@ -1,12 +1,25 @@
 #pragma once
 // Arrays aligned for SIMD loads.
+#if __has_include(<sys/mman.h>)
+#include <sys/mman.h>
+#endif
+
 #include <cstddef>
 #include <new>
 #include <vector>
 
-#include "core/huge_pages.hpp"
-
 namespace railstrata {
+
+/// Bytes.
+inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
+/// Asks the system for large pages: a sweep over the lines of a body reaches a new page with nearly every one. The
+/// system may ignore it; Windows gives them to those with a privilege of their own.
+inline void prefer_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  madvise(begin, bytes, MADV_HUGEPAGE);
+#endif
+}
 
 template <class T>
 struct CacheLineAllocator {

@@ -1,5 +1,6 @@
 #pragma once
 // How sure a preset number is.
+#include <array>
 #include <string_view>
 
 namespace railstrata {
@@ -12,17 +13,8 @@ enum class Certainty {
 };
 /// "", "standard minimum", "estimated", "published".
 constexpr std::string_view certainty_text(Certainty certainty) {
-  switch (certainty) {
-    case Certainty::standard_minimum:
-      return "standard minimum";
-    case Certainty::estimated:
-      return "estimated";
-    case Certainty::published:
-      return "published";
-    case Certainty::absent:
-      break;
-  }
-  return "";
+  constexpr std::array<std::string_view, 4> words{"", "standard minimum", "estimated", "published"};
+  return words[static_cast<std::size_t>(certainty)];
 }
 
 }  // namespace railstrata

@@ -1,19 +1,14 @@
 #include "core/printable.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdio>
 #include <utility>
 
 namespace railstrata {
 namespace {
-
-std::string hex(const char* format, unsigned char byte) {
-  std::array<char, 8> text{};
-  std::snprintf(text.data(), text.size(), format, byte);
-  return text.data();
-}
 
 /// Bytes of the UTF-8 character at the start of the text, which is not of ASCII; 0: it is none.
 std::size_t utf8_length(std::string_view text) {
@@ -45,7 +40,7 @@ std::string printable(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = visible_length(text);
     if (length == 0)
-      out += hex("\\x%02x", static_cast<unsigned char>(text[0]));
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
     else
       out += text.substr(0, length);
     text.remove_prefix(std::max<std::size_t>(length, 1));
@@ -88,8 +83,8 @@ std::string sign_of_binary(std::string_view text) {
     return (static_cast<unsigned char>(c) < 0x20 && kAllowed.find(c) == std::string_view::npos) || c == 0x7F;
   });
   if (at == text.end()) return {};
-  return "line " + std::to_string(1 + std::count(text.begin(), at, '\n')) + " has the byte " +
-         hex("0x%02X", static_cast<unsigned char>(*at));
+  return fmt::format("line {} has the byte 0x{:02X}", 1 + std::count(text.begin(), at, '\n'),
+                     static_cast<unsigned char>(*at));
 }
 
 }  // namespace railstrata

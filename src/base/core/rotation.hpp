@@ -11,7 +11,9 @@
 // The expressions keep the order written above. A compiler that contracts products and sums (-ffp-contract=fast) then
 // gives the same bits wherever a rotation stands.
 #include <cmath>
+#include <numbers>
 
+#include "core/pointwise.hpp"
 #include "core/vec.hpp"
 
 namespace railstrata {
@@ -36,8 +38,6 @@ struct Rotation {
   }
 
   constexpr Rotation inverse() const { return {c, -s}; }
-  /// By the sum of both angles.
-  constexpr Rotation plus(Rotation b) const { return {c * b.c - s * b.s, s * b.c + c * b.s}; }
   /// By this angle less the other.
   constexpr Rotation minus(Rotation b) const { return {c * b.c + s * b.s, s * b.c - c * b.s}; }
 };
@@ -101,6 +101,18 @@ constexpr Sym3 roll(const Rotation<double>& r, const Sym3& s) {
 constexpr PlaneVector<double> rigid_displacement(PlaneVector<double> shift, const Rotation<double>& r,
                                                  PlaneVector<double> arm) {
   return {shift.x + (r.c - 1) * arm.x + r.s * arm.z, shift.z + (r.c - 1) * arm.z - r.s * arm.x};
+}
+
+/// By `angle` [rad], positive as in Rotation::forward. On a card by way of half turns, which need no stack for the
+/// reduction of large angles; the angle is rounded once more there.
+RAILSTRATA_POINTWISE Rotation<double> turn_of(double angle) {
+#ifdef __CUDA_ARCH__
+  Rotation<double> r;
+  sincospi(angle * std::numbers::inv_pi, &r.s, &r.c);
+  return r;
+#else
+  return {std::cos(angle), std::sin(angle)};
+#endif
 }
 
 }  // namespace railstrata

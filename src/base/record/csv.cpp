@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/faults.hpp"
+#include "core/text.hpp"
 
 namespace railstrata {
 namespace {
@@ -93,11 +94,8 @@ std::vector<double> CsvTable::column(const std::string& name, double unit) const
 }
 
 CsvTable read_csv(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(file, 0, "the table cannot be read");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return parse_csv(std::move(text).str(), file);
+  if (!std::ifstream(file)) refuse(file, 0, "the table cannot be read");
+  return parse_csv(file_text(file), file);
 }
 
 CsvTable parse_csv(const std::string& text, const std::filesystem::path& file) {

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -35,6 +38,20 @@ std::string this_system() {
   std::array<char, 64> space{};
   const ssize_t n = ::readlink("/proc/self/ns/pid", space.data(), space.size() - 1);
   return fmt::format("{} {}", boot, std::string_view(space.data(), n > 0 ? static_cast<std::size_t>(n) : 0));
+}
+
+/// A file of one number of bytes; no limit if it contains none or does not exist.
+double number_in(const char* file) {
+  double value = 0;
+  std::ifstream in(file);
+  return in >> value ? value : HUGE_VAL;
+}
+
+double available_in_system() {
+  std::ifstream in("/proc/meminfo");
+  for (std::string word; in >> word;)
+    if (double kilobytes = 0; word == "MemAvailable:" && in >> kilobytes) return 1024 * kilobytes;
+  return HUGE_VAL;
 }
 
 }  // namespace
@@ -70,6 +87,22 @@ bool is_known_dead(const ProcessName& process) {
   if (!is_running(process.id)) return true;
   const long long now = started(process.id);
   return now >= 0 && process.started >= 0 && now != process.started;
+}
+
+double memory_at_hand() {
+  rlimit limit{};
+  getrlimit(RLIMIT_AS, &limit);
+  const double address_space = limit.rlim_cur == RLIM_INFINITY ? HUGE_VAL : static_cast<double>(limit.rlim_cur);
+  const double group =
+      number_in("/sys/fs/cgroup/memory.max") -
+      (std::ifstream("/sys/fs/cgroup/memory.current") ? number_in("/sys/fs/cgroup/memory.current") : 0);
+  return std::min({available_in_system(), group, address_space});
+}
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
 }  // namespace railstrata

@@ -1,5 +1,5 @@
 #pragma once
-// Identifies this process among all others, on any machine.
+// This process: its place among all others, on any machine, and its memory.
 #include <filesystem>
 #include <string>
 
@@ -33,5 +33,12 @@ ProcessName this_process();
 
 /// True only where that can be known: the process was one of this machine, since its last start, and is no more.
 bool is_known_dead(const ProcessName& process);
+
+/// Memory that this process may still take, bytes: the least of the system's available memory, its control group's
+/// limit and the limit of its address space.
+double memory_at_hand();
+
+/// The largest amount it has had in use, bytes.
+double peak_memory();
 
 }  // namespace railstrata

@@ -6,7 +6,7 @@
 namespace railstrata {
 
 /// SI prefixes, and the factors by which SI numbers are shown: 2 * kMilli is 2 mm in m; kToMilli * x is x m in mm.
-inline constexpr double kMilli = 1e-3, kMicro = 1e-6, kMega = 1e6;
+inline constexpr double kMilli = 1e-3, kMega = 1e6;
 inline constexpr double kToMilli = 1e3, kToMicro = 1e6, kToMega = 1e-6, kToPercent = 100;
 
 struct Unit {

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <bit>
-#include <limits>
 #include <new>
 #include <span>
 #include <stdexcept>
 #include <string_view>
 
-#include "record/markup_text.hpp"
+#include "record/escaped_text.hpp"
 #include "record/output_file.hpp"
 
 namespace railstrata {
@@ -92,15 +90,11 @@ class Document {
 };
 
 bool plain(const std::string& name) {
-  const auto ok = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-           c == '.';
-  };
-  return !name.empty() && std::all_of(name.begin(), name.end(), ok);
+  constexpr const char* kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.";
+  return !name.empty() && name.find_first_not_of(kPlain) == std::string::npos;
 }
 
 std::vector<std::string> component_names(const VtkField& field) {
-  if (!field.component_names.empty()) return field.component_names;
   if (field.components == 3) return {"X", "Y", "Z"};
   if (field.components == 6) return {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
   return {};
@@ -110,11 +104,8 @@ void add_fields(Document& document, const char* section, const std::vector<VtkFi
   document.line(fmt::format("<{}>", section));
   for (const VtkField& field : fields) {
     const std::vector<std::string> labels = component_names(field);
-    if (!plain(field.name) || !std::all_of(labels.begin(), labels.end(), plain))
-      throw std::invalid_argument("VTK array name '" + field.name +
-                                  "': letters, digits and _ - . only, in its components' names too");
-    if (!labels.empty() && labels.size() != static_cast<std::size_t>(field.components))
-      throw std::invalid_argument("VTK array '" + field.name + "' names a different number of components than it has");
+    if (!plain(field.name))
+      throw std::invalid_argument("VTK array name '" + field.name + "': letters, digits and _ - . only");
     std::visit(
         [&](const auto& values) {
           using T = typename std::decay_t<decltype(values)>::value_type;
@@ -150,8 +141,10 @@ void add_cells(Document& document, const VtkMesh<Corners>& mesh) {
   document.array<std::int64_t>("offsets", 1, offsets);
 }
 
+/// All before the cells; piece: their numbers.
 template <std::size_t Corners>
-void add_data(Document& document, const VtkMesh<Corners>& mesh) {
+void add_data(Document& document, const VtkMesh<Corners>& mesh, std::string_view piece) {
+  document.line(fmt::format("<Piece NumberOfPoints=\"{}\" {}=\"{}\">", mesh.points.size(), piece, mesh.cells.size()));
   add_fields(document, "PointData", mesh.point_fields, mesh.points.size());
   add_fields(document, "CellData", mesh.cell_fields, mesh.cells.size());
   add_points(document, mesh.points);
@@ -161,9 +154,7 @@ void add_data(Document& document, const VtkMesh<Corners>& mesh) {
 
 void write_vtu(const std::filesystem::path& file, const VtkHexahedra& mesh) {
   Document document("UnstructuredGrid");
-  document.line(
-      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", mesh.points.size(), mesh.cells.size()));
-  add_data(document, mesh);
+  add_data(document, mesh, "NumberOfCells");
   document.line("<Cells>");
   add_cells(document, mesh);
   const std::vector<std::uint8_t> types(mesh.cells.size(), kHexahedron);
@@ -174,10 +165,7 @@ void write_vtu(const std::filesystem::path& file, const VtkHexahedra& mesh) {
 
 void write_vtp(const std::filesystem::path& file, const VtkQuads& mesh) {
   Document document("PolyData");
-  document.line(fmt::format(
-      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">",
-      mesh.points.size(), mesh.cells.size()));
-  add_data(document, mesh);
+  add_data(document, mesh, "NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys");
   document.line("<Polys>");
   add_cells(document, mesh);
   document.line("</Polys>\n</Piece>");

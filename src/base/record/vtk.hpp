@@ -20,7 +20,6 @@ struct VtkField {
   std::string name;
   int components = 1;
   std::variant<std::vector<float>, std::vector<double>, std::vector<std::int32_t>> values;
-  std::vector<std::string> component_names = {};  ///< none: X Y Z for 3 components, XX YY ZZ XY YZ XZ for 6
 };
 
 /// An array of records as tables have them, a component a column; `name` without a unit, which is the columns'.

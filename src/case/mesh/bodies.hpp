@@ -76,8 +76,4 @@ struct WheelMeshSpec {
 SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, const WheelMeshSpec& spec,
                      const MeshSizes& sizes);
 
-/// A plain brick for tests: columns x rows x stations elements of size dx, dy, dz, one block, contact band on top (z =
-/// 0), base fixed.
-SweptBody mesh_brick(int columns, int rows, int stations, double dx, double dy, double dz);
-
 }  // namespace railstrata

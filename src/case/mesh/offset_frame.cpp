@@ -53,6 +53,14 @@ std::vector<double> floor_positions(const Section& section, const NodeLine& abov
   return y;
 }
 
+/// Lengths along the polyline of the columns' points at a depth.
+std::vector<double> walked_at_depth(const Profile& profile, const std::vector<double>& s, double depth) {
+  std::vector<double> out{0.0};
+  for (std::size_t i = 1; i < s.size(); ++i)
+    out.push_back(out.back() + norm(offset_point(profile, s[i], depth) - offset_point(profile, s[i - 1], depth)));
+  return out;
+}
+
 struct Side {
   std::vector<NodeLine> tread;  ///< node rows of the tread columns
   NodeLine end_bottom;          ///< bottom row beyond the tread, left to right
@@ -86,10 +94,6 @@ Side add_side(Section& section, const Profile& profile, const std::vector<double
 
 }  // namespace
 
-std::size_t intervals_of(double length, double size) {
-  return static_cast<std::size_t>(std::max(1.0, std::round(length / size)));
-}
-
 double far_spacing(const MeshSizes& sizes) {
   return std::max(sizes.coarse_ratio * sizes.element, std::min(sizes.largest, kLargestAspect * sizes.element));
 }
@@ -103,18 +107,13 @@ double side_row_height(const MeshSizes& sizes, double depth) {
   return std::max(sizes.element, std::min(sizes.coarse_ratio * sizes.element, depth / 2.5));
 }
 
-double length_at_depth(const Profile& profile, const std::vector<double>& s, double depth) {
-  double length = 0;
-  for (std::size_t i = 1; i < s.size(); ++i)
-    length += norm(offset_point(profile, s[i], depth) - offset_point(profile, s[i - 1], depth));
-  return length;
+std::size_t intervals_at_depth(const Profile& profile, const std::vector<double>& s, double depth, double size) {
+  return static_cast<std::size_t>(intervals_for(walked_at_depth(profile, s, depth).back(), size, 1));
 }
 
 std::vector<double> column_subset(const Profile& profile, const std::vector<double>& s, double depth,
                                   std::size_t intervals) {
-  std::vector<double> walked{0.0};
-  for (std::size_t i = 1; i < s.size(); ++i)
-    walked.push_back(walked.back() + norm(offset_point(profile, s[i], depth) - offset_point(profile, s[i - 1], depth)));
+  const std::vector<double> walked = walked_at_depth(profile, s, depth);
   const std::size_t last = s.size() - 1;
   intervals = std::min(intervals, last);
   std::vector<double> out{s.front()};
@@ -147,7 +146,7 @@ FrameNodes add_offset_frame(SweptBody& body, const Profile& profile, double cont
 
   std::vector<Vec2> middle;
   const std::vector<double> middle_s =
-      column_subset(profile, fine, depth, intervals_of(length_at_depth(profile, fine, depth), element));
+      column_subset(profile, fine, depth, intervals_at_depth(profile, fine, depth, element));
   for (std::size_t i = 1; i + 1 < middle_s.size(); ++i) middle.push_back(offset_point(profile, middle_s[i], depth));
   NodeLine seat = add_nodes(frame, middle);
   seat.insert(seat.begin(), left.tread.back().back());

@@ -22,14 +22,12 @@ double far_spacing(const MeshSizes& sizes);
 double under_band_size(const MeshSizes& sizes, double depth);
 /// Largest height of the rows beside the cap.
 double side_row_height(const MeshSizes& sizes, double depth);
-/// Number of intervals of about `size` in `length`, at least one.
-std::size_t intervals_of(double length, double size);
 /// intervals + 1 of the columns (all of them if there are fewer), the first and last kept, about evenly spaced at the
 /// given depth.
 std::vector<double> column_subset(const Profile& profile, const std::vector<double>& s, double depth,
                                   std::size_t intervals);
-/// Length of the polyline of the columns' points at a depth.
-double length_at_depth(const Profile& profile, const std::vector<double>& s, double depth);
+/// Number of intervals of about `size` in the polyline of the columns' points at a depth, at least one.
+std::size_t intervals_at_depth(const Profile& profile, const std::vector<double>& s, double depth, double size);
 
 /// The differences between the bodies, in the profile frame (z may run either way).
 struct OffsetFrameSpec {

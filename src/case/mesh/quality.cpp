@@ -61,7 +61,7 @@ std::vector<BlockQuality> measure_quality(const SweptBody& body) {
   std::vector<BlockQuality> out;
   for (const Block& block : body.blocks) {
     const int quads = static_cast<int>(block.section.quads.size());
-    BlockQuality result{block.name, static_cast<long>(quads) * block.stations.elements(), 2.0, 0.0, 1e300, 0, 0, {}};
+    BlockQuality result{block.name, static_cast<long>(quads) * block.stations.elements(), 2.0, 0.0, 1e300, {}};
     for (int station : distinct_stations(block.stations))
       for (int quad = 0; quad < quads; ++quad) {
         const std::array<Vec3, 8> corners = element_corners(body, block, quad, station);
@@ -70,8 +70,6 @@ std::vector<BlockQuality> measure_quality(const SweptBody& body) {
         result.edge_min = std::min(result.edge_min, q.shortest);
         if (q.scaled_jacobian >= result.scaled_jacobian_min) continue;
         result.scaled_jacobian_min = q.scaled_jacobian;
-        result.worst_quad = quad;
-        result.worst_station = station;
         result.worst_at = {};
         for (Vec3 c : corners) result.worst_at += 0.125 * c;
       }

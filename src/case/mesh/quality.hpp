@@ -10,10 +10,9 @@ struct BlockQuality {
   long elements = 0;
   double scaled_jacobian_min =
       0;  ///< smallest over the 8 corners: determinant of the unit edge vectors; 1 for a brick, <= 0 inverted
-  double aspect_max = 0;                  ///< longest edge / shortest edge
-  double edge_min = 0;                    ///< m
-  int worst_quad = 0, worst_station = 0;  ///< of the smallest scaled Jacobian
-  Vec3 worst_at;                          ///< centre of that element, model frame
+  double aspect_max = 0;  ///< longest edge / shortest edge
+  double edge_min = 0;    ///< m
+  Vec3 worst_at;          ///< centre of the element of the smallest scaled Jacobian, model frame
 };
 
 /// Smallest determinant of the three unit edge vectors at the eight corners.

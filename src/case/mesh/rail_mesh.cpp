@@ -105,9 +105,7 @@ HeadBoundary head_boundary(const Profile& profile, const RailBand& band) {
       left_top(band.left.begin() + left_corner, band.left.end());
   const std::vector<double> right_top(band.right.begin(), band.right.begin() + right_corner + 1),
       right_flank(band.right.begin() + right_corner, band.right.end());
-  const auto wanted = [&](const std::vector<double>& s) {
-    return intervals_of(length_at_depth(profile, s, depth), band.element);
-  };
+  const auto wanted = [&](const std::vector<double>& s) { return intervals_at_depth(profile, s, depth, band.element); };
   const std::size_t flank =
       std::min({std::max<std::size_t>(2, wanted(right_flank)), left_flank.size() - 1, right_flank.size() - 1});
 

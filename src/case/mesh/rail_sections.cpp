@@ -29,10 +29,6 @@ NodeLine line_along(Section& section, int from, const std::vector<Vec2>& polylin
   return line;
 }
 
-int intervals_for(double length, double size, int least) {
-  return std::max(least, static_cast<int>(std::lround(length / size)));
-}
-
 }  // namespace
 
 LowerOutline lower_outline(const RailOutline& outline) {
@@ -103,15 +99,13 @@ HeadSection head_section(const HeadBoundary& boundary, const LowerOutline& lower
             NodeLine(under.begin(), under.begin() + a + 1), reversed(NodeLine(under.begin() + b, under.end())));
 
   const int face = intervals_for(norm(boundary.left_flank - end_left), element, 2);
-  const int left_flank = add_nodes(section, {boundary.left_flank}).front(),
-            right_flank = add_nodes(section, {boundary.right_flank}).front();
+  const auto node = [&](Vec2 p) { return add_nodes(section, {p}).front(); };
+  const int left_flank = node(boundary.left_flank), right_flank = node(boundary.right_flank);
   out.left_face = add_straight(section, left_flank, under.front(), face);
   out.right_face = add_straight(section, right_flank, under.back(), face);
 
-  const int left_corner = add_nodes(section, {mirror(lower.underside.front())}).front(),
-            right_corner = add_nodes(section, {lower.underside.front()}).front();
-  const int left_fillet = add_nodes(section, {mirror(fillet)}).front(),
-            right_fillet = add_nodes(section, {fillet}).front();
+  const int left_corner = node(mirror(lower.underside.front())), right_corner = node(lower.underside.front());
+  const int left_fillet = node(mirror(fillet)), right_fillet = node(fillet);
   const NodeLine left_under =
       line_along(section, left_corner, mirrored(lower.underside), left_fillet, face + outer_left);
   const NodeLine right_under = line_along(section, right_corner, lower.underside, right_fillet, face + outer_right);

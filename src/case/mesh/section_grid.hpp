@@ -1,5 +1,7 @@
 #pragma once
 // Building blocks of plane sections: patches of quadrilaterals between four lines of nodes, and polylines.
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "mesh/swept.hpp"
@@ -27,6 +29,11 @@ NodeLine add_straight(Section& section, int from, int to, int intervals);
 /// n + 1 points at equal arc length along a polyline, its ends included.
 std::vector<Vec2> resampled(const std::vector<Vec2>& polyline, int intervals);
 double polyline_length(const std::vector<Vec2>& polyline);
+
+/// Intervals of about `size` in `length`, at least so many.
+inline int intervals_for(double length, double size, int least) {
+  return std::max(least, static_cast<int>(std::lround(length / size)));
+}
 
 NodeLine reversed(NodeLine line);
 NodeLine joined(NodeLine a, const NodeLine& b);  ///< b's first node, equal to a's last one, is dropped

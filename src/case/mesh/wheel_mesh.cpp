@@ -29,7 +29,7 @@ double left_corner(const Profile& profile, double tread_end) {
 }
 
 std::vector<Vec2> surface_points(const Profile& profile, double from, double to, double size) {
-  const int n = std::max(1, static_cast<int>(std::lround((to - from) / size)));
+  const int n = intervals_for(to - from, size, 1);
   std::vector<Vec2> out;
   for (int i = 0; i <= n; ++i) out.push_back(offset_point(profile, from + (to - from) * i / n, 0));
   return out;
@@ -85,10 +85,6 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
   return frame;
 }
 
-int intervals(double length, double size, int least) {
-  return std::max(least, static_cast<int>(std::lround(length / size)));
-}
-
 struct WebSection {
   Section section;
   NodeLine top, bore;
@@ -102,8 +98,8 @@ WebSection web_section(double y0, double y1, double top_z, double hub_z, double 
   const auto node = [&](double y, double z) { return add_nodes(section, {{y, z}}).front(); };
   const bool hub = hub_width > y1 - y0 && hub_z < bore_z;
   const double plate_end = hub ? hub_z : bore_z, size = 1.5 * sizes.largest;
-  const int columns = intervals(y1 - y0, hub ? 0.7 * sizes.largest : size, 2),
-            rows = intervals(plate_end - top_z, size, 2);
+  const int columns = intervals_for(y1 - y0, hub ? 0.7 * sizes.largest : size, 2),
+            rows = intervals_for(plate_end - top_z, size, 2);
   const int a = node(y0, top_z), b = node(y1, top_z), c = node(y1, plate_end), d = node(y0, plate_end);
   out.top = add_straight(section, a, b, columns);
   const NodeLine bottom = add_straight(section, d, c, columns);
@@ -111,8 +107,8 @@ WebSection web_section(double y0, double y1, double top_z, double hub_z, double 
   out.bore = bottom;
   if (!hub) return out;
 
-  const int depth = intervals(bore_z - hub_z, sizes.largest, 2),
-            overhang = intervals(0.5 * (hub_width - y1 + y0), size, 2);
+  const int depth = intervals_for(bore_z - hub_z, sizes.largest, 2),
+            overhang = intervals_for(0.5 * (hub_width - y1 + y0), size, 2);
   const double middle = 0.5 * (y0 + y1);
   const int l0 = node(middle - 0.5 * hub_width, hub_z), l1 = node(middle - 0.5 * hub_width, bore_z),
             r0 = node(middle + 0.5 * hub_width, hub_z), r1 = node(middle + 0.5 * hub_width, bore_z),
@@ -131,7 +127,7 @@ WebSection web_section(double y0, double y1, double top_z, double hub_z, double 
 }
 
 Stations uniform_ring(double begin, double radius, double arc) {
-  const int n = 8 * intervals(2 * std::numbers::pi * radius, 8 * arc, 4);
+  const int n = 8 * intervals_for(2 * std::numbers::pi * radius, 8 * arc, 4);
   Stations out{{}, true};
   for (int j = 0; j < n; ++j) out.at.push_back(begin + 2 * std::numbers::pi * j / n);
   return out;

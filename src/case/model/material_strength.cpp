@@ -142,10 +142,6 @@ class LawOf {
 double at_depth(const std::vector<DepthPoint>& rows, double depth, const std::string& key) {
   return column_at(rows, depth, &DepthPoint::value, key);
 }
-double at_depth(const std::vector<StressPoint>& rows, double depth, double StressPoint::*column,
-                const std::string& key) {
-  return column_at(rows, depth, column, key);
-}
 
 StressPoint process_stress(const StrengthSpec& strength, double depth, const std::string& key) {
   if (!strength.initial_stress.empty()) return {depth, strength.initial_stress[0], strength.initial_stress[1]};
@@ -153,8 +149,8 @@ StressPoint process_stress(const StrengthSpec& strength, double depth, const std
   if (rows.empty()) return {depth, 0, 0};
   const double known = std::min(depth, rows.back().depth);
   const std::string table = key + ".initial_stress_table";
-  return {depth, at_depth(rows, known, &StressPoint::longitudinal, table),
-          at_depth(rows, known, &StressPoint::lateral, table)};
+  return {depth, column_at(rows, known, &StressPoint::longitudinal, table),
+          column_at(rows, known, &StressPoint::lateral, table)};
 }
 
 MaterialStrength::MaterialStrength(const StrengthSpec& strength, std::string name, std::string key)

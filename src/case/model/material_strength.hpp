@@ -13,8 +13,6 @@ namespace railstrata {
 
 /// The value of a table by depth, linear between rows. Throws CaseError below the last row, naming `key`.
 double at_depth(const std::vector<DepthPoint>& rows, double depth, const std::string& key);
-double at_depth(const std::vector<StressPoint>& rows, double depth, double StressPoint::*column,
-                const std::string& key);
 
 /// Residual stress of the process at a depth [Pa]: what is given, or a table's, below its last row as
 /// there; nothing if the case does not give it.

@@ -15,7 +15,6 @@
 #include "halfspace/line_contact.hpp"
 #include "mesh/quality.hpp"
 #include "model/drive_at_contact.hpp"
-#include "model/model_on_rail.hpp"
 #include "model/stretches.hpp"
 
 namespace railstrata {
@@ -40,7 +39,7 @@ double width_of(const CaseSpec& spec, const LayerSpec& l) {
 }
 
 LayerMesh mesh_of(const CaseSpec& spec, const LayerSpec& l) {
-  LayerMesh out{l.name, l.thickness, width_of(spec, l), spec.mesh.elements_through_layer_one ? 1 : l.elements};
+  LayerMesh out{l.name, l.thickness, width_of(spec, l), l.elements};
   out.from = l.begin();
   out.to = l.end();
   for (const UnbondedStretch& s : l.unbonded) out.unbonded.push_back({s.from, s.to});
@@ -277,19 +276,14 @@ void refuse_unbonded_at_start(const CaseSpec& spec, double semi_axis, double rai
     }
 }
 
-/// rail: not null: its mesh.
-Model build(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail) {
-  Model m{spec,
-          place(spec, folder),
-          {},
-          {},
-          materials_of(spec, BodyId::rail, spec.rail_material),
-          materials_of(spec, BodyId::wheel, spec.wheel_material),
-          {},
-          {},
-          spec.vehicle.load(),
-          {},
-          0};
+}  // namespace
+
+Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail) {
+  Model m{.spec = spec,
+          .placement = place(spec, folder),
+          .rail_materials = materials_of(spec, BodyId::rail, spec.rail_material),
+          .wheel_materials = materials_of(spec, BodyId::wheel, spec.wheel_material),
+          .load = spec.vehicle.load()};
   m.rail_at_surface = materials_at_surface(spec, BodyId::rail, m.rail_materials);
   m.wheel_at_surface = materials_at_surface(spec, BodyId::wheel, m.wheel_materials);
   const RigidContact& contact = m.placement.contact;
@@ -336,14 +330,6 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   add_stretches(m);
   for (const BodyId id : kBodies) require_sound_mesh(id == BodyId::rail ? m.rail : m.wheel, id, spec);
   return m;
-}
-
-}  // namespace
-
-Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) { return build(spec, folder, nullptr); }
-
-Model build_model_on_rail(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody& rail) {
-  return build(spec, folder, &rail);
 }
 
 }  // namespace railstrata

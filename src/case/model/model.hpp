@@ -37,13 +37,14 @@ HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& contact);
 struct Model {
   CaseSpec spec;
   Placement placement;
-  SweptBody rail, wheel;
+  SweptBody rail = {}, wheel = {};
   std::vector<Elastic> rail_materials,
       wheel_materials;  ///< matrix, then layers from the surface down; a graded layer as its rows of elements
-  std::vector<Elastic> rail_at_surface, wheel_at_surface;  ///< the same as they are at the running surface: the top row
-                                                           ///< of a graded layer has the table's first modulus
-  double load = 0;                                         ///< G, N
-  HertzContact hertz;
+  std::vector<Elastic> rail_at_surface = {},
+                       wheel_at_surface = {};  ///< the same as they are at the running surface: the top row
+                                               ///< of a graded layer has the table's first modulus
+  double load = 0;                             ///< G, N
+  HertzContact hertz = {};
   double x_end = 0;  ///< wheel position at which the run ends, m
   double reach = 0;  ///< m, how much farther from the axle heights make the wheel touch
   /// Section curves of the running surfaces in section coordinates of the bodies.
@@ -56,7 +57,9 @@ struct Model {
   Vec2 wheel_section_normal(double s) const { return placement.wheel.at(s).outward; }
 };
 
-/// Meshes both bodies. Throws CaseError where the mesh cannot be made (layer thicker than the head, …).
-Model build_model(const CaseSpec& spec, const std::filesystem::path& folder);
+/// Meshes both bodies; not null: the rail has this mesh, of another model of the same rail, for wheels elsewhere across
+/// it (whether the patch lies in its fine zone is for the caller: a rolling reports patch_reaches_edge_of_fine_zone).
+/// Throws CaseError where the mesh cannot be made (layer thicker than the head, …).
+Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail = nullptr);
 
 }  // namespace railstrata

@@ -46,31 +46,23 @@ struct PlacedProfile {
   }
 };
 
-struct Range {
-  double low, high;
-  void add(double v) {
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
-  double length() const { return high - low; }
-};
-
 void measure_turn(const PlacedProfile& rail, const PlacedProfile& wheel, const SolvedPatch& patch, PatchEdges& out) {
   constexpr int kPieces = 64;
   const auto at = [&](const PlacedProfile& body, int i) {
     return body.angle(body.clamped(body.contact_s + patch.low + (patch.high - patch.low) * i / kPieces));
   };
-  const double first_rail = at(rail, 0), first_wheel = at(wheel, 0);
-  Range of_rail{first_rail, first_rail}, of_wheel{first_wheel, first_wheel},
-      between{first_wheel - first_rail, first_wheel - first_rail};
-  for (int i = 1; i <= kPieces; ++i) {
-    const double r = at(rail, i), w = at(wheel, i);
-    of_rail.add(r);
-    of_wheel.add(w);
-    between.add(w - r);
+  std::vector<double> of_rail, of_wheel, between;
+  for (int i = 0; i <= kPieces; ++i) {
+    of_rail.push_back(at(rail, i));
+    of_wheel.push_back(at(wheel, i));
+    between.push_back(of_wheel.back() - of_rail.back());
   }
-  out.angle_spanned = std::max(of_rail.length(), of_wheel.length());
-  out.half_width_over_radius = 0.5 * between.length();
+  const auto range = [](const std::vector<double>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return *high - *low;
+  };
+  out.angle_spanned = std::max(range(of_rail), range(of_wheel));
+  out.half_width_over_radius = 0.5 * range(between);
 }
 
 /// The nearest edge so far.

@@ -8,8 +8,6 @@
 
 #include "core/certainty.hpp"
 #include "friction/friction_conditions.hpp"
-#include "geometry/profile_names.hpp"
-#include "material/steels.hpp"
 #include "options/option_table.hpp"
 
 namespace railstrata {
@@ -134,7 +132,7 @@ std::string more_about(const OptionTable& table) {
            "`\"flat:W=10 mm\"`,\n`\"arc:R=300 mm, W=10 mm\"`. Profile files: "
            "[data/profiles](../data/profiles/README.md).\n";
   if (table.name == "vehicle")
-    return "\nThe static load of the wheel on the rail is G = (wheel_mass + sprung_mass) gravity. `wheel_load` and "
+    return "\nThe static load of the wheel on the rail is G = (wheel_mass + sprung_mass) g. `wheel_load` and "
            "`axle_load` set\n`sprung_mass` so that G equals the load; in a rolling finite element case that mass is "
            "carried by the suspension.\nLoads are written as forces (`\"110 kN\"`) or masses (`\"11.2 t\"`). Give at "
            "most one of `sprung_mass`, `wheel_load`,\n`axle_load` and `approach`. With `approach` the load is a "
@@ -160,39 +158,6 @@ std::string more_about(const OptionTable& table) {
   return "";
 }
 
-/// Names that a text may have besides files of the user's own.
-std::vector<std::string> known_names(std::string_view key) {
-  std::vector<std::string> out;
-  if (key == "rail_profile") out = builtin_profile_names(ProfileKind::rail);
-  if (key == "condition")
-    for (const FrictionCondition& c : friction_conditions()) out.emplace_back(c.name);
-  if (key == "wheel_profile") out = builtin_profile_names(ProfileKind::wheel);
-  if (key == "grade") out = grade_names();
-  if (key == "hardening") out = hardening_set_names();
-  return out;
-}
-
-/// Of a list, whose type shows best that way.
-std::string doc_with_example(const Option& option) {
-  return fmt::format("{}{}", option.doc, option.example.empty() ? "" : fmt::format(": `{}`", option.example));
-}
-
-CaseKey key_of(const OptionTable& table, const Option& option, CaseSpec& spec) {
-  CaseKey out;
-  out.key = fmt::format("{}{}.{}", table.name, table.repeated ? ".0" : "", option.key);
-  out.doc = option.doc;
-  out.preset = default_text(table, option, spec);
-  out.allowed = option.choices.empty() ? describe(option.range, option.dimension)
-                                       : fmt::format("{}", fmt::join(choices_of(option), ", "));
-  const Slot slot = option.slot(spec, 0);
-  if (std::holds_alternative<bool*>(slot)) out.values = {"true", "false"};
-  if (std::holds_alternative<std::string*>(slot)) out.values = known_names(option.key);
-  if (!option.choices.empty()) out.values = choices_of(option);
-  if (std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot))
-    out.units = units_of(option.dimension);
-  return out;
-}
-
 }  // namespace
 
 std::string case_json_schema() {
@@ -214,14 +179,6 @@ std::string case_json_schema() {
     }
   }
   return root.dump(2) + "\n";
-}
-
-std::vector<CaseKey> case_keys() {
-  CaseSpec spec = one_of_each();
-  std::vector<CaseKey> out;
-  for (const OptionTable& table : case_tables())
-    for (const Option& option : table.options) out.push_back(key_of(table, option, spec));
-  return out;
 }
 
 std::string case_reference_markdown() {
@@ -246,8 +203,9 @@ std::string case_reference_markdown() {
                     table.repeated ? "[[" : "[", table.name, table.repeated ? "]]" : "]", table.doc, more_about(table));
     for (const Option& option : table.options) {
       const std::string value = default_text(table, option, spec);
-      out += fmt::format("| `{}` | {} | {} | {} |\n", option.key, value.empty() ? value : "`" + value + "`",
-                         allowed(option), doc_with_example(option));
+      const std::string example = option.example.empty() ? "" : fmt::format(": `{}`", option.example);
+      out += fmt::format("| `{}` | {} | {} | {}{} |\n", option.key, value.empty() ? value : "`" + value + "`",
+                         allowed(option), option.doc, example);
     }
   }
   return out;

@@ -100,7 +100,7 @@ OptionTable vehicle_table() {
                .where(load_given),
            option("wheel_load", at<&C::vehicle, &V::sprung_mass>,
                   "Load of the wheel on the rail, a force or a mass, instead of the sprung mass, which is load / "
-                  "gravity - wheel_mass; at least the wheel's own weight",
+                  "g - wheel_mass; at least the wheel's own weight",
                   kForce, above(0, 1e7))
                .derived({sprung_mass_under, kMoreLoad})
                .or_mass(),
@@ -114,13 +114,10 @@ OptionTable vehicle_table() {
                   "Approach of wheel and rail along the contact normal, instead of a load, which is then a result; "
                   "half-space engine",
                   kLength, above(0, 0.01)),
-           option("suspension_stiffness", at<&C::vehicle, &V::suspension_stiffness>, "Of all groups together",
+           option("suspension_stiffness", at<&C::vehicle, &V::suspension_stiffness>, "Vertical, of one wheel",
                   kStiffness, {0, 1e10}),
-           option("suspension_damping", at<&C::vehicle, &V::suspension_damping>, "Of all groups together", kDamping,
+           option("suspension_damping", at<&C::vehicle, &V::suspension_damping>, "Vertical, of one wheel", kDamping,
                   {0, 1e8}),
-           option("suspension_groups", at<&C::vehicle, &V::suspension_groups>,
-                  "Spring and dashpot groups around the axle", kNumber, {1, 64}),
-           option("gravity", at<&C::vehicle, &V::gravity>, "Acceleration of gravity", kAcceleration, above(0, 100)),
            option("couple_sprung_mass", at<&C::vehicle, &V::couple_sprung_mass>,
                   "The sprung mass moves longitudinally with the axle and adds its inertia")},
           {},

@@ -42,8 +42,6 @@ std::vector<Option> shape_options() {
 constexpr std::string_view kInclination =
     "this is the inclination of the rail, e.g. \"1:40\"; enter the superelevation of the track as loads and shifts";
 
-double as_written(const CaseSpec&, std::size_t, double value) { return value; }
-
 std::vector<Option> track_options() {
   return {
       choice_at<&C::geometry, &G::track>(
@@ -66,9 +64,6 @@ std::vector<Option> track_options() {
       option("cant", at<&C::geometry, &G::cant>, "Inclination of the rail towards the track centre (a tangent)", kSlope,
              {-0.2, 0.2})
           .with_remedy(kInclination),
-      option("inclination", at<&C::geometry, &G::cant>, "The same as cant, e.g. 1:20 or 1:40", kSlope)
-          .with_remedy(kInclination)
-          .derived({as_written}),
       option("lateral_shift", at<&C::geometry, &G::lateral_shift>,
              "Lateral shift of the wheel, positive to the field side", kLength, {-0.05, 0.05}),
       option("yaw", at<&C::geometry, &G::yaw>,
@@ -117,7 +112,6 @@ OptionTable geometry_table() {
   OptionTable out{"geometry", "Profiles, track and wheel", shape_options()};
   append(out.options, track_options());
   append(out.options, body_options());
-  out.rivals = {{"cant", "inclination"}};
   return out;
 }
 

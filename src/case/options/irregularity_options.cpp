@@ -137,8 +137,7 @@ OptionTable irregularity_table() {
   OptionTable out{
       "irregularity",
       "A height along the running surface of rail or wheel, positive out of the body; several add up",
-      {choice<&I::on>("on", irregularity<&I::on>, "Body; on the wheel x is the arc from the first contact",
-                      {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
+      {body_choice<&I::on>(irregularity<&I::on>, "Body; on the wheel x is the arc from the first contact"),
        kind_option(),
        option("at", irregularity<&I::at>, "Distance of its middle (waves: a crest; file: x = 0) from the first contact",
               kLength, kHeightWay)
@@ -153,6 +152,27 @@ OptionTable irregularity_table() {
   for (const auto& rows : {height_shape_options(), height_spectrum_options(), height_point_options()})
     append(out.options, rows);
   return out;
+}
+
+OptionTable stretch_table() {
+  using Stretch = StretchSpec;
+  return {"stretch",
+          "A stretch of rail or wheel where all materials, including the layers, are stiffer or stronger by a factor, "
+          "such as a weld with its heat-affected zone; overlapping stretches multiply",
+          {body_choice<&Stretch::on>(entry<&CaseSpec::stretches, &Stretch::on>,
+                                     "Body; on the wheel x is the arc from the first contact"),
+           option("along", entry<&CaseSpec::stretches, &Stretch::along>,
+                  "Rows of place along the rail, factor of Young's modulus and factor of strength (yield stress, "
+                  "hardening and fatigue limit); linear between rows, 1 outside them. Each element uses the factors at "
+                  "its middle; two rows close together make a jump with node planes between them")
+               .with_rows(RowForm::by_value,
+                          {column("place", "", kLength, {-100, 100}),
+                           column("young", "Factor of Young's modulus", kNumber, {1e-4, 20}),
+                           column("strength", "Factor of strength", kNumber, {0.05, 20})},
+                          R"([["190 mm", 1.0, 1.0], ["195 mm", 1.0, 0.75], ["200 mm", 1.0, 1.0]])"),
+           option("depth", entry<&CaseSpec::stretches, &Stretch::depth>,
+                  "Depth below the running surface; not given: through the whole body", kLength, above(0, 1))},
+          list_of<&CaseSpec::stretches>()};
 }
 
 }  // namespace railstrata

@@ -19,12 +19,12 @@ bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(i
 /// Each axle has this wheel and another like it: N = MGT / (2 wheel loads).
 double passages_of(const CaseSpec& spec, std::size_t index, double million_tonnes) {
   const double wheel = spec.loads.at(index).wheel_load.value_or(spec.vehicle.load());
-  return 1e6 * million_tonnes / gross_tonnes(wheel, spec.vehicle.gravity);
+  return 1e6 * million_tonnes / gross_tonnes(wheel);
 }
 
 bool follows_passes(const CaseSpec& spec, std::size_t) { return spec.life.passes > 0; }
 bool has_life(const CaseSpec& spec, std::size_t i) { return has_loads(spec, i) || follows_passes(spec, i); }
-bool grinds(const CaseSpec& spec, std::size_t) { return spec.grinding.every.has_value(); }
+bool grinds(const CaseSpec& spec, std::size_t) { return spec.life.grinding.every.has_value(); }
 
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
 
@@ -152,10 +152,10 @@ OptionTable grinding_table() {
   using G = GrindingSpec;
   return {"grinding",
           "Grinding of the rail, for the life prediction of `railstrata collective`",
-          {option("every", at<&CaseSpec::grinding, &G::every>,
+          {option("every", at<&CaseSpec::life, &LifeSpec::grinding, &G::every>,
                   "Gross traffic between grindings, a mass: \"15 Mt\" are 15 million tonnes", kMass, {1e6, 1e13}),
-           option("depth", at<&CaseSpec::grinding, &G::depth>, "Depth removed by each grinding, everywhere", kLength,
-                  {0, 0.01})
+           option("depth", at<&CaseSpec::life, &LifeSpec::grinding, &G::depth>,
+                  "Depth removed by each grinding, everywhere", kLength, {0, 0.01})
                .where(grinds)}};
 }
 

@@ -80,6 +80,13 @@ Option choice_at(std::string_view key, std::string_view doc, std::initializer_li
   return choice<Member>(key, at<Part, Member>, doc, words);
 }
 
+/// The word of a body, in a table of a list.
+template <auto Member>
+Option body_choice(Slot (*slot)(CaseSpec&, std::size_t), std::string_view doc) {
+  return choice<Member>("on", slot, doc,
+                        {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}});
+}
+
 inline Range above(double min, double max = std::numeric_limits<double>::infinity()) { return {min, max, true}; }
 
 }  // namespace railstrata::option_slot

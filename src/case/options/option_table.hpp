@@ -42,55 +42,50 @@ class ChoiceSlot {
   void (*write_)(void*, int);
 };
 
-/// A member that is a table, by depth or of named numbers: rows of a type whose numbers `columns(row)` lists.
+/// A member that is a table, by depth or of named numbers: a list or an optional of rows, of a type whose numbers
+/// `columns(row)` lists.
 class RowsSlot {
  public:
   using Rows = std::vector<std::vector<double>>;
-  template <class Row>
-  explicit RowsSlot(std::vector<Row>& member) : member_(&member), read_(read<Row>), write_(write<Row>) {}
-  /// A table with at most one row.
-  template <class Row>
-  explicit RowsSlot(std::optional<Row>& member) : member_(&member), read_(read_one<Row>), write_(write_one<Row>) {}
+  template <class Table>
+  requires requires { typename Table::value_type; }
+  explicit RowsSlot(Table& member) : member_(&member), read_(read<Table>), write_(write<Table>) {}
   Rows operator*() const { return read_(member_); }
   void set(const Rows& rows) const { write_(member_, rows); }
   friend bool operator==(const RowsSlot& a, const RowsSlot& b) { return a.member_ == b.member_; }
 
  private:
-  template <class Row>
+  template <class Table>
+  static constexpr bool kIsList = requires(Table& table) {
+    table.clear();
+  };
+  template <class Table>
   static Rows read(const void* member) {
+    const auto& table = *static_cast<const Table*>(member);
     Rows out;
-    for (const Row& row : *static_cast<const std::vector<Row>*>(member)) out.push_back(numbers_of(row));
+    const auto add = [&](typename Table::value_type row) {
+      std::vector<double>& numbers = out.emplace_back();
+      for (const double* number : columns(row)) numbers.push_back(*number);
+    };
+    if constexpr (kIsList<Table>)
+      for (const auto& row : table) add(row);
+    else if (table)
+      add(*table);
     return out;
   }
-  template <class Row>
-  static Rows read_one(const void* member) {
-    const auto& row = *static_cast<const std::optional<Row>*>(member);
-    return row ? Rows{numbers_of(*row)} : Rows{};
-  }
-  template <class Row>
+  template <class Table>
   static void write(void* member, const Rows& rows) {
-    auto& out = *static_cast<std::vector<Row>*>(member);
-    out.clear();
-    for (const std::vector<double>& numbers : rows) out.push_back(row_of<Row>(numbers));
-  }
-  template <class Row>
-  static void write_one(void* member, const Rows& rows) {
-    auto& out = *static_cast<std::optional<Row>*>(member);
-    out.reset();
-    if (!rows.empty()) out = row_of<Row>(rows.front());
-  }
-  template <class Row>
-  static std::vector<double> numbers_of(Row row) {
-    std::vector<double> out;
-    for (const double* number : columns(row)) out.push_back(*number);
-    return out;
-  }
-  template <class Row>
-  static Row row_of(const std::vector<double>& numbers) {
-    Row out;
-    std::size_t k = 0;
-    for (double* number : columns(out)) *number = numbers.at(k++);
-    return out;
+    Table out;
+    for (const std::vector<double>& numbers : rows) {
+      typename Table::value_type row;
+      std::size_t k = 0;
+      for (double* number : columns(row)) *number = numbers.at(k++);
+      if constexpr (kIsList<Table>)
+        out.push_back(row);
+      else
+        out = row;
+    }
+    *static_cast<Table*>(member) = out;
   }
   void* member_;
   Rows (*read_)(const void*);
@@ -155,36 +150,19 @@ struct Option {
   bool first = false;       ///< read before the others, whose places depend on it
 
   /// The same option with one thing more, for the rows of the tables.
-  Option where(bool (*condition)(const CaseSpec&, std::size_t)) const {
+  template <auto Member, class Value>
+  Option with(const Value& value) const {
     Option out = *this;
-    out.applies = condition;
+    out.*Member = value;
     return out;
   }
-  Option derived(const Derivation& from) const {
-    Option out = *this;
-    out.derivation = from;
-    return out;
-  }
-  Option or_mass() const {
-    Option out = *this;
-    out.takes_mass = true;
-    return out;
-  }
-  Option with_remedy(std::string_view text) const {
-    Option out = *this;
-    out.beyond = text;
-    return out;
-  }
-  Option with_example(std::string_view text) const {
-    Option out = *this;
-    out.example = text;
-    return out;
-  }
+  Option where(bool (*condition)(const CaseSpec&, std::size_t)) const { return with<&Option::applies>(condition); }
+  Option derived(const Derivation& from) const { return with<&Option::derivation>(from); }
+  Option or_mass() const { return with<&Option::takes_mass>(true); }
+  Option with_remedy(std::string_view text) const { return with<&Option::beyond>(text); }
+  Option with_example(std::string_view text) const { return with<&Option::example>(text); }
   Option with_rows(RowForm of, const std::vector<Option>& numbers, std::string_view text) const {
-    Option out = with_example(text);
-    out.form = of;
-    out.columns = numbers;
-    return out;
+    return with_example(text).with<&Option::form>(of).with<&Option::columns>(numbers);
   }
 };
 

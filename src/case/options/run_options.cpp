@@ -18,29 +18,23 @@ bool jumps(const CaseSpec& spec, std::size_t) { return spec.passes.jump != PassJ
 }  // namespace
 
 OptionTable mesh_table() {
-  return {
-      "mesh",
-      "Element sizes",
-      {option("element_size", at<&C::mesh, &H::element_size>,
-              "Edge length at the running surfaces and in the studied subsurface", kLength,
-              {0.05 * kMilli, 20 * kMilli}),
-       option("fine_width", at<&C::mesh, &H::fine_width>, "Lateral width of the fine cap, centred on the contact point",
-              kLength, {kMilli, 0.1}),
-       option("fine_depth", at<&C::mesh, &H::fine_depth>, "Depth of the fine cap", kLength, {0.5 * kMilli, 0.05}),
-       option("largest", at<&C::mesh, &H::largest>, "Largest edge far from the contact", kLength, {kMilli, 0.2}),
-       option("coarse_ratio", at<&C::mesh, &H::coarse_ratio>,
-              "Spacing along the path outside the cap, in element sizes", kNumber, {1, 20}),
-       choice_at<&C::mesh, &H::element>(
-           "element",
-           "full: fully integrated, without locking; one_point: one integration point with hourglass stiffness",
-           {{"full", ElementFormulation::full}, {"one_point", ElementFormulation::one_point}}),
-       option("hourglass_coefficient", at<&C::mesh, &H::hourglass_coefficient>,
-              "element = \"one_point\": scale of the hourglass stiffness", kNumber, {0, 1}),
-       option("end_length", at<&C::mesh, &H::end_length>, "Rail beyond both ends of the fine range", kLength,
-              {1e-3, 5}),
-       option(
-           "elements_through_layer_one", at<&C::mesh, &H::elements_through_layer_one>,
-           "Use one element through every layer, as coarse published meshes do; `elements` of the layers is ignored")}};
+  return {"mesh",
+          "Element sizes",
+          {option("element_size", at<&C::mesh, &H::element_size>,
+                  "Edge length at the running surfaces and in the studied subsurface", kLength,
+                  {0.05 * kMilli, 20 * kMilli}),
+           option("fine_width", at<&C::mesh, &H::fine_width>,
+                  "Lateral width of the fine cap, centred on the contact point", kLength, {kMilli, 0.1}),
+           option("fine_depth", at<&C::mesh, &H::fine_depth>, "Depth of the fine cap", kLength, {0.5 * kMilli, 0.05}),
+           option("largest", at<&C::mesh, &H::largest>, "Largest edge far from the contact", kLength, {kMilli, 0.2}),
+           option("coarse_ratio", at<&C::mesh, &H::coarse_ratio>,
+                  "Spacing along the path outside the cap, in element sizes", kNumber, {1, 20}),
+           choice_at<&C::mesh, &H::element>(
+               "element",
+               "full: fully integrated, without locking; one_point: one integration point with hourglass stiffness",
+               {{"full", ElementFormulation::full}, {"one_point", ElementFormulation::one_point}}),
+           option("end_length", at<&C::mesh, &H::end_length>, "Rail beyond both ends of the fine range", kLength,
+                  {1e-3, 5})}};
 }
 
 OptionTable run_table() {
@@ -73,14 +67,6 @@ OptionTable run_table() {
        option("rolling", at<&C::run, &R::rolling>, "false stops after the static preload"),
        option("plasticity", at<&C::run, &R::plasticity>,
               "Finite elements: materials with a strength or hardening can yield; the half-space engine stays elastic"),
-       option("plastic_depth", at<&C::run, &R::plastic_depth>,
-              "Depth of the zone below the path whose elements are treated as plastic from the start; elsewhere, or if "
-              "not given, an element switches when its stress comes near yielding",
-              kLength, above(0, 1)),
-       option("plastic_width", at<&C::run, &R::plastic_width>,
-              "Half-width of that zone on each side of the contact point. If only one of the two is given, the depth "
-              "is 2.5 times Hertz's larger half-axis, the half-width 1.6 times Hertz's half-width plus two elements",
-              kLength, above(0, 1)),
        choice_at<&C::run, &R::judged>(
            "judged",
            "Bodies whose strength and fatigue are assessed; the answer, its zones and the worst load refer to them",
@@ -143,23 +129,22 @@ OptionTable passes_table() {
               "Grid of plastic strain: thickness of the row at the surface; each row below is a quarter thicker; not "
               "given: the same as the other rows",
               kLength, above(0, 0.1)),
-       option("window", at<&C::passes, &P::window>,
-              "Length behind the load where plastic flow is computed, in half-lengths of the patch; not given: 4 (line "
-              "contact 6), extended while pass 1 still flows",
-              kNumber, {2, 100}),
-       option("window_tolerance", at<&C::passes, &P::window_tolerance>,
-              "Allowed flow in the last quarter of the window, over the largest of the pass. Above it, a default "
-              "window grows by half, up to four times its usual length; a given window causes a warning",
-              kNumber, above(0, 1))}};
+       option(
+           "window", at<&C::passes, &P::window>,
+           "Length behind the load where plastic flow is computed, in half-lengths of the patch; not given: 4 (line "
+           "contact 6). Where more than 0.1 % of the largest flow of a pass comes in its last quarter, a window that "
+           "is not given grows by half, up to four times its usual length; a given one causes a warning",
+           kNumber, {2, 100})}};
 }
 
 OptionTable output_table() {
-  return {
-      "output",
-      "Output files",
-      {option("volume", at<&C::output, &O::volume>, "Write the fine zone as VTU"),
-       option("patch_series", at<&C::output, &O::patch_series>, "Write the patch during the rolling as a VTP series"),
-       option("series_frames", at<&C::output, &O::series_frames>, "Frames of the series", kNumber, {1, 10000})}};
+  return {"output",
+          "Output files",
+          {option("volume", at<&C::run, &R::output, &O::volume>, "Write the fine zone as VTU"),
+           option("patch_series", at<&C::run, &R::output, &O::patch_series>,
+                  "Write the patch during the rolling as a VTP series"),
+           option("series_frames", at<&C::run, &R::output, &O::series_frames>, "Frames of the series", kNumber,
+                  {1, 10000})}};
 }
 
 }  // namespace railstrata

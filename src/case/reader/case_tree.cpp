@@ -64,14 +64,10 @@ class TreeReader {
   void take_track(const toml::table& document) {
     GeometrySpec& g = spec_.geometry;
     const auto given = [&](const char* key) { return document["geometry"][key].value<std::string>(); };
-    const TrackPreset& p =
+    const TrackNumbers& numbers =
         track_preset_of(track_kind_named(given("track").value_or("")), given("wheel_profile").value_or(g.wheel_profile),
                         given("rail_profile").value_or(g.rail_profile));
-    g.gauge = p.gauge;
-    g.gauge_depth = p.gauge_depth;
-    g.back_to_back = p.back_to_back;
-    g.cant = p.cant;
-    g.wheel_radius = p.wheel_radius;
+    static_cast<TrackNumbers&>(g) = numbers;
   }
 
   /// The numbers of a set of sleepers likewise.
@@ -93,8 +89,8 @@ class TreeReader {
     remember(name, key, node);
     if (const OptionTable* table = find_table(name))
       return table->repeated ? read_list(*table, node) : read_node(*table, name, node);
-    if (!is_group(name)) return unknown_table(name, name);
     const toml::table* group = node.as_table();
+    if (!is_group(name)) return group && all_retired(name, *group) ? void() : unknown_table(name, name);
     if (!group)
       return source_.complain(name, fmt::format("{} must be a table", name),
                               fmt::format("write [{}.rail] above its keys", name));
@@ -167,6 +163,7 @@ class TreeReader {
           std::find_if(table.options.begin(), table.options.end(), [&](const Option& o) { return o.key == word; });
       if ((option != table.options.end() && option->first) != first) continue;
       if (option == table.options.end()) {
+        if (read_over(table.name, full, key, node)) continue;
         source_.remember(full, place_of(key.source()));
         unknown_key(table, full, word);
         continue;
@@ -177,6 +174,23 @@ class TreeReader {
       else
         read_value(source_, spec_, {*option, full, node, index});
     }
+  }
+
+  /// Whether it is a key that is gone: with the value that holds now nothing, else an error.
+  bool read_over(std::string_view table, const std::string& full, const toml::key& key, const toml::node& node) {
+    const RetiredKey* gone = retired_key(table, key.str());
+    if (gone && shown(node) != gone->value) {
+      remember(full, key, node);
+      source_.complain(full, fmt::format("{} = {}: this key is gone", full, shown(node)), std::string(gone->remedy));
+    }
+    return gone != nullptr;
+  }
+
+  /// Whether a table that is gone has keys of its own alone.
+  bool all_retired(const std::string& name, const toml::table& entries) {
+    return std::all_of(entries.begin(), entries.end(), [&](const auto& entry) {
+      return read_over(name, fmt::format("{}.{}", name, entry.first.str()), entry.first, entry.second);
+    });
   }
 
   void check_rivals(const std::vector<std::string_view>& rivals, const std::string& name, const toml::table& entries) {
@@ -284,7 +298,7 @@ class TreeReader {
   }
 
   void finish(const Derived& d) {
-    const double written = d.mass ? d.written * spec_.vehicle.gravity : d.written;
+    const double written = d.mass ? d.written * kGravity : d.written;
     if (!d.option->range.holds(written)) return refuse_range(source_, *d.option, d.key, d.shown, "", written);
     const Slot slot = d.option->slot(spec_, d.index);
     const Derivation& derive = d.option->derivation;

@@ -96,14 +96,9 @@ class ValueReader {
     *target = static_cast<int>(*value);
   }
 
-  void assign(const WrittenValue& w, bool* target) {
-    const auto value = w.node.value_exact<bool>();
-    if (!value) return refuse_type(source_, w);
-    *target = *value;
-  }
-
-  void assign(const WrittenValue& w, std::string* target) {
-    const auto value = w.node.value_exact<std::string>();
+  template <class FlagOrText>
+  void assign(const WrittenValue& w, FlagOrText* target) {
+    const auto value = w.node.value_exact<FlagOrText>();
     if (!value) return refuse_type(source_, w);
     *target = *value;
   }
@@ -137,40 +132,34 @@ class ValueReader {
   }
 
   void assign(const WrittenValue& w, const RowsSlot& target) {
-    if (w.option.form == RowForm::one_named) return assign_named(w, target);
+    RowsSlot::Rows rows;
+    if (w.option.form == RowForm::one_named) {
+      if (read_named(w.option, w.key, w.node, rows.emplace_back())) target.set(rows);
+      return;
+    }
     const toml::array* list = w.node.as_array();
     if (!list) return refuse_type(source_, w);
-    if (w.option.form == RowForm::named) return assign_list(w, *list, target);
-    RowsSlot::Rows rows;
+    const bool named = w.option.form == RowForm::named;
     bool sound = true;
-    for (std::size_t i = 0; i < list->size(); ++i)
-      sound &= read_row(w.option, fmt::format("{}.{}", w.key, i), (*list)[i], rows.emplace_back());
-    if (!sound || !fits(w.option, w.key, rows)) return;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const std::string item = fmt::format("{}.{}", w.key, i);
+      remember_place(source_, item, (*list)[i]);
+      std::vector<double>& row = rows.emplace_back();
+      sound &= named ? read_named(w.option, item, (*list)[i], row) : read_row(w.option, item, (*list)[i], row);
+    }
+    if (!sound || (!named && !fits(w.option, w.key, rows))) return;
     target.set(rows);
     if (w.option.key == "young_table") take_moduli(w.key, spec_.layers.at(w.index));
   }
 
-  void assign_named(const WrittenValue& w, const RowsSlot& target) {
-    if (!w.node.is_table()) return refuse_type(source_, w);
-    if (RowsSlot::Rows rows(1); read_named(w.option, w.key, *w.node.as_table(), rows.front())) target.set(rows);
-  }
-
-  void assign_list(const WrittenValue& w, const toml::array& list, const RowsSlot& target) {
-    RowsSlot::Rows rows;
-    bool sound = true;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const std::string item = fmt::format("{}.{}", w.key, i);
-      remember_place(source_, item, list[i]);
-      const toml::table* table = list[i].as_table();
-      if (!table) refuse_type(source_, {w.option, item, list[i]});
-      sound &= table && read_named(w.option, item, *table, rows.emplace_back());
-    }
-    if (sound) target.set(rows);
-  }
-
   /// Numbers under the keys of the columns, every one.
-  bool read_named(const Option& option, const std::string& item, const toml::table& table,
+  bool read_named(const Option& option, const std::string& item, const toml::node& written,
                   std::vector<double>& numbers) {
+    if (!written.is_table()) {
+      refuse_type(source_, {option, item, written});
+      return false;
+    }
+    const toml::table& table = *written.as_table();
     bool sound = true;
     std::vector<std::string> keys;
     numbers.assign(option.columns.size(), 0.0);
@@ -198,7 +187,6 @@ class ValueReader {
 
   /// A row of a table by depth.
   bool read_row(const Option& option, const std::string& item, const toml::node& row, std::vector<double>& numbers) {
-    remember_place(source_, item, row);
     const std::size_t width = option.columns.size();
     numbers.assign(width, 0.0);
     const toml::array* written = row.as_array();

@@ -158,9 +158,7 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
         "transient.lateral_force | transient.lateral_traction_coefficient | transient.lateral_creepage | "
         "transient.lateral_displacement | transient.spin"},
     kShiftColumns{"transient.displacement | transient.lateral_displacement"},
-    kStationaryGrid{
-        "passes.patch_cells | passes.patch_rows | passes.first_row | passes.window | "
-        "passes.window_tolerance"};
+    kStationaryGrid{"passes.patch_cells | passes.patch_rows | passes.first_row | passes.window"};
 
 using enum ClashRule;
 
@@ -297,7 +295,6 @@ constexpr Clash kClashes[] = {
     // Layers, passes, lives
     {kLayerThickness, excludes, "layer.young_table", "the layer ends at the table's last depth", "leave thickness out"},
     {kLayerModulus, excludes, "layer.young_table", "the table gives the modulus", "keep one of them"},
-    {"layer.grading_tolerance", idle_without, "layer.young_table", "a uniform layer is not cut into others", ""},
     {"passes.jump = \"auto\"", excludes, "passes.lateral_deviation",
      "wheels that scatter never repeat, so no round shows the next",
      "take passes.lateral_deviation out, or give passes.lateral_positions alone"},
@@ -316,12 +313,9 @@ constexpr Clash kClashes[] = {
     {"track.preset", excludes, "geometry.rail_radius", "a roller turns about a shaft", kOneOut},
     {"track", needs, "track.preset", "without a preset the foot of the rail is held",
      "give track.preset = \"delft\", \"medium\" or \"cn60\"; it supplies the defaults of the other keys"},
-    {"mesh.hourglass_coefficient", idle_without, "mesh.element = \"one_point\"", "", ""},
     {"geometry.block_width", idle_without, "geometry.rail_shape = \"block\"", "", ""},
     {"geometry.block_height", idle_without, "geometry.rail_shape = \"block\"", "", ""},
     {"run.device = \"gpu\"", idle_with, "run.rolling = false", "only rolling is computed on a GPU", ""},
-    {"run.plastic_depth", idle_without, "run.plasticity = true", "", ""},
-    {"run.plastic_width", idle_without, "run.plasticity = true", "", ""},
     {"*.hardening | *.isotropic_hardening | *.kinematic_hardening", idle_with, kElastic,
      "`run` and `bem` compute elastically, `railstrata passes` and `railstrata material` use it",
      "give run.plasticity = true to `run`"},

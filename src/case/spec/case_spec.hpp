@@ -10,8 +10,6 @@
 #include "spec/history_spec.hpp"
 #include "spec/layer_spec.hpp"
 #include "spec/run_spec.hpp"
-#include "spec/stretch_spec.hpp"
-#include "spec/track_spec.hpp"
 
 namespace railstrata {
 
@@ -34,9 +32,7 @@ struct CaseSpec {
   std::vector<LoadSpec> loads;
   CollectiveSpec collective;
   LifeSpec life;
-  GrindingSpec grinding;
   PassesSpec passes;
-  OutputSpec output;
 };
 
 }  // namespace railstrata

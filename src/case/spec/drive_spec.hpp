@@ -10,19 +10,20 @@
 
 namespace railstrata {
 
+/// Acceleration of gravity, m/s²: of every load that is given as a mass.
+inline constexpr double kGravity = 9.81;
+
 struct VehicleSpec {
   double wheel_mass = 660.0, sprung_mass = 8000.0;
   double suspension_stiffness = 0.95e6, suspension_damping = 10.4e3;
-  int suspension_groups = 8;
-  double gravity = 9.81;
   std::optional<double> approach;  ///< m, of the bodies along the contact normal: then the load is a result
   bool couple_sprung_mass = true;  ///< the sprung mass rides along with the axle in x (else it only moves vertically
                                    ///< and does not add inertia to it)
-  /// N, of the wheel on the rail at rest, G = (wheel_mass + sprung_mass) gravity.
-  double load() const { return (wheel_mass + sprung_mass) * gravity; }
+  /// N, of the wheel on the rail at rest, G = (wheel_mass + sprung_mass) kGravity.
+  double load() const { return (wheel_mass + sprung_mass) * kGravity; }
   /// N, by the sprung mass that makes it; instead of an approach.
   void set_load(double force) {
-    sprung_mass = force / gravity - wheel_mass;
+    sprung_mass = force / kGravity - wheel_mass;
     approach.reset();
   }
 };

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "spec/drive_spec.hpp"
+
 namespace railstrata {
 
 /// A history that the half-space engine follows in time (bem/transient.hpp).
@@ -40,8 +42,8 @@ enum class WearLaw {
   archard  ///< Archard with the rail's wear_coefficient
 };
 
-/// Tonnes over the track by an axle of two such wheels; N, gravity m/s².
-inline double gross_tonnes(double wheel_force, double gravity) { return 2e-3 * wheel_force / gravity; }
+/// Tonnes over the track by an axle of two such wheels [N].
+inline double gross_tonnes(double wheel_force) { return 2e-3 * wheel_force / kGravity; }
 
 /// A row of a load collective: what it does not give is the case's (tables/load_rows.hpp).
 struct LoadSpec {
@@ -60,19 +62,21 @@ struct CollectiveSpec {
   WearLaw wear_law = WearLaw::usfd;
   double lateral_deviation = 0;      ///< m across, of the wheels of each row about their place
   double wear_factor = 1;            ///< of wear over that of the laws
-  double bin_scale = 1;              ///< of the widths of a series' bins (tables/load_series.hpp)
+  double bin_scale = 1;              ///< of the widths of a series' bins (tables/load_rows.cpp)
   bool match_guiding_force = false;  ///< a row's shift is moved until its wheel has the row's guiding force
+};
+
+/// Grinding of the rail.
+struct GrindingSpec {
+  std::optional<double> every;  ///< kg of gross traffic
+  double depth = 0;             ///< m, each time
 };
 
 /// What lives are computed from beside the strengths (lives/zone_life.hpp).
 struct LifeSpec {
   int passes = 0;               ///< of every load, by the stationary method; 0: none
   double strength_scatter = 0;  ///< coefficient of variation of the strengths
-};
-/// Grinding of the rail.
-struct GrindingSpec {
-  std::optional<double> every;  ///< kg of gross traffic
-  double depth = 0;             ///< m, each time
+  GrindingSpec grinding;
 };
 
 /// Whether passes are jumped over (steady/pass_jump.hpp).
@@ -97,7 +101,6 @@ struct PassesSpec {
   double patch_rows = 8;            ///< over its shorter half-axis
   std::optional<double> first_row;  ///< m, at the surface; below it rows grow by a quarter each; not given: as those
   std::optional<double> window;     ///< half-lengths behind the load where flow is followed; not given: by the contact
-  double window_tolerance = 1e-3;   ///< of the largest flow: what may come in the last quarter of the window
 };
 
 }  // namespace railstrata

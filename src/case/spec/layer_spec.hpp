@@ -1,5 +1,5 @@
 #pragma once
-// Materials and layers of a case, in SI units.
+// Materials, layers and stretches of a case, in SI units.
 #include <array>
 #include <limits>
 #include <optional>
@@ -41,9 +41,7 @@ struct LayerSpec {
   double width = 0.060;
   MaterialSpec material;                  ///< young of a graded layer: the mean over its depth
   std::vector<ModulusPoint> young_table;  ///< a modulus that varies with depth, from 0 down; empty: uniform
-  double grading_tolerance = 0.05;  ///< half-space engine: largest relative change of the modulus within one of the
-                                    ///< layers that a graded one is cut into
-  int elements = 0;                 ///< through the thickness; 0 = chosen
+  int elements = 0;                       ///< through the thickness; 0 = chosen
   /// m, along the rail, of the wheel along its arc from the first contact; not given: endless to that side.
   std::optional<double> from, to;
   double taper_length = 0;  ///< m, over which the thickness runs out at these ends, within them; 0: a step
@@ -61,5 +59,19 @@ struct LayerSpec {
 std::vector<double> layer_tops(const std::vector<LayerSpec>& layers);
 /// The layers there are at a place along the rail, endless and as thick as they are there, without their tapers.
 std::vector<LayerSpec> layers_at(const std::vector<LayerSpec>& layers, double x);
+
+/// Factors at a place along the rail; linear between two of them.
+struct StretchPoint {
+  double x = 0;  ///< m
+  double young = 1, strength = 1;
+};
+inline std::array<double*, 3> columns(StretchPoint& p) { return {&p.x, &p.young, &p.strength}; }
+
+/// A stretch of a body in which its materials are stiffer or stronger.
+struct StretchSpec {
+  BodyId on = BodyId::rail;
+  std::vector<StretchPoint> along;
+  std::optional<double> depth;  ///< m, below the running surface; not given: through the body
+};
 
 }  // namespace railstrata

@@ -1,6 +1,5 @@
 #pragma once
 // How a case is computed: mesh, contact, steps, the half-space engine, output; in SI units.
-#include <optional>
 #include <vector>
 
 namespace railstrata {
@@ -29,9 +28,13 @@ struct MeshSpec {
   double element_size = 1e-3, fine_width = 24e-3, fine_depth = 8e-3, largest = 12e-3;
   int coarse_ratio = 3;
   ElementFormulation element = ElementFormulation::full;
-  double hourglass_coefficient = 0.05;  ///< one_point only: kappa of the Flanagan–Belytschko stiffness
   double end_length = 0.12;
-  bool elements_through_layer_one = false;  ///< a coarser mesh than `elements` of the layers asks for
+};
+
+struct OutputSpec {
+  bool volume = true;        ///< VTU of the fine zone
+  bool patch_series = true;  ///< VTP series of the patch during the rolling, PVD
+  int series_frames = 30;
 };
 
 struct RunSpec {
@@ -44,12 +47,12 @@ struct RunSpec {
                                           ///< pressure wave speed; 0: real masses (fem/step_plan.hpp)
   ArithmeticPrecision precision = ArithmeticPrecision::double_precision;
   ComputeDevice device = ComputeDevice::cpu;
-  double preload_tolerance = 1e-6;                     ///< relative residual of the static equilibrium
-  double history_interval = 0.2e-3;                    ///< m of rolling between rows of history.csv
-  bool rolling = true;                                 ///< false: stop after the static preload
-  bool plasticity = false;                             ///< finite elements: materials with a strength yield
-  std::optional<double> plastic_depth, plastic_width;  ///< m, box of the elements that may (fem/plastic_zone.hpp)
+  double preload_tolerance = 1e-6;   ///< relative residual of the static equilibrium
+  double history_interval = 0.2e-3;  ///< m of rolling between rows of history.csv
+  bool rolling = true;               ///< false: stop after the static preload
+  bool plasticity = false;           ///< finite elements: materials with a strength yield
   JudgedBodies judged = JudgedBodies::both;
+  OutputSpec output;
 };
 
 /// Angle of the surfaces that the lateral slip of spin is taken with (bem/case_patch.hpp).
@@ -61,12 +64,6 @@ enum class SpinAngle {
 struct BemSpec {
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
   SpinAngle spin_angle = SpinAngle::local;
-};
-
-struct OutputSpec {
-  bool volume = true;        ///< VTU of the fine zone
-  bool patch_series = true;  ///< VTP series of the patch during the rolling, PVD
-  int series_frames = 30;
 };
 
 }  // namespace railstrata

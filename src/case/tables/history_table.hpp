@@ -4,9 +4,6 @@
 //   distance [mm], wheel_load [kN], creepage          keys of [transient] with their units, also as distance_mm;
 //   0, 85, 0                                          "distance" and "time" stand for at_distance and at_time
 //   5, 102, -0.001                                    "#" begins a comment
-//
-// Columns are separated by what the line of names has: semicolons, tabs or commas. Numbers may have decimal commas
-// where a comma does not separate (a spreadsheet's "2,5; 102; -0,001").
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -6,84 +6,42 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <optional>
+#include <set>
+#include <sstream>
+#include <utility>
 
+#include "core/text.hpp"
 #include "options/option_table.hpp"
-#include "tables/load_series.hpp"
 #include "tables/unit_table.hpp"
 
 namespace railstrata {
 namespace {
 
-struct ColumnWord {
-  std::string_view key, word;
-};
 /// Headings of spreadsheets beside the keys: German, French, Swedish, Chinese.
-constexpr std::array kColumnWords{ColumnWord{"name", "Name"},
-                                  ColumnWord{"name", "Fahrzeug"},
-                                  ColumnWord{"name", "Véhicule"},
-                                  ColumnWord{"name", "Fordon"},
-                                  ColumnWord{"name", "名称"},
-                                  ColumnWord{"passages", "Überrollungen"},
-                                  ColumnWord{"passages", "Überfahrten"},
-                                  ColumnWord{"passages", "Anzahl"},
-                                  ColumnWord{"passages", "Nombre"},
-                                  ColumnWord{"passages", "Antal"},
-                                  ColumnWord{"passages", "通过次数"},
-                                  ColumnWord{"mgt", "MGT"},
-                                  ColumnWord{"mgt", "Mio. t"},
-                                  ColumnWord{"mgt", "总重"},
-                                  ColumnWord{"wheel_load", "Q"},
-                                  ColumnWord{"wheel_load", "Radlast"},
-                                  ColumnWord{"wheel_load", "Charge par roue"},
-                                  ColumnWord{"wheel_load", "Hjullast"},
-                                  ColumnWord{"wheel_load", "轮重"},
-                                  ColumnWord{"axle_load", "Radsatzlast"},
-                                  ColumnWord{"axle_load", "Achslast"},
-                                  ColumnWord{"axle_load", "Charge par essieu"},
-                                  ColumnWord{"axle_load", "Axellast"},
-                                  ColumnWord{"axle_load", "轴重"},
-                                  ColumnWord{"lateral_shift", "y"},
-                                  ColumnWord{"lateral_shift", "Querverschiebung"},
-                                  ColumnWord{"lateral_shift", "Déplacement latéral"},
-                                  ColumnWord{"lateral_shift", "Sidoförskjutning"},
-                                  ColumnWord{"lateral_shift", "横移量"},
-                                  ColumnWord{"yaw", "psi"},
-                                  ColumnWord{"yaw", "Anlaufwinkel"},
-                                  ColumnWord{"yaw", "Gierwinkel"},
-                                  ColumnWord{"yaw", "Angle d'attaque"},
-                                  ColumnWord{"yaw", "Anloppsvinkel"},
-                                  ColumnWord{"yaw", "冲角"},
-                                  ColumnWord{"roll", "phi"},
-                                  ColumnWord{"roll", "Wankwinkel"},
-                                  ColumnWord{"creepage", "Längsschlupf"},
-                                  ColumnWord{"creepage", "Glissement longitudinal"},
-                                  ColumnWord{"creepage", "Längskryp"},
-                                  ColumnWord{"creepage", "纵向蠕滑率"},
-                                  ColumnWord{"lateral_creepage", "Querschlupf"},
-                                  ColumnWord{"lateral_creepage", "Glissement latéral"},
-                                  ColumnWord{"lateral_creepage", "Tvärkryp"},
-                                  ColumnWord{"lateral_creepage", "横向蠕滑率"},
-                                  ColumnWord{"curve_radius", "Bogenradius"},
-                                  ColumnWord{"curve_radius", "Bogenhalbmesser"},
-                                  ColumnWord{"curve_radius", "Rayon de courbe"},
-                                  ColumnWord{"curve_radius", "Kurvradie"},
-                                  ColumnWord{"curve_radius", "曲线半径"},
-                                  ColumnWord{"guiding_force", "Y"},
-                                  ColumnWord{"guiding_force", "Führungskraft"},
-                                  ColumnWord{"t_gamma", "T-gamma"},
-                                  ColumnWord{"speed", "Geschwindigkeit"},
-                                  ColumnWord{"speed", "Vitesse"},
-                                  ColumnWord{"speed", "Hastighet"},
-                                  ColumnWord{"speed", "速度"},
-                                  ColumnWord{"friction_coefficient", "Reibwert"},
-                                  ColumnWord{"friction_coefficient", "Coefficient de frottement"},
-                                  ColumnWord{"friction_coefficient", "Friktionskoefficient"},
-                                  ColumnWord{"friction_coefficient", "摩擦系数"},
-                                  ColumnWord{"traction_coefficient", "Kraftschluss"},
-                                  ColumnWord{"traction_coefficient", "Coefficient d'adhérence"},
-                                  ColumnWord{"traction_coefficient", "Adhesionskoefficient"},
-                                  ColumnWord{"traction_coefficient", "牵引系数"}};
+using ColumnWords = std::map<std::string_view, std::vector<std::string_view>>;
+const ColumnWords& column_words() {
+  static const ColumnWords words{
+      {"name", {"Name", "Fahrzeug", "Véhicule", "Fordon", "名称"}},
+      {"passages", {"Überrollungen", "Überfahrten", "Anzahl", "Nombre", "Antal", "通过次数"}},
+      {"mgt", {"MGT", "Mio. t", "总重"}},
+      {"wheel_load", {"Q", "Radlast", "Charge par roue", "Hjullast", "轮重"}},
+      {"axle_load", {"Radsatzlast", "Achslast", "Charge par essieu", "Axellast", "轴重"}},
+      {"lateral_shift", {"y", "Querverschiebung", "Déplacement latéral", "Sidoförskjutning", "横移量"}},
+      {"yaw", {"psi", "Anlaufwinkel", "Gierwinkel", "Angle d'attaque", "Anloppsvinkel", "冲角"}},
+      {"roll", {"phi", "Wankwinkel"}},
+      {"creepage", {"Längsschlupf", "Glissement longitudinal", "Längskryp", "纵向蠕滑率"}},
+      {"lateral_creepage", {"Querschlupf", "Glissement latéral", "Tvärkryp", "横向蠕滑率"}},
+      {"curve_radius", {"Bogenradius", "Bogenhalbmesser", "Rayon de courbe", "Kurvradie", "曲线半径"}},
+      {"guiding_force", {"Y", "Führungskraft"}},
+      {"t_gamma", {"T-gamma"}},
+      {"speed", {"Geschwindigkeit", "Vitesse", "Hastighet", "速度"}},
+      {"friction_coefficient", {"Reibwert", "Coefficient de frottement", "Friktionskoefficient", "摩擦系数"}},
+      {"traction_coefficient", {"Kraftschluss", "Coefficient d'adhérence", "Adhesionskoefficient", "牵引系数"}}};
+  return words;
+}
 
 /// A fault of a row.
 struct RowFault {
@@ -93,7 +51,7 @@ struct RowFault {
 
 std::optional<RowFault> fault_of(const CaseSpec& spec, const LoadSpec& load) {
   constexpr double kTightest = 5;  // m
-  const double wheel = spec.vehicle.wheel_mass * spec.vehicle.gravity;
+  const double wheel = spec.vehicle.wheel_mass * kGravity;
   if (load.wheel_load && *load.wheel_load < wheel)
     return RowFault{
         "wheel_load",
@@ -121,13 +79,9 @@ std::optional<RowFault> fault_of(const CaseSpec& spec, const LoadSpec& load) {
   return std::nullopt;
 }
 
-template <class T>
-void take(const std::optional<T>& given, T& value) {
+template <class Value>
+void take(const std::optional<double>& given, Value& value) {
   if (given) value = *given;
-}
-template <class T>
-void take(const std::optional<T>& given, std::optional<T>& value) {
-  if (given) value = given;
 }
 
 void put(const UnitTable::Cell& cell, const Option& option, CaseSpec& spec, std::size_t index) {
@@ -173,17 +127,131 @@ std::string load_name(const CaseSpec& spec, std::size_t index) {
 
 namespace {
 
+// A time series of one wheel, as vehicle codes write it.
+struct Axis {
+  std::optional<double> LoadSpec::*member;
+  double width;
+  bool inverse = false;  ///< bins of 1/value
+};
+const std::array kAxes{Axis{&LoadSpec::wheel_load, 10e3},
+                       Axis{&LoadSpec::lateral_shift, 1e-3},
+                       Axis{&LoadSpec::yaw, 1e-3},
+                       Axis{&LoadSpec::curve_radius, 1e-3, true},
+                       Axis{&LoadSpec::speed, 5},
+                       Axis{&LoadSpec::friction_coefficient, 0.02},
+                       Axis{&LoadSpec::traction_coefficient, 0.02},
+                       Axis{&LoadSpec::lateral_traction_coefficient, 0.02},
+                       Axis{&LoadSpec::creepage, 5e-4},
+                       Axis{&LoadSpec::lateral_creepage, 5e-4}};
+/// Means alone, which part no samples.
+const std::array kMeans{&LoadSpec::roll, &LoadSpec::guiding_force, &LoadSpec::t_gamma, &LoadSpec::friction_energy};
+using Bin = std::pair<std::string, std::array<std::optional<long>, kAxes.size()>>;
+
+double on_axis(const Axis& axis, double value) { return axis.inverse ? 1 / value : value; }
+
+Bin bin_of(const LoadSpec& load, double scale, bool by_name) {
+  Bin out{by_name ? load.name : "", {}};
+  for (std::size_t k = 0; k < kAxes.size(); ++k)
+    if (const auto& value = load.*kAxes[k].member)
+      out.second[k] = std::lround(on_axis(kAxes[k], *value) / (scale * kAxes[k].width));
+  return out;
+}
+
+bool few_names(const std::vector<LoadSpec>& samples) {
+  constexpr std::size_t kMost = 40;
+  std::set<std::string_view> names;
+  for (const LoadSpec& sample : samples) names.insert(sample.name);
+  return names.size() <= kMost;
+}
+
+/// "wagon, leading: 107 kN, 4.92 mm"
+std::string bin_name(const std::string& samples, std::size_t place, const LoadSpec& mean) {
+  std::string out = samples.empty() ? fmt::format("bin {}", place) : samples;
+  const char* before = ": ";
+  const auto add = [&](const std::optional<double>& value, double factor, const char* unit) {
+    if (!value) return;
+    out += fmt::format("{}{:.3g} {}", before, factor * *value, unit);
+    before = ", ";
+  };
+  add(mean.wheel_load, 1e-3, "kN");
+  add(mean.lateral_shift, 1e3, "mm");
+  return out;
+}
+
+/// Adds a sample to the sums of its bin.
+void add(const LoadSpec& sample, LoadSpec& sums) {
+  sums.passages += sample.passages;
+  for (const Axis& axis : kAxes)
+    if (const auto& value = sample.*axis.member)
+      sums.*axis.member = (sums.*axis.member).value_or(0) + sample.passages * on_axis(axis, *value);
+  for (const auto member : kMeans)
+    if (const auto& value = sample.*member) sums.*member = (sums.*member).value_or(0) + sample.passages * *value;
+}
+
+/// A curvature of zero is straight track: no radius.
+LoadSpec mean_of(LoadSpec sums) {
+  for (const Axis& axis : kAxes)
+    if (auto& value = sums.*axis.member) {
+      *value /= sums.passages;
+      if (axis.inverse && !(std::abs(*value) > 1e-6)) value.reset();
+      if (value && axis.inverse) *value = 1 / *value;
+    }
+  for (const auto member : kMeans)
+    if (auto& value = sums.*member) *value /= sums.passages;
+  return sums;
+}
+
+/// Whether a column is the time or the distance of samples.
+bool names_way(std::string_view column) {
+  const std::array words{"time", "distance", "Zeit", "Weg"};
+  return std::any_of(words.begin(), words.end(), [&](const char* word) { return column.starts_with(word); });
+}
+
+/// Whether a line of names has a column of time or distance: its rows are then samples of one wheel.
+bool names_series(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  std::istringstream lines{std::string(text.starts_with(kMark) ? text.substr(kMark.size()) : text)};
+  std::string line;
+  while (std::getline(lines, line) && trimmed(line.substr(0, line.find('#')), " \t\r").empty()) {
+  }
+  std::istringstream cells(line);
+  for (std::string cell; std::getline(cells, cell, line.find(';') == std::string::npos ? ',' : ';');)
+    if (names_way(trimmed(cell, " \t\r\""))) return true;
+  return false;
+}
+
+/// Samples in the same bin become one load: the means of their numbers, each weighted by its passages, which are added
+/// up. Bins are `scale` times 10 kN, 1 mm, 1 mrad, 5 m/s, 0.001 1/m of curvature, 0.02 of friction and traction and
+/// 0.0005 of creepage wide, about 0; of what a sample does not give there is none. Samples of different names are apart
+/// where there are at most 40 names. Roll, and forces to compare with, part no samples. The bins follow in the order of
+/// their passages, most first; their names end with load and shift.
+std::vector<LoadSpec> binned(const std::vector<LoadSpec>& samples, double scale) {
+  const bool by_name = few_names(samples);
+  std::map<Bin, LoadSpec> bins;
+  for (const LoadSpec& sample : samples) {
+    const Bin bin = bin_of(sample, scale, by_name);
+    LoadSpec empty;
+    empty.name = bin.first;
+    empty.passages = 0;
+    add(sample, bins.try_emplace(bin, empty).first->second);
+  }
+  std::vector<LoadSpec> out;
+  for (const auto& [bin, sums] : bins) out.push_back(mean_of(sums));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const LoadSpec& a, const LoadSpec& b) { return a.passages > b.passages; });
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].name = bin_name(out[i].name, i + 1, out[i]);
+  return out;
+}
+
 /// What a series does not give and the case has instead.
 std::string lacking_of(const UnitTable& table, const std::vector<LoadSpec>& samples) {
-  const auto without = [&](auto&& gives) {
-    return samples.size() - static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), gives));
-  };
   const auto named = [&](std::string_view key) {
     return std::any_of(table.columns.begin(), table.columns.end(), [&](const Option* o) { return o->key == key; });
   };
   std::vector<std::string> out;
   const auto look = [&](const char* key, auto&& gives) {
-    if (const std::size_t count = without(gives); count == samples.size())
+    const auto count = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), std::not_fn(gives)));
+    if (count == samples.size())
       out.emplace_back(key);
     else if (count > 0)
       out.push_back(fmt::format("{} ({} of {} samples)", key, count, samples.size()));
@@ -205,13 +273,12 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
   const OptionTable& options = *find_table("load");
   UnitTableForm form{{}, options.rivals, "a load", "wheel_load [kN], lateral_shift [mm], passages"};
   for (const Option& option : options.options) form.columns.push_back({&option, option.key});
-  for (const ColumnWord& w : kColumnWords)
-    for (const Option& option : options.options)
-      if (option.key == w.key) form.columns.push_back({&option, w.word});
+  for (const Option& option : options.options)
+    if (const auto words = column_words().find(option.key); words != column_words().end())
+      for (const std::string_view word : words->second) form.columns.push_back({&option, word});
   const bool series = names_series(text);
   form.others = series;
   form.blanks = true;
-  form.gravity = spec.vehicle.gravity;
   const UnitTable table = read_unit_table(text, file, form);
   for (const UnitTable::Row& row : table.rows) {
     spec.loads.emplace_back();

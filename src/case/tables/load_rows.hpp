@@ -19,7 +19,7 @@ CaseSpec with_load(const CaseSpec& spec, const LoadSpec& load);
 /// The row's name, or "load 3".
 std::string load_name(const CaseSpec& spec, std::size_t index);
 
-/// Fills spec.loads from a table; one with a column of time or distance is a series of one wheel (load_series.hpp).
+/// Fills spec.loads from a table; one with a column of time or distance is a series of one wheel, in bins.
 /// Returns a note about it; empty: nothing. Throws CaseError with line and remedy; `file` names it.
 std::string read_load_table(const std::string& text, const std::filesystem::path& file, CaseSpec& spec);
 

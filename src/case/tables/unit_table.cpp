@@ -161,7 +161,7 @@ class TableReader {
     } catch (const UnitError&) {
       if (column.option->dimension != dimension::kForce) throw;
     }
-    return form_.gravity * parse_quantity(text, dimension::kMass);
+    return kGravity * parse_quantity(text, dimension::kMass);
   }
 
   Column column_named(const std::string& name, const Place& at) const {

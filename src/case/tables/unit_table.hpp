@@ -29,7 +29,6 @@ struct UnitTableForm {
   bool blanks = false;       ///< a cell may be empty
   bool others = false;       ///< columns of other words (time, specimen) may stand there; they are not read
   bool as_written = false;   ///< names are whole keys, without units; all others are not read
-  double gravity = 9.81;     ///< of forces that are written as masses
 };
 
 struct UnitTable {

@@ -1,18 +1,19 @@
 #include "text/units.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
 
 #include "core/nearest_word.hpp"
+#include "core/text.hpp"
 
 namespace railstrata {
 namespace {
@@ -80,7 +81,6 @@ const std::vector<Customary>& customary() {
       {dimension::kTime, "a time", "1.5 ms", {"ms", "s", "µs"}},
       {dimension::kSpeed, "a speed", "100 km/h", {"m/s", "km/h"}},
       {dimension::kRate, "a rate", "2000 1/s", {"1/s", "Hz", "kHz"}},
-      {dimension::kAcceleration, "an acceleration", "9.81 m/s^2", {"m/s^2"}},
       {dimension::kPressure, "a pressure or modulus", "210 GPa", {"GPa", "MPa", "Pa"}},
       {dimension::kDensity, "a density", "7800 kg/m^3", {"kg/m^3", "t/m^3", "g/cm^3"}},
       {dimension::kStiffness, "a stiffness", "0.95 MN/m", {"MN/m", "kN/mm", "kN/m", "N/mm", "N/m"}},
@@ -104,18 +104,14 @@ const Customary& customary(const Dimension& dimension) {
   throw std::logic_error("dimension without customary units");
 }
 
-std::string quoted_list(const std::vector<std::string_view>& units) {
-  std::string out;
-  for (std::string_view u : units)
-    if (!u.empty()) out += fmt::format("{}{}", out.empty() ? "" : ", ", u);
+std::vector<std::string> units_of(const Dimension& dimension) {
+  std::vector<std::string> out;
+  for (const std::string_view unit : customary(dimension).units)
+    if (!unit.empty()) out.emplace_back(unit);
   return out;
 }
 
-std::string_view trim(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
+std::string_view trim(std::string_view text) { return trimmed(text, " \t"); }
 
 /// Length of the decimal number at the start of the text (0: none). An exponent counts only when digits follow it.
 std::size_t number_length(std::string_view text) {
@@ -163,18 +159,16 @@ std::optional<InputUnit> find_symbol(std::string_view text) {
 
 /// "write a length, e.g. "0.2 mm" (units: mm, m, µm, cm)".
 std::string how_to_write(const Dimension& dimension) {
-  const std::string units = quoted_list(customary(dimension).units);
-  return fmt::format("write {}{}", describe(dimension), units.empty() ? "" : fmt::format(" (units: {})", units));
+  const std::vector<std::string> units = units_of(dimension);
+  return fmt::format("write {}{}", describe(dimension),
+                     units.empty() ? "" : fmt::format(" (units: {})", fmt::join(units, ", ")));
 }
 
 UnitError unknown_unit(std::string_view unit, const Dimension& expected) {
-  std::vector<std::string> units;
-  for (const std::string_view u : customary(expected).units)
-    if (!u.empty()) units.emplace_back(u);
   if (expected == dimension::kTemperature && (unit == "°C" || unit == "degC" || unit == "C"))
     return UnitError(fmt::format("unknown unit \"{}\"", unit),
                      "write the same number in K, \"20 K\" for 20 °C: only differences count");
-  const std::string near = nearest_word(unit, units);
+  const std::string near = nearest_word(unit, units_of(expected));
   return UnitError(fmt::format("unknown unit \"{}\"", unit),
                    near.empty() ? how_to_write(expected) : fmt::format("did you mean {}?", near));
 }
@@ -196,13 +190,8 @@ bool starts_with_comma(std::string_view text) {
 void multiply(InputUnit& total, const InputUnit& u, int power) {
   total.factor *= std::pow(u.factor, power);
   total.decimals += power * u.decimals;
-  total.dimension.mass += power * u.dimension.mass;
-  total.dimension.length += power * u.dimension.length;
-  total.dimension.time += power * u.dimension.time;
-  total.dimension.angle += power * u.dimension.angle;
-  total.dimension.temperature += power * u.dimension.temperature;
-  total.dimension.root_length += power * u.dimension.root_length;
-  total.dimension.hardness += power * u.dimension.hardness;
+  for (std::size_t k = 0; k < total.dimension.exponents.size(); ++k)
+    total.dimension.exponents[k] += power * u.dimension.exponents[k];
 }
 
 /// "m^3", "m³", "m3" is not a power: it stays an unknown symbol. Returns the power and cuts it off.
@@ -267,7 +256,7 @@ InputUnit parse_unit(std::string_view whole, const Dimension& expected) {
     }
     if (separator == "/") {
       if (after_solidus)
-        throw UnitError(fmt::format("the unit \"{}\" has two solidi", whole), "write one, e.g. \"m/s^2\"");
+        throw UnitError(fmt::format("the unit \"{}\" has two solidi", whole), "write one, e.g. \"kg/m^3\"");
       divide = after_solidus = true;
     }
     rest.remove_prefix(std::min(rest.size(), cut + separator.size()));
@@ -337,13 +326,6 @@ std::string describe(const Dimension& dimension) {
   const Customary& c = customary(dimension);
   const std::string_view quote = dimension == dimension::kNumber ? "" : "\"";
   return fmt::format("{}, e.g. {}{}{}", c.noun, quote, c.example, quote);
-}
-
-std::vector<std::string> units_of(const Dimension& dimension) {
-  std::vector<std::string> out;
-  for (const std::string_view unit : customary(dimension).units)
-    if (!unit.empty()) out.emplace_back(unit);
-  return out;
 }
 
 std::string suggest_quantity(std::string_view whole, const Dimension& dimension,

@@ -4,26 +4,25 @@
 //
 // A text is a decimal number and a unit: symbols with SI prefixes, multiplied by a blank, * or ·, at most one / before
 // the last symbol or a bracket, powers as ^3 or ³. Its value is rounded once: "0.2 mm" is exactly the double 0.2e-3.
+#include <array>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace railstrata {
 
 /// Exponents of kilogram, metre, second, plane angle, kelvin, square root of a metre and hardness number. All zero: a
 /// plain number.
 struct Dimension {
-  int mass = 0, length = 0, time = 0, angle = 0;
-  int temperature = 0, root_length = 0, hardness = 0;
+  std::array<int, 7> exponents{};
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
 namespace dimension {
 inline constexpr Dimension kNumber{};
 inline constexpr Dimension kLength{0, 1, 0, 0}, kMass{1, 0, 0, 0}, kTime{0, 0, 1, 0};
-inline constexpr Dimension kSpeed{0, 1, -1, 0}, kRate{0, 0, -1, 0}, kAcceleration{0, 1, -2, 0};
+inline constexpr Dimension kSpeed{0, 1, -1, 0}, kRate{0, 0, -1, 0};
 inline constexpr Dimension kPressure{1, -1, -2, 0}, kDensity{1, -3, 0, 0};
 inline constexpr Dimension kStiffness{1, 0, -2, 0}, kDamping{1, 0, -1, 0};
 inline constexpr Dimension kForce{1, 1, -2, 0};
@@ -53,9 +52,6 @@ std::string format_quantity(double value, const Dimension& dimension);
 
 /// "a length, e.g. \"0.2 mm\"": for messages, schema and reference page.
 std::string describe(const Dimension& dimension);
-
-/// The units in which people write values of the dimension, the one they are shown in first: "mm", "m", "µm", "cm".
-std::vector<std::string> units_of(const Dimension& dimension);
 
 /// A text like `text` with another prefix or unit of the same dimension whose value is allowed ("210 MPa" ->
 /// "210 GPa"), but never in micrometres or microseconds; empty if there is none, and for zero, which no unit changes.

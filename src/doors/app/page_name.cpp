@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "core/faults.hpp"
-#include "core/shell_word.hpp"
+#include "record/escaped_text.hpp"
 
 namespace railstrata {
 

@@ -12,8 +12,8 @@
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "ask/half_space_need.hpp"
-#include "core/shell_word.hpp"
 #include "fem/memory_need.hpp"
+#include "record/escaped_text.hpp"
 #include "record/this_process.hpp"
 #include "runs/run_estimate.hpp"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "core/nearest_word.hpp"
-#include "core/shell_word.hpp"
+#include "record/escaped_text.hpp"
 
 namespace railstrata {
 namespace {

@@ -22,9 +22,8 @@ std::vector<Axis> keys_of(const Json& varied) {
 
 /// Row of a case: `values` (one per key, numbers in SI), `summary` (null without a result), `fault`, `static_notes`.
 Json row_of(const SweepCase& c, const std::vector<Axis>& axes) {
-  const double gravity = c.loaded ? c.loaded->spec.vehicle.gravity : std::nan("");
   Json values = Json::array();
-  for (std::size_t k = 0; k < axes.size(); ++k) values.push_back(si_value(axes[k].key, c.values[k], gravity));
+  for (std::size_t k = 0; k < axes.size(); ++k) values.push_back(si_value(axes[k].key, c.values[k]));
   return {{"values", values},
           {"summary", c.summary},
           {"fault", c.fault},

@@ -55,9 +55,9 @@ std::string text_inside(const std::string& key, const Option* option, const Json
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// A force that is written as a mass.
-Json weight(const std::string& text, double gravity) {
+Json weight(const std::string& text) {
   try {
-    return finite(gravity * parse_quantity(text, dimension::kMass));
+    return finite(kGravity * parse_quantity(text, dimension::kMass));
   } catch (const UnitError&) {
     return nullptr;
   }
@@ -84,7 +84,7 @@ std::vector<std::string> overrides_of(const Json& changes) {
   return out;
 }
 
-Json si_value(const std::string& key, const std::string& text, double gravity) {
+Json si_value(const std::string& key, const std::string& text) {
   const std::string words(trimmed(text, " \t\"'"));
   const Option* option = option_of_key(key);
   if (!option || !option->slot) return text;
@@ -92,7 +92,7 @@ Json si_value(const std::string& key, const std::string& text, double gravity) {
   if (std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot)) try {
       return finite(parse_quantity(words, option->dimension));
     } catch (const UnitError&) {
-      return option->takes_mass ? weight(words, gravity) : Json(nullptr);
+      return option->takes_mass ? weight(words) : Json(nullptr);
     }
   const Json read = Json::parse(words, nullptr, false);
   const bool plain = std::holds_alternative<int*>(slot) ? read.is_number() : read.is_boolean();

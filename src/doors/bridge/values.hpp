@@ -15,7 +15,7 @@ std::string value_text(const std::string& key, const Json& value);
 std::vector<std::string> overrides_of(const Json& changes);
 
 /// A value of an override back: a number in SI, null where the text is none of this key's dimension; true or false;
-/// else the text. gravity [m/s²]: of forces that are written as masses.
-Json si_value(const std::string& key, const std::string& text, double gravity);
+/// else the text.
+Json si_value(const std::string& key, const std::string& text);
 
 }  // namespace railstrata::bridge

@@ -141,7 +141,7 @@ std::vector<double> stiffness_of(const CaseSpec& spec) {
                           spec.wheel_material.poisson};
   for (const LayerSpec& layer : spec.layers) {
     const double numbers[] = {layer.on == BodyId::rail ? 0.0 : 1.0, layer.thickness, layer.material.young,
-                              layer.material.poisson, layer.grading_tolerance};
+                              layer.material.poisson};
     out.insert(out.end(), std::begin(numbers), std::end(numbers));
     for (const ModulusPoint& point : layer.young_table) {
       out.push_back(point.depth);

@@ -16,6 +16,9 @@ namespace railstrata {
 
 namespace {
 
+/// Of the modulus within one of the layers that a graded one is cut into: p_max is within 1e-4 (docs/bem-theory.md).
+constexpr double kGradingTolerance = 0.05;
+
 HalfSpaceMaterial half_space(const MaterialSpec& m) { return {m.young, m.poisson}; }
 
 struct Touches {
@@ -128,7 +131,7 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
     std::vector<GradedPoint> table;
     for (const ModulusPoint& point : layer.young_table)
       table.push_back({point.depth, {point.young, layer.material.poisson}});
-    const std::vector<HalfSpaceLayer> cuts = cut_into_layers(table, layer.grading_tolerance);
+    const std::vector<HalfSpaceLayer> cuts = cut_into_layers(table, kGradingTolerance);
     out.layers.insert(out.layers.end(), cuts.begin(), cuts.end());
   }
   return out;

@@ -40,7 +40,7 @@ Plane gap_after(const CasePatch& patch, double distance);
 /// The potential contact area to begin with: a little larger than the ellipse of Hertz.
 PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options);
 
-/// Layers of one body from the case, from the surface down; a graded one cut to its grading_tolerance.
+/// Layers of one body from the case, from the surface down; a graded one cut into uniform ones.
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 
 /// Spin that the lateral slip of each row of cells has beyond wheel_spin, 1/m: -sin(delta(y))/r with the angle of the

@@ -145,7 +145,7 @@ BlockElements block_elements(SweepKind kind, const Block& block, const BlockLayo
     const SweepScale scale = sweep_scale(kind, hourglass_spacings[n % out.hourglass_classes]);
     table.hourglass[i] =
         hourglass_stiffness(kind, quad_corners(section, q), scale, material(n / out.hourglass_classes, q),
-                            options.element, options.hourglass_coefficient);
+                            options.element, kHourglassCoefficient);
   });
   if (options.precision == Precision::single_precision) out.single = rounded(table);
   return out;

@@ -22,10 +22,10 @@ enum class Precision { double_precision, single_precision };
 
 struct ElementOptions {
   ElementKind element = ElementKind::full;
-  double hourglass_coefficient = 0.05;
   Precision precision = Precision::double_precision;
 };
 
+inline constexpr double kHourglassCoefficient = 0.05;  ///< kappa of one_point (element/swept_hex.hpp)
 inline constexpr int kHourglassGroup = 8;  ///< elements that share one hourglass stiffness; whole packs of doubles
 
 /// Tables in the number type of the arithmetic. Lines by station are padded with zeros to whole packs.

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "body/tiling.hpp"
-#include "core/staged_loop.hpp"
+#include "core/parallel.hpp"
 #include "core/vectorize.hpp"
 #include "mesh/station_weights.hpp"
 

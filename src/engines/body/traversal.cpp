@@ -5,7 +5,6 @@
 
 #include "body/plastic_pass.hpp"
 #include "body/traversal_kernel.hpp"
-#include "core/apart_loop.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {

@@ -6,7 +6,6 @@
 #include "body/plastic_pass.hpp"
 #include "body/scratch_rows.hpp"
 #include "body/traversal.hpp"
-#include "core/apart_loop.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {

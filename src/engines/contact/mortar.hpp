@@ -25,7 +25,6 @@
 #include "contact/surface.hpp"
 #include "core/array.hpp"
 #include "core/rotation.hpp"
-#include "core/tangential.hpp"
 
 namespace railstrata {
 

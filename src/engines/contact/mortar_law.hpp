@@ -12,10 +12,14 @@
 #include "core/rotation.hpp"
 #include "core/simd.hpp"
 #include "core/sweep_kind.hpp"
-#include "core/tangential.hpp"
-#include "core/turn.hpp"
 
 namespace railstrata {
+
+/// Components in the plane of the contact: x in the rolling direction, y lateral.
+struct Tangential {
+  double x = 0, y = 0;
+};
+constexpr Tangential operator+(Tangential a, Tangential b) { return {a.x + b.x, a.y + b.y}; }
 
 /// Rigid position of the axle: displacement from the start and rotation psi (positive rolling forward, any number of
 /// turns); rail_psi: the same of a rail that is a ring, negative, for the wheel stays where it is.

@@ -9,6 +9,9 @@
 
 namespace railstrata {
 
+/// Spring and dashpot groups around the axle. They move alike: their number is one of round-off.
+inline constexpr int kSuspensionGroups = 8;
+
 struct MassGroup {
   double z = 0, vz = 0;  ///< m, displacement; m/s, half-step velocity of a share of the sprung mass
 };

@@ -118,7 +118,7 @@ void require_within_bounds(const Stepper& st, const HistoryRow& row, double larg
     end_run(st, "hourglass modes hold too much energy",
             fmt::format("{:.3g} of the strain energy", row.energy.hourglass / row.energy.strain),
             element_options(model.spec).element == ElementKind::one_point
-                ? "mesh.element = \"full\", or a larger mesh.hourglass_coefficient"
+                ? "mesh.element = \"full\""
                 : "a smaller mesh.element_size, more elements through the layers (layer.elements) or layers that are "
                   "not so soft");
   if (row_number % limits.rows_between_shapes != 0) return;

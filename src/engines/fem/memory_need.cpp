@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/faults.hpp"
-#include "core/process_memory.hpp"
+#include "record/this_process.hpp"
 
 namespace railstrata {
 namespace {

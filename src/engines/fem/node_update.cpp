@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "core/apart_loop.hpp"
 #include "core/parallel.hpp"
-#include "core/staged_loop.hpp"
 #include "core/vectorize.hpp"
 #include "fem/rank_exchange.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "body/body.hpp"
 #include "core/faults.hpp"
@@ -14,9 +13,6 @@
 
 namespace railstrata {
 namespace {
-
-constexpr double kDepth = 2.5, kWidth = 1.6;  // of Hertz's larger half-axis and half-width
-constexpr double kBeyondPath = 3;             // half-lengths of the patch
 
 // A material of the mesh: its entry in the case, and the depth that its tables begin at.
 struct Source {
@@ -52,18 +48,9 @@ std::vector<Law> laws_of(const CaseSpec& spec, BodyId id, const SweptBody& mesh)
 class Zone {
  public:
   Zone(const Model& model, BodyId id, const SweptBody& mesh)
-      : mesh_(mesh), axes_(model, id), laws_(laws_of(model.spec, id, mesh)) {
-    const RunSpec& run = model.spec.run;
-    const HertzContact& hertz = model.hertz;
-    depth_ = run.plastic_depth.value_or(kDepth * std::max(hertz.a, hertz.b));
-    width_ = run.plastic_width.value_or(kWidth * hertz.b + 2 * model.spec.mesh.element_size);
-    const double beyond = kBeyondPath * hertz.a, end = run.rolling ? model.x_end : 0;
-    const double per_metre = id == BodyId::rail ? 1 : 1 / model.spec.geometry.wheel_radius;
-    first_ = -beyond * per_metre;
-    last_ = (end + beyond) * per_metre;
-  }
+      : mesh_(mesh), axes_(model, id), laws_(laws_of(model.spec, id, mesh)) {}
 
-  /// Of a quadrilateral's elements of a material, also outside the box.
+  /// Of a quadrilateral's elements of a material.
   std::optional<PlasticMaterial> material(int block, int quad, int material) const {
     const Law& law = laws_[material];
     if (!law.law) return std::nullopt;
@@ -72,27 +59,15 @@ class Zone {
     if (law.factor != 1) out.plastic = scaled(out.plastic, law.factor);
     return out;
   }
-  bool reaches(int block, int quad) const {
+  bool within(const HotBox& box, int block, int quad) const {
     const Vec2 at = centre_of(mesh_.blocks[block].section, quad);
-    return axes_.depth(at) < depth_ && axes_.aside(at) < width_;
-  }
-  bool reaches(const Tile& tile) const {
-    const Stations& stations = mesh_.blocks[tile.block].stations;
-    const double from = stations.at[tile.first];
-    const double to = tile.end < stations.nodes() ? stations.at[tile.end] : stations.at[0] + 2 * std::numbers::pi;
-    if (mesh_.kind == SweepKind::extrude) return from < last_ && to > first_;
-    for (int turn = -1; turn <= 1; ++turn) {
-      const double shift = 2 * std::numbers::pi * turn;
-      if (from + shift < last_ && to + shift > first_) return true;
-    }
-    return last_ - first_ > 2 * std::numbers::pi;
+    return axes_.depth(at) < box.depth && axes_.aside(at) < box.half_width;
   }
 
  private:
   const SweptBody& mesh_;
   SectionAxes axes_;
   std::vector<Law> laws_;
-  double depth_ = 0, width_ = 0, first_ = 0, last_ = 0;
 };
 
 class ProcessStress {
@@ -129,22 +104,19 @@ class ProcessStress {
 
 }  // namespace
 
-PlasticElements plastic_zone(const Model& model, BodyId id, const Body& body) {
+PlasticElements plastic_zone(const Model& model, BodyId id, const Body& body, const HotBox& hot) {
   if (!model.spec.run.plasticity) return {};
   const Zone zone(model, id, body.mesh);
   const ProcessStress process(model, id, body.mesh);
-  const RunSpec& run = model.spec.run;
-  const bool box = run.plastic_depth || run.plastic_width;
-  return {
-      body,
-      [&](int block, int quad, int material) -> std::optional<YieldingMaterial> {
-        const std::optional<PlasticMaterial> yields = zone.material(block, quad, material);
-        if (!yields) return std::nullopt;
-        YieldingMaterial out{yields->plastic, process.at(block, quad)};
-        out.law.mu = body.materials[material].mu;  // of a row of a graded layer, or in a stretch
-        return out;
-      },
-      [&](int block, int quad, const Tile& tile) { return box && zone.reaches(block, quad) && zone.reaches(tile); }};
+  return {body,
+          [&](int block, int quad, int material) -> std::optional<YieldingMaterial> {
+            const std::optional<PlasticMaterial> yields = zone.material(block, quad, material);
+            if (!yields) return std::nullopt;
+            YieldingMaterial out{yields->plastic, process.at(block, quad)};
+            out.law.mu = body.materials[material].mu;  // of a row of a graded layer, or in a stretch
+            return out;
+          },
+          [&](int block, int quad, const Tile&) { return zone.within(hot, block, quad); }};
 }
 
 InitialStress initial_stress(const Model& model, BodyId id, const SweptBody& mesh) {

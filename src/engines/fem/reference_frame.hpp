@@ -3,7 +3,6 @@
 // lateral axis of the body's own axes; those stand at the yaw to the model's and travel with the frame. A frame without
 // speed, spin and yaw is the model frame: every function then returns its argument to the last bit.
 #include "core/rotation.hpp"
-#include "core/turn.hpp"
 
 namespace railstrata {
 

@@ -134,7 +134,7 @@ Roller::Roller(const RollingSystem& system, const RunObserver& observer, Stepper
       run_(std::move(run)),
       wanted_(wanted_samples(system)),
       end_(std::max(system.model.x_end, wanted_.back().position)),
-      frame_spacing_(end_ / std::max(system.model.spec.output.series_frames, 1)),
+      frame_spacing_(end_ / std::max(system.model.spec.run.output.series_frames, 1)),
       start_(start),
       earlier_seconds_(run_.result.wall_seconds) {
   result().limits = stepper_.plan().limits;

@@ -14,7 +14,6 @@ namespace railstrata {
 
 ElementOptions element_options(const CaseSpec& spec) {
   return {spec.mesh.element == ElementFormulation::one_point ? ElementKind::one_point : ElementKind::full,
-          spec.mesh.hourglass_coefficient,
           spec.run.precision == ArithmeticPrecision::single_precision ? Precision::single_precision
                                                                       : Precision::double_precision};
 }
@@ -162,7 +161,6 @@ RollingSystem::RollingSystem(const Model& m)
       bodies{Body(m.rail, m.rail_materials, element_options(m.spec)),
              Body(m.wheel, m.wheel_materials, element_options(m.spec))},
       axle(axle_of(wheel(), m.spec)),
-      gravity(m.spec.vehicle.gravity),
       rolling_radius(m.placement.contact.rolling_radius) {
   for (Body& b : bodies) clear_prescribed_mass(b);
   for (const BodyId id : kBodies) {

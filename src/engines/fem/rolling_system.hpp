@@ -85,7 +85,7 @@ struct RollingSystem {
   std::vector<EndLoad> end_loads;
   RailPads pads;                           ///< none: the rail's foot is held
   std::array<ContactSurface, 2> surfaces;  ///< by BodyId
-  double gravity = 0;
+  double gravity = kGravity;
   double rolling_radius = 0;
   double spin_inertia = 0;          ///< kg m², of everything that turns
   double travel_mass = 0;           ///< kg, of everything that moves along x

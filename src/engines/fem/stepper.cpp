@@ -36,9 +36,8 @@ bool same_sizes(const RestartState& r, const RollingSystem& sys) {
     if (!fits(sys.bodies[k], r.state.bodies[k])) return false;
   const ContactSurface& surface = sys.rail_surface();
   const auto surface_nodes = static_cast<std::size_t>(surface.columns) * surface.stations.nodes();
-  return r.state.groups.size() == static_cast<std::size_t>(sys.options.vehicle.suspension_groups) &&
-         r.state.sleepers.size() == sys.pads.x.size() && r.state.tractions.all().size() == surface_nodes &&
-         r.state.tractions.stations() == surface.stations.nodes();
+  return r.state.groups.size() == kSuspensionGroups && r.state.sleepers.size() == sys.pads.x.size() &&
+         r.state.tractions.all().size() == surface_nodes && r.state.tractions.stations() == surface.stations.nodes();
 }
 
 RollingBodies rolling_bodies(const RollingSystem& sys, StepPlan& plan, const Ranks& ranks) {
@@ -117,7 +116,7 @@ void Stepper::start(const PreloadResult& preload) {
                  .spin = sys_.start_spin};
   side_force_ = -preload.contact_force.y;
   axle_rest_z_ = preload.axle_z;
-  state_.groups.assign(sys_.options.vehicle.suspension_groups, MassGroup{});
+  state_.groups.assign(kSuspensionGroups, MassGroup{});
   // of the pattern against the material: m/s, rad/s
   const double rate[2] = {ring ? sys_.rail_spin : sys_.options.speed, sys_.start_spin};
   for (std::size_t k = 0; k < bodies_.size(); ++k) {

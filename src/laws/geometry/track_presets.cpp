@@ -16,9 +16,8 @@ constexpr double kInch = 25.4e-3;
 // AAR: gauge 5/8 inch below the top, between the backs 53 to 53 1/4 inches, the middle here [CFR49 213.53, 229.73];
 // rails on plates of 1:40, wheels of 36 inches.
 constexpr std::array kPresets{
-    TrackPreset{TrackKind::CN, "CN", 1.435, 0.016, 1.353, 0.025, 0.430},
-    TrackPreset{TrackKind::EN, "EN", 1.435, 0.014, 1.360, 0.025, 0.460},
-    TrackPreset{TrackKind::AAR, "AAR", 56.5 * kInch, 0.625 * kInch, 53.125 * kInch, 0.025, 18 * kInch}};
+    TrackPreset{{}, TrackKind::CN, "CN"}, TrackPreset{{1.435, 0.014, 1.360, 0.025, 0.460}, TrackKind::EN, "EN"},
+    TrackPreset{{56.5 * kInch, 0.625 * kInch, 53.125 * kInch, 0.025, 18 * kInch}, TrackKind::AAR, "AAR"}};
 
 struct ProfileTrack {
   std::string_view profile;

@@ -12,11 +12,15 @@ enum class TrackKind {
   AAR
 };
 
-/// New wheels on straight track, m; cant: tangent of the rail's inclination.
-struct TrackPreset {
+/// m; cant: tangent of the rail's inclination. The defaults are those of CN.
+struct TrackNumbers {
+  double gauge = 1.435, gauge_depth = 0.016, back_to_back = 1.353, cant = 0.025, wheel_radius = 0.430;
+};
+
+/// New wheels on straight track.
+struct TrackPreset : TrackNumbers {
   TrackKind kind;
   std::string_view name;
-  double gauge, gauge_depth, back_to_back, cant, wheel_radius;
 };
 
 /// Never of by_profile. `profile`: a built-in name in any case.

@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/shell_word.hpp"
 #include "io/checkpoint_file.hpp"
+#include "record/escaped_text.hpp"
 
 namespace railstrata {
 namespace {

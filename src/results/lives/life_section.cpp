@@ -31,9 +31,9 @@ LifeAcross across_rail(const CaseSpec& spec, const RailDamage& d, double tonnes)
   out.law = spec.collective.wear_law;
   for (const WearLaw law : kWearLaws)
     if (has_data(d.depth(law))) out.wear[static_cast<std::size_t>(law)] = smoothed_wear(d, law);
-  if (spec.grinding.every) {
-    out.ground = spec.grinding.depth;
-    out.every = *spec.grinding.every / 1e3 / tonnes;
+  if (spec.life.grinding.every) {
+    out.ground = spec.life.grinding.depth;
+    out.every = *spec.life.grinding.every / 1e3 / tonnes;
   }
   return out;
 }

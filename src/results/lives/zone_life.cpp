@@ -413,7 +413,7 @@ Lives zone_lives(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const
   Lives out;
   for (const LifeLoad& load : loads) {
     out.wheels += load.passages;
-    out.tonnes += load.passages * gross_tonnes(load.force, spec.vehicle.gravity);
+    out.tonnes += load.passages * gross_tonnes(load.force);
   }
   if (loads.empty()) return out;
   add_body(spec, loads, across_rail(spec, rail, out.tonnes), 1e-6 * out.tonnes, out);

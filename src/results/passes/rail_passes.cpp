@@ -325,7 +325,7 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
 
 std::optional<double> longer_window(const PassesSpec& passes, const RailPasses& rail, double late_flow) {
   constexpr double kGrowth = 1.5, kMost = 4;
-  if (passes.window || late_flow <= passes.window_tolerance) return {};
+  if (passes.window || late_flow <= kLateFlow) return {};
   const double longest = kMost * usual_window(rail.grid.ny == 1);
   if (rail.window >= longest) return {};
   return std::min(kGrowth * rail.window, longest);

@@ -33,7 +33,9 @@ struct RailPasses {
 /// rail or layers, several patches, wheels that wander too far.
 RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, double strength = 1);
 
-/// The next longer window for a rail whose first pass flows on behind this one (passes.window_tolerance); none if it
+/// Of the largest flow of a pass: what may come in the last quarter of the window.
+inline constexpr double kLateFlow = 1e-3;
+/// The next longer window for a rail whose first pass flows on behind this one (kLateFlow); none if it
 /// does not, if the case gives the window, or if it is four times the usual one.
 std::optional<double> longer_window(const PassesSpec& passes, const RailPasses& rail, double late_flow);
 

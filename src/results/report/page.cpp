@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "io/provenance.hpp"
+#include "record/escaped_text.hpp"
 #include "record/json.hpp"
-#include "record/markup_text.hpp"
 #include "report/assets.hpp"
 #include "report/page_parts.hpp"
 #include "report/payload.hpp"

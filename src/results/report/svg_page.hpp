@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "record/markup_text.hpp"
+#include "record/escaped_text.hpp"
 
 namespace railstrata {
 

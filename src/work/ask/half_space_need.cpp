@@ -7,7 +7,7 @@
 #include "bem/case_patch.hpp"
 #include "bem/transient.hpp"
 #include "core/faults.hpp"
-#include "core/process_memory.hpp"
+#include "record/this_process.hpp"
 
 namespace railstrata {
 namespace {

@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "ask/life_passes.hpp"
-#include "core/fault_line.hpp"
+#include "core/faults.hpp"
 #include "core/parallel.hpp"
-#include "core/process_memory.hpp"
 #include "core/stop_request.hpp"
 #include "damage/wear_indices.hpp"
 #include "fatigue/half_space_track.hpp"
 #include "fatigue/traffic_damage.hpp"
 #include "io/provenance.hpp"
 #include "judge/bem_summary.hpp"
+#include "record/this_process.hpp"
 #include "record/unit.hpp"
 #include "spec/case_spec.hpp"
 

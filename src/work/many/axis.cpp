@@ -60,7 +60,6 @@ const UnitWord kUnits[] = {{dimension::kNumber, ""},
                            {dimension::kDensity, "kg/m3"},
                            {dimension::kRate, "1/s"},
                            {dimension::kHardness, "HV"},
-                           {dimension::kAcceleration, "m/s2"},
                            {dimension::kStiffness, "N/m"},
                            {dimension::kDamping, "N s/m"},
                            {dimension::kPressureGradient, "Pa/m"},
@@ -137,8 +136,8 @@ class AxisNumbers {
   std::optional<std::string> weight_of(const std::string& value) const {
     if (option_.dimension != dimension::kForce) return std::nullopt;
     try {
-      const double gravity = VehicleSpec{}.gravity, mass = parse_quantity(value, dimension::kMass);
-      return fmt::format("write the weight as \"{:.6g} kN\" with {:g} m/s^2", 1e-3 * gravity * mass, gravity);
+      const double mass = parse_quantity(value, dimension::kMass);
+      return fmt::format("write the weight as \"{:.6g} kN\" with {:g} m/s^2", 1e-3 * kGravity * mass, kGravity);
     } catch (const UnitError&) {
       return std::nullopt;
     }

@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "core/control.hpp"
-#include "core/fault_line.hpp"
+#include "core/faults.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "record/spreadsheet_text.hpp"
+#include "record/escaped_text.hpp"
 
 namespace railstrata {
 std::vector<ResultColumn> result_columns(bool stresses) {

@@ -239,7 +239,7 @@ class SteadyPasses : public PassJob {
       control_.warn("pass {}: contact and yielding have not settled: pressure still changes by {:.2g} of its largest",
                     row.pass, pass.change);
     }
-    if (row.late_flow > loaded_.spec.passes.window_tolerance && !late_) {
+    if (row.late_flow > kLateFlow && !late_) {
       late_ = true;
       control_.warn(
           "pass {}: {:.2g} % of the largest flow comes in the last quarter of the window of {:.3g} half-lengths behind "

@@ -26,7 +26,7 @@ void follow_run(RankedRun& run, const FemOptions& options) {
   const RollingSystem system = fem_system(run.loaded.spec, run.loaded.folder());
   RunObserver observer;
   const CaseSpec& spec = system.model.spec;
-  if (spec.run.rolling && spec.output.patch_series) observer.frame = [](const RollingSample&) {};
+  if (spec.run.rolling && spec.run.output.patch_series) observer.frame = [](const RollingSample&) {};
   observer.save = [](const RunState&, bool) {};
   solve_fem(system, observer, options, std::exchange(run.begun, {}));
 }

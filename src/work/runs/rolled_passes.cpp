@@ -11,7 +11,7 @@
 #include "fem/memory_need.hpp"
 #include "fem/plastic_zone.hpp"
 #include "fem/rail_at_rest.hpp"
-#include "model/model_on_rail.hpp"
+#include "model/model.hpp"
 #include "passes/pass_plan.hpp"
 
 namespace railstrata {
@@ -53,11 +53,10 @@ CaseSpec case_of_rolls(CaseSpec spec, const std::filesystem::path& folder, const
   spec.run.positions = {roll.length};
   spec.run.window = 2 * spec.mesh.element_size;
   spec.run.run_up = std::min(spec.run.run_up, roll.from);
-  spec.output.patch_series = false;
+  spec.run.output.patch_series = false;
   const double range = contact_range(spec, folder);
   if (range == 0) return spec;
   spec.mesh.fine_width += 2 * range;
-  if (spec.run.plastic_width) *spec.run.plastic_width += 2 * range;
   return spec;
 }
 
@@ -118,7 +117,7 @@ CaseSpec RolledPasses::case_of(int pass) const {
 }
 
 Model RolledPasses::model_of(int pass, double creepage_shift) const {
-  Model model = build_model_on_rail(case_of(pass), folder_, base_.rail);
+  Model model = build_model(case_of(pass), folder_, &base_.rail);
   if (const std::optional<double> traction = model.spec.drive.traction())
     model.spec.drive.creepage = estimated_creepage(model, *traction) + creepage_shift;
   return model;

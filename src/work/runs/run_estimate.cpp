@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "body/traversal.hpp"
-#include "core/process_memory.hpp"
+#include "record/this_process.hpp"
 
 namespace railstrata {
 namespace {

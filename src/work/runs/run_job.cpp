@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "core/faults.hpp"
-#include "core/shell_word.hpp"
 #include "io/folder_kind.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "model/model.hpp"
+#include "record/escaped_text.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/write_report.hpp"
 

@@ -100,7 +100,7 @@ void write_position(const Model& model, const FemPosition& position, const fs::p
   write_placed_surfaces(folder, model.placement, contact.position);
   write_view_script(folder);
   write_vtp(folder / "patch.vtp", patch_mesh({&contact.field}, contact.position));
-  if (model.spec.output.volume) {
+  if (model.spec.run.output.volume) {
     write_vtu(folder / "rail.vtu", band_mesh(rail, contact.position));
     write_vtu(folder / "wheel.vtu", band_mesh(wheel, contact.position));
   }
@@ -168,7 +168,7 @@ FemWriter::FemWriter(const RollingSystem& system, fs::path folder, CheckpointOri
   growing_->history_in(folder_, system_, origin_.provenance);
   for (const HistoryRow& row : begun->result.history) growing_->add(row, folder_, system_, origin_.provenance);
   const CaseSpec& spec = system_.model.spec;
-  if (spec.run.rolling && spec.output.patch_series)
+  if (spec.run.rolling && spec.run.output.patch_series)
     growing_->series_in(folder_, system_, origin_.provenance, begun->frame_times);
 }
 
@@ -177,7 +177,7 @@ FemWriter::~FemWriter() = default;
 void FemWriter::observe(RunObserver& observer, const Control& control) {
   observer.history = [this](const HistoryRow& row) { growing_->add(row, folder_, system_, origin_.provenance); };
   const CaseSpec& spec = system_.model.spec;
-  if (spec.run.rolling && spec.output.patch_series)
+  if (spec.run.rolling && spec.run.output.patch_series)
     observer.frame = [this](const RollingSample& sample) {
       growing_->series_in(folder_, system_, origin_.provenance).add(sample);
     };

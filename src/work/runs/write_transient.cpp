@@ -18,7 +18,7 @@ bool rolls(const CaseSpec& spec) { return spec.transient.kind == TransientKind::
 
 TransientWriter::TransientWriter(const CaseSpec& spec, const std::filesystem::path& folder,
                                  const std::vector<std::string>& provenance)
-    : wanted_frames_(spec.output.patch_series ? spec.output.series_frames : 0),
+    : wanted_frames_(spec.run.output.patch_series ? spec.run.output.series_frames : 0),
       series_folder_(folder / kSeriesFolder),
       log_(folder / "history.csv", provenance,
            transient_columns(rolls(spec), rolls(spec) || !spec.transient.at_time.empty())),

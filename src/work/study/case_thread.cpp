@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "ask/answer.hpp"
-#include "core/fault_line.hpp"
+#include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "io/output_folder.hpp"
 #include "record/output_file.hpp"

@@ -146,9 +146,9 @@ void note_layer(const LayerLeft& layer, const std::vector<double>& depth, double
   }
 }
 
-double tonnes_of(const std::vector<CollectiveRow>& rows, double gravity) {
+double tonnes_of(const std::vector<CollectiveRow>& rows) {
   double out = 0;
-  for (const CollectiveRow& row : rows) out += row.passages * gross_tonnes(row.summary.contact.F_z, gravity);
+  for (const CollectiveRow& row : rows) out += row.passages * gross_tonnes(row.summary.contact.F_z);
   return out;
 }
 
@@ -213,7 +213,7 @@ WearStep wear_step(const CaseSpec& spec, const std::filesystem::path& folder, co
   step.passages = std::min(step.passages, collective * layer.collectives);
   const double share = step.passages / collective;
   if (top) note_layer(layer, depth, share, step);
-  step.tonnes = share * tonnes_of(step.rows, spec.vehicle.gravity);
+  step.tonnes = share * tonnes_of(step.rows);
   step.deepest = share * deepest;
   step.wanted_area = share * streamline_area(step.rows, spec.collective.wear_law);
   step.rail.step = rail.step + 1;

@@ -92,7 +92,7 @@ class WearLoopJob : public CaseJob {
     options_.max_wear = wanted_.max_wear;
     rail_ = unworn(original_, wanted_.cell);
     plan_collective(loaded_.spec);
-    if (loaded_.spec.grinding.every) control.warn("[grinding] is ignored: the wear loop does not grind the rail");
+    if (loaded_.spec.life.grinding.every) control.warn("[grinding] is ignored: the wear loop does not grind the rail");
   }
   const WornRail& rail() const { return rail_; }
 

@@ -1,7 +1,10 @@
 #include "record/this_process.hpp"
 
 #include <windows.h>
+// after windows.h, whose types it takes
+#include <psapi.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -61,6 +64,19 @@ bool is_known_dead(const ProcessName& process) {
   if (!is_running(process.id)) return true;
   const long long now = started(process.id);
   return now >= 0 && process.started >= 0 && now != process.started;
+}
+
+double memory_at_hand() {
+  MEMORYSTATUSEX memory{};
+  memory.dwLength = sizeof memory;
+  ::GlobalMemoryStatusEx(&memory);
+  return static_cast<double>(std::min(memory.ullAvailPhys, memory.ullAvailVirtual));
+}
+
+double peak_memory() {
+  PROCESS_MEMORY_COUNTERS used{};
+  ::GetProcessMemoryInfo(::GetCurrentProcess(), &used, sizeof used);
+  return static_cast<double>(used.PeakWorkingSetSize);
 }
 
 }  // namespace railstrata

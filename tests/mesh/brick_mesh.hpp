@@ -1,8 +1,11 @@
-#include "mesh/bodies.hpp"
+#pragma once
+#include "mesh/swept.hpp"
 
 namespace railstrata {
 
-SweptBody mesh_brick(int columns, int rows, int stations, double dx, double dy, double dz) {
+/// A plain brick: columns x rows x stations elements of size dx, dy, dz, one block, contact band on top (z = 0), base
+/// fixed.
+inline SweptBody mesh_brick(int columns, int rows, int stations, double dx, double dy, double dz) {
   SweptBody body;
   body.name = "brick";
   body.materials = {"matrix"};

@@ -1,4 +1,4 @@
-#include "record/spreadsheet_text.hpp"
+#include "record/escaped_text.hpp"
 
 #include <charconv>
 
@@ -21,6 +21,29 @@ std::string without_formula(const std::string& text) {
   if (first == '=' || first == '@' || first == '\t' || first == '\r' || (signs && !is_quantity(text)))
     return "'" + text;
   return text;
+}
+
+std::string markup_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string shell_word(const std::string& word) {
+  constexpr const char* kSafe = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+=:,@%";
+  if (!word.empty() && word.find_first_not_of(kSafe) == std::string::npos) return word;
+  std::string out = "'";
+  for (char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
 }
 
 }  // namespace railstrata
