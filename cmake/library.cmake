@@ -1,7 +1,7 @@
 # The shared library, the installed program and `cmake --install`.
 #
-#   librailstrata.so            every room but those of the program. Exported are the functions that the public headers
-#                               declare, in C++ and in C.
+#   librailstrata.so            every room and extra but those of the program. Exported are the functions that the
+#                               public headers declare, in C++ and in C.
 #   librailstrata-commands.so   the rooms `many`, `collective`, `creep`, `study`, `validate`, `wear`, `explore` and `app`,
 #                               the extras `batch`, `usetab` and `export`: the command line of the program, and nothing for others.
 #   railstrata                  main() alone.

@@ -3,7 +3,8 @@
 # target `extras` builds them all. A variant is a second build of some of them for another instruction set: its targets end in _<variant>
 # (room_fem_v3). The width of a SIMD pack follows from the instruction set: whatever has a pack in it, or is laid out by
 # packs, belongs to these rooms, and its names say the width (core/simd.hpp).
-set(ROOMS_OF_VARIANTS core material friction halfspace fft damage steady mesh element contact body bem fem device)
+set(ROOMS_OF_VARIANTS core material friction halfspace fft damage steady mesh element contact body bem fem device
+  single_track)
 
 include(CheckCXXCompilerFlag)
 # Objects are position independent because the shared library is linked from the very objects of the static rooms. With
@@ -102,6 +103,7 @@ set(ROOM_LIBS_text tomlplusplus::tomlplusplus)
 set(ROOM_LIBS_options nlohmann_json::nlohmann_json)
 set(ROOM_LIBS_body Eigen3::Eigen)
 set(ROOM_LIBS_fem Eigen3::Eigen)
+set(ROOM_LIBS_calibrate Eigen3::Eigen)
 if(NOT WIN32)
   set(ROOM_LIBS_hdf5 hdf5::hdf5 hdf5::hdf5_hl)
 endif()
@@ -214,7 +216,7 @@ function(railstrata_rooms variant wide_vectors)
   set(extras "")
   file(STRINGS ${CMAKE_SOURCE_DIR}/extras/LAYERS lines REGEX "^[a-z]")
   foreach(line IN LISTS lines)
-    string(REGEX MATCH "^([a-z0-9]+) above ([a-z0-9]+)( seen by (.*))?$" line "${line}")
+    string(REGEX MATCH "^([a-z0-9_]+) above ([a-z0-9]+)( seen by (.*))?$" line "${line}")
     set(name ${CMAKE_MATCH_1})
     set(floor ${CMAKE_MATCH_2})
     string(REPLACE " " ";" users "${CMAKE_MATCH_4}")

@@ -38,7 +38,7 @@ def measure(rooms, jobs, ctest):
 
 
 def read(build, jobs):
-    sources = f"{records.ROOT}/(src|extras/[a-z]+/[a-z_]+[.])"
+    sources = f"{records.ROOT}/(src|extras/[a-z_]+/[a-z_]+[.])"
     done = subprocess.run(["gcovr", "--root", str(records.ROOT), "--filter", sources, "--exclude-throw-branches",
                            "--exclude-unreachable-branches", "-j", str(jobs), "--json", "-", str(build)],
                           cwd=records.ROOT, capture_output=True, text=True)

@@ -329,7 +329,7 @@ class Drive {
     RollingSolution s;
     for (int turn = 0; turn < kMostTurns; ++turn) {
       for (std::size_t k = 0; k < slip.size(); ++k)
-        c.local_friction[k] = c.friction * friction_share(law, {slip[k]}).value;
+        c.local_friction[k] = c.friction * friction_share(law, slip[k]).value;
       s = solve_rolling(influence, g, c, options(), turn == 0 ? start : &s);
       const Plane next = speed(s);
       double change = 0, size = 0;

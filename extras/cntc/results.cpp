@@ -70,7 +70,7 @@ Plane friction_field(const Solved& s) {
     for (std::size_t k = 0; k < out.size(); ++k) out[k] *= 1 - t.lost_friction[k];
   if (!s.friction.falling.falls() || !t.lost_friction.empty()) return out;
   for (std::size_t k = 0; k < out.size(); ++k)
-    out[k] *= friction_share(s.friction.falling, {s.speed * std::hypot(t.slip_x[k], t.slip_y[k])}).value;
+    out[k] *= friction_share(s.friction.falling, s.speed * std::hypot(t.slip_x[k], t.slip_y[k])).value;
   return out;
 }
 

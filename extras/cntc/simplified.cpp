@@ -98,7 +98,7 @@ class Rows {
     const double side = std::abs(turned) < std::abs(creepage_.y) ? creepage_.y : turned;
     const double slip = c_.speed * std::hypot(creepage_.x, creepage_.y);
     // FaStrip has the coefficient at rest in its rows.
-    const double falls = friction_share(c_.falling, {slip}).value;
+    const double falls = friction_share(c_.falling, slip).value;
     out_.friction = c_.friction * (theory_.strips ? 1 : falls);
     const double c11 = creep_coefficients(elements_, moduli_.poisson).c11;
     const double eps = moduli_.shear * pi * elements_.a * elements_.b * theory_.k0 * c11 *

@@ -9,9 +9,9 @@
 #include "ask/answer.hpp"
 #include "bem/film_capacity.hpp"
 #include "core/faults.hpp"
-#include "halfspace/classical_rolling.hpp"
 #include "reader/case_file.hpp"
 #include "tests/bem/reference_table.hpp"
+#include "tests/halfspace/classical_rolling.hpp"
 
 namespace railstrata {
 namespace {

@@ -9,7 +9,7 @@
 #include "bem/case_patch.hpp"
 #include "bem/rolling_contact.hpp"
 #include "half_space_pair.hpp"
-#include "halfspace/classical_rolling.hpp"
+#include "tests/halfspace/classical_rolling.hpp"
 
 namespace railstrata {
 namespace {

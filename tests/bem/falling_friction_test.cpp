@@ -8,7 +8,7 @@
 #include "bem/rolling_contact.hpp"
 #include "core/faults.hpp"
 #include "half_space_pair.hpp"
-#include "halfspace/classical_rolling.hpp"
+#include "tests/halfspace/classical_rolling.hpp"
 
 namespace railstrata {
 namespace {
@@ -25,7 +25,7 @@ TEST(FallingFriction, FullSlidingCarriesTheCoefficientOfItsSlip) {
       p.speed = 10;
       p.x.creepage = creepage;
       const TangentialSolution s = solve_tangential(c.influence, c.grid, p);
-      const double share = friction_share(p.falling, {10 * std::abs(creepage)}).value;
+      const double share = friction_share(p.falling, 10 * std::abs(creepage)).value;
       EXPECT_EQ(s.stick_area, 0);
       EXPECT_NEAR(s.force_x / (std::copysign(1, creepage) * share * c.kFriction * c.kLoad), 1, 1e-4) << creepage;
     }
@@ -109,7 +109,7 @@ TEST(FallingFriction, LargestForceAndItsCreepageMeetTheClosedForm) {
   };
   const auto [xi, force] = largest([&](double v) { return patch.force(v, law); });
   const auto [exact_xi, exact] = largest([&](double v) {
-    return carter_with_falling_friction(v, [&](double s) { return 1 - friction_share(law, {s}).value; });
+    return carter_with_falling_friction(v, [&](double s) { return 1 - friction_share(law, s).value; });
   });
   EXPECT_LT(exact_xi, 0.95);
   EXPECT_NEAR(xi, exact_xi, 0.03);
@@ -161,10 +161,10 @@ TEST(FallingFriction, EveryCellObeysTheLaw) {
             EXPECT_LE(q, bound * (1 + 1e-9));
           }
           if (t.state[k] != ContactState::slip) continue;
-          EXPECT_NEAR(q / (bound * friction_share(p.falling, {p.speed * slip}).value), 1, 1e-4);
+          EXPECT_NEAR(q / (bound * friction_share(p.falling, p.speed * slip).value), 1, 1e-4);
           largest = std::max(largest, slip);
         }
-        EXPECT_LT(friction_share(p.falling, {p.speed * largest}).value, 0.9) << "the law matters here";
+        EXPECT_LT(friction_share(p.falling, p.speed * largest).value, 0.9) << "the law matters here";
       }
 }
 
@@ -291,7 +291,7 @@ TEST(FallingFriction, WorkOfAStepIsFrictionAndEnergy) {
     EXPECT_NEAR((t.dissipation * g.dx + energy(t.q_x, t.q_y) - energy(before_x, before_y)) / in, 1, 1e-5);
     for (std::size_t k = 0; k < g.size(); ++k) {
       if (t.state[k] != ContactState::slip) continue;
-      const double share = friction_share(r.law, {r.kSpeed * std::hypot(t.slip_x[k], t.slip_y[k])}).value;
+      const double share = friction_share(r.law, r.kSpeed * std::hypot(t.slip_x[k], t.slip_y[k])).value;
       EXPECT_NEAR(std::hypot(t.q_x[k], t.q_y[k]) / (share * r.c.kFriction * s.normal.pressure[k]), 1, 1e-5);
       most_fallen = std::min(most_fallen, share);
     }

@@ -30,7 +30,7 @@ struct Particle {
     if (yield < carried)
       sheared += slid;
     else if (law.falls())
-      share += (friction_share(law, {slid / step * kSpeed}).value - share) * slid / law.memory_distance;
+      share += (friction_share(law, slid / step * kSpeed).value - share) * slid / law.memory_distance;
   }
 };
 

@@ -33,7 +33,7 @@ RollingContact driven(const ReferenceContact& c, const FallingFriction& law, Lea
 /// F = f sum p (m_s + (1 - m_s) exp(-xi s/d)), over Hertz's ellipse.
 double sliding_force(const HertzContact& h, const FallingFriction& law, double xi, double speed) {
   constexpr int n = 400;
-  const double m = friction_share(law, {speed * xi}).value, a = h.a, b = h.b;
+  const double m = friction_share(law, speed * xi).value, a = h.a, b = h.b;
   double sum = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {

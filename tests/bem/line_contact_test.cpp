@@ -7,10 +7,10 @@
 #include "bem/rolling_contact.hpp"
 #include "bem/subsurface.hpp"
 #include "half_space_pair.hpp"
-#include "halfspace/classical_rolling.hpp"
 #include "halfspace/layered.hpp"
 #include "halfspace/line_contact.hpp"
 #include "material/elastic.hpp"
+#include "tests/halfspace/classical_rolling.hpp"
 
 namespace railstrata {
 namespace {

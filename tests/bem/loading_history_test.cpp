@@ -6,8 +6,8 @@
 
 #include "bem/rolling_contact.hpp"
 #include "half_space_pair.hpp"
-#include "halfspace/classical_rolling.hpp"
 #include "halfspace/layered.hpp"
+#include "tests/halfspace/classical_rolling.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "core/faults.hpp"
 #include "half_space_pair.hpp"
-#include "halfspace/classical_rolling.hpp"
 #include "reference_table.hpp"
+#include "tests/halfspace/classical_rolling.hpp"
 
 namespace railstrata {
 namespace {

@@ -12,23 +12,22 @@ namespace {
 
 using Points = std::vector<Vec5>;
 
-double squared_distance(const Vec5& p, const Vec5& c, double extra) {
-  double sum = extra;
+double squared_distance(const Vec5& p, const Vec5& c) {
+  double sum = 0;
   for (int d = 0; d < 5; ++d) sum += (p[d] - c[d]) * (p[d] - c[d]);
   return sum;
 }
 
 /// Optimal for certain (a convex problem): every point inside, the supports on the sphere, the centre their mean with
 /// weights that are positive and add up to 1.
-void expect_optimal(const Points& points, FreeDirections free, const Vec5& held, const std::vector<double>& extra,
-                    double tolerance) {
-  const EnclosingBall ball = enclosing_ball(points, free, held, extra);
+void expect_optimal(const Points& points, FreeDirections free, double tolerance) {
+  const EnclosingBall ball = enclosing_ball(points, free);
   const double r2 = ball.radius * ball.radius;
   double scale = r2;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double d2 = squared_distance(points[i], ball.centre, extra.empty() ? 0 : extra[i]);
+    const double d2 = squared_distance(points[i], ball.centre);
     EXPECT_LE(d2, r2 * (1 + 1e-14));
-    scale = std::max(scale, squared_distance(points[i], points[0], 0));
+    scale = std::max(scale, squared_distance(points[i], points[0]));
   }
   ASSERT_GT(ball.support_count, 0);
   Vec5 mean{};
@@ -37,13 +36,13 @@ void expect_optimal(const Points& points, FreeDirections free, const Vec5& held,
     const int i = ball.support[s];
     EXPECT_GT(ball.weight[s], 0);
     weights += ball.weight[s];
-    EXPECT_NEAR(squared_distance(points[i], ball.centre, extra.empty() ? 0 : extra[i]), r2, tolerance * scale);
+    EXPECT_NEAR(squared_distance(points[i], ball.centre), r2, tolerance * scale);
     for (int d = 0; d < 5; ++d) mean[d] += ball.weight[s] * points[i][d];
   }
   EXPECT_NEAR(weights, 1, 1e-12);
   for (int d = 0; d < 5; ++d) {
     const bool moves = free >> d & 1U;
-    EXPECT_NEAR(ball.centre[d], moves ? mean[d] : held[d], moves ? tolerance * std::sqrt(scale) : 0.);
+    EXPECT_NEAR(ball.centre[d], moves ? mean[d] : 0., moves ? tolerance * std::sqrt(scale) : 0.);
   }
 }
 
@@ -89,31 +88,15 @@ TEST(EnclosingBall, RegularSimplexCubeAndObtuseTriangle) {
   EXPECT_NEAR(enclosing_ball(Points{{0, 0}, {4, 0}, {1, 3}}).radius, 4 * std::sqrt(10.) * std::sqrt(18.) / 24, 1e-14);
 }
 
-TEST(EnclosingBall, ExtraDistancesAreHeights) {
-  // One free direction: max((x - 1)^2 + 4, (x + 1)^2): equal at x = 1, where the first alone holds the ball.
-  EXPECT_NEAR(enclosing_ball(Points{{1}, {-1}}, free_directions(0), {}, std::vector<double>{4, 0}).radius, 2, 1e-15);
-  // With 2 they are equal at x = 1/2.
-  const EnclosingBall ball = enclosing_ball(Points{{1}, {-1}}, free_directions(0), {}, std::vector<double>{2, 0});
-  EXPECT_NEAR(ball.centre[0], 0.5, 1e-15);
-  EXPECT_NEAR(ball.radius, 1.5, 1e-15);
-  EXPECT_NEAR(ball.weight[0], 0.75, 1e-15);
-}
-
 TEST(EnclosingBall, IsOptimalForCloudsCurvesAndEveryChoiceOfDirections) {
   std::mt19937 draw(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (FreeDirections free = 0; free <= kAllFree; ++free)
     for (const int n : {2, 3, 6, 40, 1000}) {
       Points points(static_cast<std::size_t>(n));
-      std::vector<double> extra(points.size());
-      Vec5 held{};
-      for (double& h : held) h = uniform(draw);
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        for (double& x : points[i]) x = uniform(draw);
-        extra[i] = 0.2 + 0.2 * uniform(draw);
-      }
-      expect_optimal(points, free, held, extra, 1e-12);
-      expect_optimal(points, free, held, {}, 1e-12);
+      for (Vec5& p : points)
+        for (double& x : p) x = uniform(draw);
+      expect_optimal(points, free, 1e-12);
     }
   // A smooth closed path, finely sampled and repeated: supports are next to each other and nearly in one flat.
   Points path;
@@ -122,7 +105,7 @@ TEST(EnclosingBall, IsOptimalForCloudsCurvesAndEveryChoiceOfDirections) {
     path.push_back({std::cos(t), std::sin(t), 0.3 * std::cos(2 * t), 0.2 * std::sin(3 * t), 0.1 * std::cos(t)});
   }
   for (const FreeDirections free : {free_directions(0, 1), free_directions(0, 1, 3), kAllFree})
-    expect_optimal(path, free, {}, {}, 1e-12);
+    expect_optimal(path, free, 1e-12);
   // All on one sphere, as many supports as one likes.
   Points sphere;
   for (int i = 0; i < 300; ++i) {
@@ -158,7 +141,7 @@ TEST(EnclosingBall, AgreesWithBruteForce) {
       for (double& x : p) x = normal(draw);
     const auto radius = [&](double c0, double c3) {
       double largest = 0;
-      for (const Vec5& p : points) largest = std::max(largest, squared_distance(p, {c0, 0, 0, c3, 0}, 0));
+      for (const Vec5& p : points) largest = std::max(largest, squared_distance(p, {c0, 0, 0, c3, 0}));
       return std::sqrt(largest);
     };
     const double best = least([&](double c0) { return least([&](double c3) { return radius(c0, c3); }); });

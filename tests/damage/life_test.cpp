@@ -55,7 +55,6 @@ TEST(Life, FadingStrainHasAClosedForm) {
 TEST(Life, WearAgainstAUniformSkin) {
   const double rate = 0.01, skin = 1e-3;
   const DamagedPlace place = uniform(rate, skin);
-  EXPECT_NEAR(magic_wear_rate(place), rate * skin, 1e-18);
   EXPECT_NEAR(first_failure(place, {.wear = 0.5 * rate * skin}, 0, kDeep).traffic, 100, 1);
   EXPECT_NEAR(first_failure(place, {.wear = 0.98 * rate * skin}, 0, kDeep).traffic, 100, 2);
   EXPECT_TRUE(std::isinf(first_failure(place, {.wear = 1.02 * rate * skin}, 0, kDeep).traffic));
@@ -81,7 +80,6 @@ TEST(Life, WearAgainstDamageThatFallsWithDepth) {
     place.depth.push_back(0.05 * j * l);
     place.kinds[0].rate.push_back(rate * std::exp(-0.05 * j));
   }
-  EXPECT_NEAR(magic_wear_rate(place) / (rate * l), 1, 1e-3);
   for (const double share : {0.01, 0.3, 0.7, 0.9}) {
     const double expected = -std::log(1 - share) / (share * rate);
     EXPECT_NEAR(first_failure(place, {.wear = share * rate * l}, 0, kDeep).traffic / expected, 1, 0.02) << share;

@@ -185,7 +185,7 @@ TEST(Shakedown, StrongLayerMovesTheLimitBelowIt) {
     if (h.zone[row] == 1) k[row] = row % 2 == 0 ? kNone : std::numeric_limits<double>::infinity();
   const Shakedown elastic = of(h, k);
   EXPECT_EQ(elastic.wandering.value, s.wandering.value);
-  EXPECT_EQ(elastic.zones[0].wandering.row, -1);
+  EXPECT_FALSE(std::isfinite(elastic.zones[0].wandering.value));
   EXPECT_FALSE(std::isfinite(elastic.zones[0].first_yield.value));
   EXPECT_EQ(elastic.required.wandering, s.required.wandering);
 }
@@ -193,11 +193,8 @@ TEST(Shakedown, StrongLayerMovesTheLimitBelowIt) {
 TEST(Shakedown, SaysWherePointsAre) {
   const StressHistory h = history_of(HertzLoad{.friction = 0.2}, rolling_samples(0.1), {-0.5, 0, 0.5}, {0.3, 0.46});
   const Shakedown s = of(h);
-  EXPECT_EQ(s.first_yield.row, 1);
   EXPECT_EQ(s.first_yield.y, 0);
   EXPECT_EQ(s.first_yield.depth, 0.46);
-  EXPECT_EQ(s.first_yield.x, h.x[s.first_yield.sample]);
-  EXPECT_NEAR(equivalent_shear(h.cycle(1, s.first_yield.column)[s.first_yield.sample]) * s.first_yield.value, 1, 1e-12);
   EXPECT_EQ(s.pointwise.size(), 6U);
   EXPECT_EQ(*std::max_element(s.pointwise.begin(), s.pointwise.begin() + 3), s.required.upper[0]);
 }

@@ -59,7 +59,7 @@ TEST(Wear, TakesTheMeansOfProductsWhereTheyAreKnown) {
   const double usfd = usfd_depth(line, 7800), archard = archard_depth(line, laboratory_dry_archard(), 2.7e9);
   line.power = power;
   line.pressed = pressed;
-  EXPECT_NEAR(friction_energy(line).energy, 2 * friction_energy(u.line()).energy, 1e-9);
+  EXPECT_NEAR(friction_energy(line), 2 * friction_energy(u.line()), 1e-9);
   EXPECT_NEAR(usfd_depth(line, 7800), 2 * usfd, 1e-9 * usfd);  // linear up to 10.4 N/mm², here 10
   EXPECT_NEAR(archard_depth(line, laboratory_dry_archard(), 2.7e9), 3 * archard, 1e-9 * archard);
   line.pressed = std::span<const double>(pressed).first(3);
@@ -68,7 +68,6 @@ TEST(Wear, TakesTheMeansOfProductsWhereTheyAreKnown) {
 
 TEST(Archard, MapHasFourFields) {
   const ArchardMap map = laboratory_dry_archard();
-  EXPECT_EQ(map.note, "laboratory, dry");
   EXPECT_EQ(archard_coefficient(map, 1e9, 0.1, 2.7e9), 5e-4);
   EXPECT_EQ(archard_coefficient(map, 1e9, 0.5, 2.7e9), 35e-4);
   EXPECT_EQ(archard_coefficient(map, 1e9, 0.9, 2.7e9), 5e-4);
@@ -76,22 +75,14 @@ TEST(Archard, MapHasFourFields) {
   EXPECT_EQ(archard_coefficient(map, 2.1e9, 0.1, 2.7e9), 5e-4);
 }
 
-TEST(Archard, AFaultyMapIsRefused) {
+TEST(Archard, ASurfaceWithoutHardnessIsRefused) {
   const Uniform u(4, 800e6, 200e6, 0.1);
-  ArchardMap map = laboratory_dry_archard();
-  map.slow = -1e-4;
-  EXPECT_THROW(archard_depth(u.line(), map, 2.7e9), CaseError);
-  map = laboratory_dry_archard();
-  map.fast_from = 0.1;
-  EXPECT_THROW(archard_depth(u.line(), map, 2.7e9), CaseError);
   EXPECT_THROW(archard_depth(u.line(), laboratory_dry_archard(), 0), std::invalid_argument);
 }
 
 TEST(FrictionEnergy, IsPowerTimesTheTimeInContact) {
   const Uniform u(16, 800e6, 250e6, 0.4);
-  const FrictionEnergy e = friction_energy(u.line());
-  EXPECT_DOUBLE_EQ(e.power_max, 250e6 * 0.4);
-  EXPECT_NEAR(e.energy, 250e6 * 0.4 * 12.8e-3 / 20, 1e-6);
+  EXPECT_NEAR(friction_energy(u.line()), 250e6 * 0.4 * 12.8e-3 / 20, 1e-6);
 }
 
 // Summed over the rows with their widths: the energy per m rolled, T-gamma. Full slip: mu F xi.
@@ -108,18 +99,16 @@ TEST(FrictionEnergy, OverAllRowsIsTGamma) {
       q_x[i] = mu * p[i];
     }
     const Streamline line{p, q_x, zero, slip, zero, 2 * a / n, speed};
-    energy += friction_energy(line).energy * 2 * b / n;
+    energy += friction_energy(line) * 2 * b / n;
   }
   const double load = 2.0 / 3 * M_PI * a * b * p0;
   EXPECT_NEAR(energy, mu * load * creepage, 1e-3 * mu * load * creepage);
 }
 
-TEST(LocalFatigue, NamesTheCellWithLeastReserve) {
+TEST(LocalFatigue, IsThatOfTheCellWithLeastReserve) {
   const std::vector<double> p{0, 200e6, 900e6, 400e6}, q{0, 60e6, 350e6, 160e6}, zero(4, 0.0);
   const Streamline line{p, q, zero, zero, zero, 1e-3, 10};
-  const LocalFatigue f = local_fatigue(line, 280e6).value();
-  EXPECT_EQ(f.cell, 2);
-  EXPECT_NEAR(f.index, (350.0 - 280) / 900, 1e-12);
+  EXPECT_NEAR(local_fatigue(line, 280e6).value(), (350.0 - 280) / 900, 1e-12);
   const Streamline nothing{zero, zero, zero, zero, zero, 1e-3, 10};
   EXPECT_FALSE(local_fatigue(nothing, 280e6));
 }

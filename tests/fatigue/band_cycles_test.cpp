@@ -1,10 +1,10 @@
 // The stress cycles of a contact band that holds a Hertz contact's exact stress at its centres and surface nodes.
 #include <gtest/gtest.h>
 
-#include "damage/history_stress.hpp"
 #include "damage/shakedown.hpp"
 #include "fatigue/one_track.hpp"
 #include "result/stress_cycles.hpp"
+#include "single_track/history_stress.hpp"
 #include "tests/damage/hertz_stress.hpp"
 #include "tests/fem/small_rolling.hpp"
 

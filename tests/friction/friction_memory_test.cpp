@@ -21,7 +21,7 @@ TEST(FrictionMemory, FollowsTheLawOverItsDistance) {
   for (const FallingFriction& law : kLaws)
     for (const double v : {0.02, 0.5, 30.0})
       for (const int steps : {1, 7, 100}) {
-        const double aim = 1 - friction_share(law, {v}).value, way = 1.7 * kDistance;
+        const double aim = 1 - friction_share(law, v).value, way = 1.7 * kDistance;
         double lost = 0;
         for (int i = 0; i < steps; ++i) lost = lost_after(law, lost, v, way / v / steps);
         EXPECT_NEAR(lost, aim * (1 - std::exp(-1.7)), 1e-13);
@@ -42,7 +42,7 @@ TEST(FrictionMemory, ComesBackAtRestByItsLeastVelocity) {
 // Steps by the backward rule come to the exact decay from above, to first order in their length.
 TEST(FrictionMemory, BackwardStepsGoTowardsTheExactDecay) {
   for (FallingFriction law : kLaws) {
-    const double v = 0.5, aim = 1 - friction_share(law, {v}).value, exact = aim * (1 - std::exp(-1.0));
+    const double v = 0.5, aim = 1 - friction_share(law, v).value, exact = aim * (1 - std::exp(-1.0));
     law.implicit_memory = true;
     EXPECT_NEAR(lost_after(law, 0, v, kDistance / v), aim / 2, 1e-14);
     const auto error = [&](int steps) {
@@ -60,12 +60,12 @@ TEST(FrictionMemory, LiesBetweenTheLawAndFrictionAtRest) {
   for (FallingFriction law : kLaws)
     for (const double v : {0.0, 0.1, 5.0}) {
       law.memory_distance = 0;
-      const RememberedShare at_once = remembered_share(law, 0.3, {v}, 1e-6);
-      EXPECT_EQ(at_once.share.value, friction_share(law, {v}).value);
-      EXPECT_EQ(at_once.share.by_slip_velocity, friction_share(law, {v}).by_slip_velocity);
+      const RememberedShare at_once = remembered_share(law, 0.3, v, 1e-6);
+      EXPECT_EQ(at_once.share.value, friction_share(law, v).value);
+      EXPECT_EQ(at_once.share.by_slip_velocity, friction_share(law, v).by_slip_velocity);
       EXPECT_EQ(at_once.by_lost_before, 0);
       law.memory_distance = 1e-15;
-      EXPECT_NEAR(remembered_share(law, 0.3, {v}, 1e-6).share.value, friction_share(law, {v}).value, 1e-12);
+      EXPECT_NEAR(remembered_share(law, 0.3, v, 1e-6).share.value, friction_share(law, v).value, 1e-12);
       law.memory_distance = 1e9;
       EXPECT_NEAR(lost_after(law, 0, v, 1.0), 0, 1e-8);
     }
@@ -83,9 +83,9 @@ TEST(FrictionMemory, DerivativesAreTheSlopes) {
     for (const double lost : {0.0, 0.35})
       for (const double v : {0.1, 0.7, 4.0}) {
         const auto value = [&](double before, double velocity) {
-          return remembered_share(law, before, {velocity}, dt).share.value;
+          return remembered_share(law, before, velocity, dt).share.value;
         };
-        const RememberedShare at = remembered_share(law, lost, {v}, dt);
+        const RememberedShare at = remembered_share(law, lost, v, dt);
         EXPECT_NEAR(at.share.by_slip_velocity, (value(lost, v + h) - value(lost, v - h)) / (2 * h), 1e-8);
         EXPECT_NEAR(at.by_lost_before, (value(lost - h, v) - value(lost + h, v)) / (2 * h), 1e-8);
       }
@@ -103,7 +103,7 @@ TEST(FrictionMemory, SteepestFallIsThatOfALongStepOrOfTheDistance) {
   for (const FallingFriction& law : kLaws) {
     FallingFriction at_once = law;
     at_once.memory_distance = 0;
-    const double own = -friction_share(law, {}).by_slip_velocity;
+    const double own = -friction_share(law, 0).by_slip_velocity;
     EXPECT_EQ(steepest_fall(at_once, 1e-6), own);
     EXPECT_NEAR(steepest_fall(law, 1.0) / own, 1, 1e-3) << "a step of many distances";
     // Of a step much shorter than the distance (1 - m_kin)(dt/d) times the largest slope of v (1 - left(v)), with left
@@ -119,7 +119,7 @@ TEST(FrictionMemory, SteepestFallIsThatOfALongStepOrOfTheDistance) {
 /// Whether a disturbance of the wave number k of steady sliding at v grows: the roots of the header's equation.
 bool grows(const FallingFriction& law, double bound, const SlidingWaves& w, double k, double v) {
   const double eta = 0.5 * std::sqrt(w.shear_modulus * w.density), K = 0.5 * w.shear_modulus * k,
-               fall = -bound * friction_share(law, {v}).by_slip_velocity, way = law.memory_distance / v;
+               fall = -bound * friction_share(law, v).by_slip_velocity, way = law.memory_distance / v;
   const std::complex<double> a = eta * way, b = eta + K * way - fall, root = std::sqrt(b * b - 4.0 * a * K);
   return std::max(((-b + root) / (2.0 * a)).real(), ((-b - root) / (2.0 * a)).real()) > 0;
 }

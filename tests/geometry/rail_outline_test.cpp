@@ -5,6 +5,7 @@
 #include "core/faults.hpp"
 #include "geometry/profile_names.hpp"
 #include "geometry/rail_outline.hpp"
+#include "tests/geometry/rail_section.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,11 +1,10 @@
 #include "halfspace/hertz.hpp"
+#include "tests/halfspace/classical_rolling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "halfspace/classical_rolling.hpp"
 
 namespace railstrata {
 namespace {
@@ -88,11 +87,6 @@ TEST(ClassicalRolling, CarterCreepageOfTheReferenceTable) {
   double sum = 0;
   for (int i = 0; i < 20000; ++i) sum += c.traction(a * (2 * (i + 0.5) / 20000 - 1)) * a / 10000;
   EXPECT_NEAR(sum / (-0.64 * f * p0 * a * std::numbers::pi / 2), 1, 1e-5);
-}
-
-TEST(ClassicalRolling, VermeulenJohnsonSlipFractionAtForceRatio04) {
-  EXPECT_NEAR(vermeulen_johnson_slip_fraction(0.4), 0.289, 5e-4);
-  EXPECT_NEAR(vermeulen_johnson_force_ratio(vermeulen_johnson_tau(0.37)), 0.37, 1e-14);
 }
 
 }  // namespace

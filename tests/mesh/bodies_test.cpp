@@ -8,6 +8,7 @@
 
 #include "core/faults.hpp"
 #include "mesh_checks.hpp"
+#include "tests/geometry/rail_section.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,5 +1,5 @@
 // Repeated rolling of a circular Hertz pressure over a half-space, J2, perfectly plastic, nu = 0.3, lengths over a,
-// stresses over k: first yield 2.795, shakedown limit 4.675 (damage/single_track.hpp).
+// stresses over k: first yield 2.795, shakedown limit 4.675 (single_track/single_track.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -17,8 +17,8 @@ RailBeam beam(double area, double inertia, double density) {
 RailBeam uic60() { return beam(76.70e-4, 3038e-8, 7850); }
 RailBeam cn60() { return beam(77.45e-4, 3217e-8, 7830); }
 
-SleeperTrack at_points(TrackSet set) {
-  SleeperTrack out = named_track(set)->track;
+SleeperTrack at_points(std::string_view set) {
+  SleeperTrack out = *named_track(set);
   out.pad_length = 0;
   return out;
 }
@@ -26,37 +26,37 @@ SleeperTrack at_points(TrackSet set) {
 TEST(BeamReceptance, IsThatOfTheTableWithinOnePercent) {
   const std::vector<double> hertz{50, 100, 200, 300, 500, 700, 900, 1067, 1200, 1500, 2000, 3000};
   struct Row {
-    TrackSet set;
+    std::string_view set;
     RailBeam rail;
     double phase;
     std::vector<double> nm_per_n;
   };
   const std::vector<Row> rows{
-      {TrackSet::delft, uic60(), 0.5, {13.1, 11.5, 2.14, .464, 1.21, 2.13, 4.39, 11.2, 1.90, .600, .255, .101}},
-      {TrackSet::delft, uic60(), 0, {12.8, 11.7, 2.67, 2.02, .177, .487, .985, .430, .0743, .331, .333, .108}},
-      {TrackSet::medium, uic60(), 0.5, {15.1, 9.49, 1.95, 3.47, 3.50, 1.64, 1.16, 3.69, .723, .432, .298, .171}},
-      {TrackSet::medium, uic60(), 0, {14.8, 9.60, 1.89, 2.72, 2.88, 1.30, .766, .274, .424, .438, .302, .172}},
-      {TrackSet::cn60, cn60(), 0.5, {15.9, 16.4, 4.02, 3.03, 1.79, 1.20, .997, 2.47, 1.06, .541, .334, .103}},
-      {TrackSet::cn60, cn60(), 0, {15.6, 16.4, 4.11, 3.03, 1.78, 1.14, .743, .357, .239, .328, .280, .102}}};
+      {"delft", uic60(), 0.5, {13.1, 11.5, 2.14, .464, 1.21, 2.13, 4.39, 11.2, 1.90, .600, .255, .101}},
+      {"delft", uic60(), 0, {12.8, 11.7, 2.67, 2.02, .177, .487, .985, .430, .0743, .331, .333, .108}},
+      {"medium", uic60(), 0.5, {15.1, 9.49, 1.95, 3.47, 3.50, 1.64, 1.16, 3.69, .723, .432, .298, .171}},
+      {"medium", uic60(), 0, {14.8, 9.60, 1.89, 2.72, 2.88, 1.30, .766, .274, .424, .438, .302, .172}},
+      {"cn60", cn60(), 0.5, {15.9, 16.4, 4.02, 3.03, 1.79, 1.20, .997, 2.47, 1.06, .541, .334, .103}},
+      {"cn60", cn60(), 0, {15.6, 16.4, 4.11, 3.03, 1.78, 1.14, .743, .357, .239, .328, .280, .102}}};
   for (const Row& r : rows) {
     SleeperTrack track = at_points(r.set);
     track.phase = r.phase;
     for (std::size_t k = 0; k < hertz.size(); ++k)
       EXPECT_NEAR(1e9 * std::abs(beam_receptance(r.rail, track, 0, hertz[k])), r.nm_per_n[k], 0.01 * r.nm_per_n[k])
-          << named_track(r.set)->name << " phase " << r.phase << ", " << hertz[k] << " Hz";
+          << r.set << " phase " << r.phase << ", " << hertz[k] << " Hz";
   }
 }
 
 TEST(BeamReceptance, NearlyAtRestIsTheStaticComplianceOfTheTable) {
-  const auto compliance = [](TrackSet set, const RailBeam& rail, double phase) {
+  const auto compliance = [](std::string_view set, const RailBeam& rail, double phase) {
     SleeperTrack track = at_points(set);
     track.phase = phase;
     return 1e9 * std::abs(beam_receptance(rail, track, 0, 0.5));
   };
-  EXPECT_NEAR(compliance(TrackSet::delft, uic60(), 0.5), 9.74, 0.01 * 9.74);
-  EXPECT_NEAR(compliance(TrackSet::delft, uic60(), 0), 9.38, 0.01 * 9.38);
-  EXPECT_NEAR(compliance(TrackSet::medium, uic60(), 0.5), 11.7, 0.01 * 11.7);
-  EXPECT_NEAR(compliance(TrackSet::cn60, cn60(), 0), 12.7, 0.01 * 12.7);
+  EXPECT_NEAR(compliance("delft", uic60(), 0.5), 9.74, 0.01 * 9.74);
+  EXPECT_NEAR(compliance("delft", uic60(), 0), 9.38, 0.01 * 9.38);
+  EXPECT_NEAR(compliance("medium", uic60(), 0.5), 11.7, 0.01 * 11.7);
+  EXPECT_NEAR(compliance("cn60", cn60(), 0), 12.7, 0.01 * 12.7);
 }
 
 TEST(BeamReceptance, PinnedPinnedFrequenciesAreThoseOfABeamOnPoints) {
@@ -86,7 +86,7 @@ TEST(BeamReceptance, OfCloseSoftSupportsIsWinklers) {
 }
 
 TEST(BeamReceptance, APadOfALengthHoldsTheSlopeToo) {
-  SleeperTrack track = at_points(TrackSet::delft);
+  SleeperTrack track = at_points("delft");
   track.phase = 0.5;
   const auto peak = [&] {
     double best = 0, at = 0;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Builds dist/engine.js and dist/engine.wasm.gz, the engine of the explorer's page, from the rooms of src/ as they
-stand, with the licences of what is inside and the version that the page names. It is made at a release (RELEASING.md):
-a change of a source does not ask for it.
+"""Builds dist/engine.js and dist/engine.wasm.gz, the engine of the explorer's page, from the rooms of src/ and extras/
+as they stand, with the licences of what is inside and the version that the page names. It is made at a release
+(RELEASING.md): a change of a source does not ask for it.
 
 usage: web/engine/build_engine.py [FOLDER FOR OBJECTS]
 
@@ -19,6 +19,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 SRC = ROOT / "src"
+EXTRAS = ROOT / "extras"
 ENTRY = "explore/calls.cpp"
 # Rooms whose headers others include for the types, and whose functions nobody calls here: the linker would say.
 TYPES_ALONE = ("body/", "element/", "fem/", "mesh/", "contact/", "io/provenance.cpp")
@@ -47,8 +48,8 @@ FAST_MATH = {"fft_kiss"}
 
 
 def placed(file):
-    """A file named by its room ("bem/solve_bem.hpp") below its wing, or None."""
-    return next(SRC.glob(f"*/{file}"), None)
+    """A file named by its room ("bem/solve_bem.hpp") below its wing or in extras/, or None."""
+    return next((f for wing in (*SRC.glob("*/"), EXTRAS) if (f := wing / file).exists()), None)
 
 
 def includes(file):
@@ -73,7 +74,7 @@ def sources():
 
 
 def ninja_file(objects, compiled):
-    wings = " ".join(f"-I{wing}" for wing in sorted(SRC.iterdir()) if wing.is_dir())
+    wings = " ".join(f"-I{wing}" for wing in (*sorted(SRC.iterdir()), EXTRAS) if wing.is_dir())
     lines = ["rule cc", f"  command = em++ {FLAGS} $more {wings} -I{HERE}/stand_in -I{objects}/headers "
              f"-I{objects}/headers/eigen3 -MMD -MF $out.d -c $in -o $out", "  depfile = $out.d", "  deps = gcc",
              "rule link", f"  command = em++ {LINK} $in -o $out", ""]
@@ -105,7 +106,7 @@ def version():
         return subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True, check=True).stdout.strip()
 
     number = re.search(r"^project\(.*?VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(), re.M | re.S)[1]
-    dirty = "+dirty" if git("status", "--porcelain", "--", "src", "web/engine") else ""
+    dirty = "+dirty" if git("status", "--porcelain", "--", "src", "extras", "web/engine") else ""
     return f"{number} ({git('rev-parse', '--short=12', 'HEAD')}{dirty})"
 
 

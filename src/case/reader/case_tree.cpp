@@ -72,8 +72,8 @@ class TreeReader {
 
   /// The numbers of a set of sleepers likewise.
   void take_sleepers(const toml::table& document) {
-    const NamedTrack* named = named_track(document["track"]["preset"].value_or<std::string>(""));
-    if (named) spec_.track.support = named->track;
+    const SleeperTrack* named = named_track(document["track"]["preset"].value_or<std::string>(""));
+    if (named) spec_.track.support = *named;
   }
 
   struct Derived {

@@ -1,16 +1,15 @@
 #pragma once
-// Tables of material tests: paths to drive a law along, curves to fit one to.
+// Tables of paths to drive a law along.
 //
 //   e_xx, e_yy, e_zz, e_xy, e_yz, e_xz        a strain path: tensor shears; also in per cent, "e_xx [%]"
 //   s_xx_MPa, s_xy_MPa                        a stress path; e_xx instead of s_xx prescribes the strain of a direction
-//   strain, stress_MPa                        a curve; plastic_strain instead of strain
-//   strain_amplitude, stress_amplitude_MPa    amplitudes; plastic_strain_amplitude too
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "material/calibrate.hpp"
 #include "material/material_path.hpp"
+#include "options/option_table.hpp"
 
 namespace railstrata {
 
@@ -34,19 +33,10 @@ struct PathColumn {
 /// The same from numbers.
 MaterialPathTable material_path_of(const std::vector<PathColumn>& columns, Prescribed absent);
 
-enum class TestCurve { curve, amplitudes };
-
-/// Shear yield stresses of strained steel, columns sys and pss (plastic shear strain), as of uniaxial tension: √3 sys
-/// over pss/√3.
-std::vector<CurvePoint> read_shear_yield(const std::string& text, const std::filesystem::path& file);
-
-/// Plastic strain is the total one less the stress over `young` [Pa]. Columns of other words are not read; `notes`
-/// lists them, and reports columns taken as amplitudes although their names do not show it.
-std::vector<CurvePoint> read_test_curve(const std::string& text, const std::filesystem::path& file, TestCurve kind,
-                                        double young, std::vector<std::string>* notes = nullptr);
-
-/// The same from numbers, of one length; plastic: the strains are plastic ones already.
-std::vector<CurvePoint> test_curve_of(const std::vector<double>& strain, const std::vector<double>& stress,
-                                      bool plastic, TestCurve kind, double young);
+/// A column of strains [-] and one of stresses [Pa], with the ranges that their numbers have.
+Option strain_option(std::string_view key);
+Option stress_option(std::string_view key);
+/// Throws CaseError unless a value is a number in its range.
+void require_in(const Option& option, double value, std::size_t row);
 
 }  // namespace railstrata

@@ -4,7 +4,8 @@
 #include <utility>
 
 #include "bridge/functions.hpp"
-#include "laboratory/material_fit.hpp"
+#include "calibrate/material_fit.hpp"
+#include "calibrate/test_curves.hpp"
 #include "laboratory/material_run.hpp"
 #include "text/text_file.hpp"
 

@@ -113,11 +113,11 @@ void VaryingBound::follow_cell(int i, std::size_t k, double length, double insid
   const double bound = problem_.traction_bound[k], V = problem_.speed, time = inside / V,
                lost = lost_.empty() ? 0.0 : before(lost_, problem_.lost_before, i, k);
   const FallingFriction& law = problem_.falling;
-  const RememberedShare at_rest = remembered_share(law, lost, {0}, time);
+  const RememberedShare at_rest = remembered_share(law, lost, 0, time);
   rest_[k] = at_rest.share.value * bound;
   const FilmStep film = plastic_.empty() ? FilmStep{rest_[k], 0, 0, true} : follow_film(i, k, length);
   const double slip = film.slides ? std::max(0.0, along_[k] - film.plastic / length) : 0.0;
-  const RememberedShare now = slip > 0 ? remembered_share(law, lost, {slip * V}, time) : at_rest;
+  const RememberedShare now = slip > 0 ? remembered_share(law, lost, slip * V, time) : at_rest;
   wanted_[k] = film.slides ? now.share.value * bound : film.bound;
   by_slip_[k] = film.slides ? (slip > 0 ? now.share.by_slip_velocity * bound * V : 0.0) : film.by_slip * length;
   if (lost_.empty()) return;

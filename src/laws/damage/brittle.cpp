@@ -1,8 +1,10 @@
 #include "damage/brittle.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 
 #include "core/parallel.hpp"
@@ -11,37 +13,35 @@
 namespace railstrata {
 namespace {
 
-PrincipalPeak peak_of_row(const StressHistory& history, const Sym3& residual, int row) {
-  std::optional<PrincipalPeak> peak;
-  for (int column = 0; column < history.columns(); ++column) {
-    const Sym3* cycle = history.cycle(row, column);
-    for (int i = 0; i < history.samples(); ++i) {
-      const double sigma = principal_stresses(cycle[i] + residual).x;
-      if (!peak || sigma > peak->stress) peak = {sigma, row, column, i};
-    }
-  }
-  return peak.value_or(PrincipalPeak{});
+double largest_principal(const StressHistory& history, const Sym3& residual, int row) {
+  double most = -std::numeric_limits<double>::infinity();
+  const Sym3* first = history.cycle(row, 0);
+  for (const Sym3& stress : std::span(first, history.y.size() * history.x.size()))
+    most = std::max(most, principal_stresses(stress + residual).x);
+  return most;
 }
 
 }  // namespace
 
 std::vector<BrittleZone> principal_peaks(const StressHistory& history, ResidualRows residual) {
   check_residual(history, residual);
-  std::vector<PrincipalPeak> rows(history.depth.size());
-  for_each(static_cast<std::ptrdiff_t>(rows.size()), [&](std::ptrdiff_t row) {
-    rows[row] = peak_of_row(history, residual_of(residual, static_cast<int>(row)), static_cast<int>(row));
+  std::vector<double> largest(history.depth.size());
+  for_each(history.rows(), [&](std::ptrdiff_t row) {
+    largest[row] = largest_principal(history, residual_of(residual, static_cast<int>(row)), static_cast<int>(row));
   });
   std::vector<BrittleZone> zones;
   double top = 0;
   for (int row = 0; row < history.rows(); ++row) {
     if (zones.empty() || zones.back().zone != history.zone[row]) {
-      zones.push_back({.zone = history.zone[row], .inside = rows[row], .surface = {}});
+      zones.push_back({.zone = history.zone[row], .stress = largest[row], .row = row});
       top = history.depth[row];
     }
     BrittleZone& zone = zones.back();
     zone.thickness = history.depth[row] - top;
-    if (rows[row].stress > zone.inside.stress) zone.inside = rows[row];
-    if (history.depth[row] == 0) zone.surface = rows[row];
+    if (largest[row] > zone.stress) {
+      zone.stress = largest[row];
+      zone.row = row;
+    }
   }
   return zones;
 }

@@ -1,7 +1,6 @@
 #pragma once
 // Largest principal stress of each layer over the cycle, and the flaw that would run under it: brittle layers (white
 // etching layers, hard coatings) crack, they do not yield.
-#include <optional>
 #include <vector>
 
 #include "damage/residual_rows.hpp"
@@ -9,16 +8,11 @@
 
 namespace railstrata {
 
-struct PrincipalPeak {
-  double stress = 0;  ///< Pa, the largest sigma_1, residual stress included; may be negative
-  int row = 0, column = 0, sample = 0;
-};
-
 struct BrittleZone {
   int zone = 0;
   double thickness = 0;  ///< m, between its first and its last row; of the matrix as far as the section reaches
-  PrincipalPeak inside;  ///< of all its rows
-  std::optional<PrincipalPeak> surface;  ///< of the row at depth 0, if the zone has it
+  double stress = 0;     ///< Pa, the largest sigma_1 of all its rows, residual stress included; may be negative
+  int row = 0;           ///< that has it
 };
 /// By zone, from the surface down.
 std::vector<BrittleZone> principal_peaks(const StressHistory& history, ResidualRows residual);

@@ -180,13 +180,9 @@ class PointCycle {
   }
   /// Mean of the smallest and largest value of every component.
   Sym3 middle() const {
-    Sym3 low = cycle_[0], high = cycle_[0];
-    for (const Sym3& s : cycle_)
-      for (double Sym3::*c : kComponents) {
-        low.*c = std::min(low.*c, s.*c);
-        high.*c = std::max(high.*c, s.*c);
-      }
-    return 0.5 * (low + high);
+    Sym3 out;
+    for (std::size_t c = 0; c < components_.size(); ++c) out.*kComponents[c] = extremes(components_[c]).middle();
+    return out;
   }
 
   std::span<const Sym3> cycle_;

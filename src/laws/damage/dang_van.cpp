@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "damage/deviator.hpp"
 #include "damage/enclosing_ball.hpp"
@@ -31,14 +30,6 @@ void check(const StressHistory& history, ResidualRows residual, std::span<const 
 }
 
 }  // namespace
-
-DangVanLimit dang_van_limit(double torsion, double tension) {
-  const double share = torsion / tension;
-  if (!(torsion > 0 && tension > 0 && share >= 0.5 && share <= 1))
-    throw CaseError("the fatigue limit in torsion must be 0.5 to 1 times the limit in tension",
-                    "give both as amplitudes of alternating stress, in Pa; the ratio for steel is about 0.58");
-  return {3 * (share - 0.5), torsion};
-}
 
 DangVanStress dang_van_stress(std::span<const Sym3> cycle, const Sym3& residual, double c) {
   std::vector<Vec5> path(cycle.size());
@@ -70,14 +61,14 @@ DangVanSection dang_van(const StressHistory& history, ResidualRows residual, std
       },
       true);
   for (int row = 0; row < history.rows(); ++row) {
+    if (columns == 0 || std::isinf(limits[row].limit)) continue;
     const auto first = section.point.begin() + static_cast<std::ptrdiff_t>(row) * columns;
     const auto worst = std::max_element(
         first, first + columns, [](const DangVanStress& a, const DangVanStress& b) { return a.stress < b.stress; });
-    section.worst_column.push_back(static_cast<int>(worst - first));
-    if (columns == 0 || std::isinf(limits[row].limit)) continue;
     const double utilisation = worst->stress / limits[row].limit;
     if (!section.row || utilisation > section.utilisation) {
       section.row = row;
+      section.column = static_cast<int>(worst - first);
       section.utilisation = utilisation;
     }
   }

@@ -22,9 +22,6 @@ struct DangVanLimit {
   double c = 0;      ///< >= 0; 0.3 to 0.4 for rail and wheel steel
   double limit = 0;  ///< Pa, > 0: the fatigue limit in alternating torsion; infinite: this row does not count
 };
-/// From the fatigue limits of alternating torsion and tension [Pa]. Throws CaseError unless torsion is 0.5 to 1 of
-/// tension (c from 0 to 1.5).
-DangVanLimit dang_van_limit(double torsion, double tension);
 
 struct DangVanStress {
   double stress = 0;       ///< Pa, s_DV
@@ -36,8 +33,8 @@ DangVanStress dang_van_stress(std::span<const Sym3> cycle, const Sym3& residual,
 
 struct DangVanSection {
   std::vector<DangVanStress> point;  ///< row by row
-  std::vector<int> worst_column;     ///< of each row
   std::optional<int> row;            ///< with the largest utilisation; none: no row counts
+  int column = 0;                    ///< of the largest s_DV there
   double utilisation = 0;            ///< s_DV/limit there; > 1: fatigue. Negative where pressure outweighs shear
 };
 /// Limits by row. In parallel; the bits do not depend on the number of threads. Throws std::invalid_argument when rows

@@ -11,7 +11,7 @@ namespace {
 
 using Matrix5 = std::array<Vec5, 5>;
 
-/// Points moved to the first one, free coordinates in front; the fixed ones and the extras are in `fixed`.
+/// Points moved to the first one, free coordinates in front; the fixed ones are in `fixed`.
 struct Lifted {
   int dimensions = 0;
   std::array<int, 5> axis{};
@@ -20,8 +20,8 @@ struct Lifted {
   std::vector<double> fixed;  ///< squared distance that no centre changes
 };
 
-Lifted lifted(std::span<const Vec5> points, FreeDirections free, const Vec5& held, std::span<const double> extra) {
-  assert(!points.empty() && (extra.empty() || extra.size() == points.size()));
+Lifted lifted(std::span<const Vec5> points, FreeDirections free) {
+  assert(!points.empty());
   Lifted l;
   for (int d = 0; d < 5; ++d)
     if (free >> d & 1U) l.axis[l.dimensions++] = d;
@@ -29,10 +29,8 @@ Lifted lifted(std::span<const Vec5> points, FreeDirections free, const Vec5& hel
   l.free.resize(points.size());
   l.fixed.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    double fixed = extra.empty() ? 0 : extra[i];
     for (int d = 0; d < 5; ++d)
-      if (!(free >> d & 1U)) fixed += (points[i][d] - held[d]) * (points[i][d] - held[d]);
-    l.fixed[i] = fixed;
+      if (!(free >> d & 1U)) l.fixed[i] += points[i][d] * points[i][d];
     for (int a = 0; a < l.dimensions; ++a) l.free[i][a] = points[i][l.axis[a]] - l.origin[a];
   }
   return l;
@@ -87,7 +85,17 @@ class ActiveSet {
     ++count_;
   }
 
-  EnclosingBall ball(const Vec5& held, double squared_radius) const;
+  EnclosingBall ball(double squared_radius) const {
+    EnclosingBall b;
+    for (int a = 0; a < points_.dimensions; ++a) b.centre[points_.axis[a]] = centre_[a] + points_.origin[a];
+    b.radius = std::sqrt(squared_radius);
+    for (int s = 0; s < count_; ++s) {
+      if (!(weight_[s] > 0)) continue;
+      b.support[b.support_count] = index_[s];
+      b.weight[b.support_count++] = weight_[s];
+    }
+    return b;
+  }
 
  private:
   struct Step {
@@ -157,29 +165,15 @@ class ActiveSet {
   Vec5 centre_{};
 };
 
-EnclosingBall ActiveSet::ball(const Vec5& held, double squared_radius) const {
-  EnclosingBall b;
-  b.centre = held;
-  for (int a = 0; a < points_.dimensions; ++a) b.centre[points_.axis[a]] = centre_[a] + points_.origin[a];
-  b.radius = std::sqrt(squared_radius);
-  for (int s = 0; s < count_; ++s) {
-    if (!(weight_[s] > 0)) continue;
-    b.support[b.support_count] = index_[s];
-    b.weight[b.support_count++] = weight_[s];
-  }
-  return b;
-}
-
 }  // namespace
 
 int EnclosingBall::heaviest() const {
   return static_cast<int>(std::max_element(weight.begin(), weight.begin() + support_count) - weight.begin());
 }
 
-EnclosingBall enclosing_ball(std::span<const Vec5> points, FreeDirections free, const Vec5& held,
-                             std::span<const double> extra) {
-  if (points.empty()) return {.centre = held};
-  const Lifted all = lifted(points, free, held, extra);
+EnclosingBall enclosing_ball(std::span<const Vec5> points, FreeDirections free) {
+  if (points.empty()) return {};
+  const Lifted all = lifted(points, free);
   const int n = static_cast<int>(points.size());
   ActiveSet set(all);
   set.start(0);
@@ -198,7 +192,7 @@ EnclosingBall enclosing_ball(std::span<const Vec5> points, FreeDirections free, 
     set.add(farthest);
     radius = set.squared_radius();
   }
-  return set.ball(held, distance);
+  return set.ball(distance);
 }
 
 }  // namespace railstrata

@@ -2,7 +2,6 @@
 // The smallest ball that holds given points, with a centre that may move in some directions only: the one minimax that
 // Melan's shakedown condition and Dang Van's residual stress both ask for.
 #include <array>
-#include <cstddef>
 #include <span>
 
 #include "damage/deviator.hpp"
@@ -19,8 +18,8 @@ constexpr FreeDirections free_directions(D... d) {
 }
 
 struct EnclosingBall {
-  Vec5 centre{};      ///< in fixed coordinates the given value (0)
-  double radius = 0;  ///< largest distance of a point, with its extra
+  Vec5 centre{};      ///< in fixed coordinates 0
+  double radius = 0;  ///< largest distance of a point
   int support_count = 0;
   /// Indices of the points that hold the ball, with weights > 0 that add up to 1. In the free
   /// directions the centre is their weighted mean: the certificate that no smaller ball exists.
@@ -30,12 +29,10 @@ struct EnclosingBall {
   int heaviest() const;
 };
 
-/// min over c of max over i of sqrt(|p_i - c|^2 + extra_i), c free in `free`, in the other coordinates fixed at `held`.
-/// extra: squared distances in directions that are not among the five (>= 0; empty: none). A dual active-set method
+/// min over c of max over i of |p_i - c|, c free in `free`, 0 in the other coordinates. A dual active-set method
 /// [GoldfarbIdnani1983]: exact but for rounding (1e-12 of the radius, and 1e-15 of the largest coordinate's distance
 /// from the first point), finite, some d + 10 passes over the points. Repeated, collinear and single points are
 /// nothing special; the answer is a function of the points in their order. No points: radius 0, no support.
-EnclosingBall enclosing_ball(std::span<const Vec5> points, FreeDirections free = kAllFree, const Vec5& held = {},
-                             std::span<const double> extra = {});
+EnclosingBall enclosing_ball(std::span<const Vec5> points, FreeDirections free = kAllFree);
 
 }  // namespace railstrata

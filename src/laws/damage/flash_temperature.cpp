@@ -6,8 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/faults.hpp"
-
 namespace railstrata {
 namespace {
 
@@ -57,22 +55,8 @@ std::vector<double> kernel(const ThermalBody& body, std::size_t cells, double ce
   return out;
 }
 
-double peclet(const HeatedLine& line, const ThermalBody& rail, const ThermalBody& wheel) {
-  const auto heated = [](double q) { return q != 0; };
-  const auto first = std::find_if(line.flux.begin(), line.flux.end(), heated);
-  const auto last = std::find_if(line.flux.rbegin(), line.flux.rend(), heated).base();
-  if (first == line.flux.end()) return 0;
-  const double half_length = 0.5 * line.dx * static_cast<double>(last - first);
-  double diffusivity = 0;
-  for (const ThermalBody* body : {&rail, &wheel}) {
-    diffusivity = std::max(diffusivity, body->base.diffusivity());
-    if (body->layer_thickness > 0) diffusivity = std::max(diffusivity, body->layer.diffusivity());
-  }
-  return line.speed * half_length / (2 * diffusivity);
-}
-
-/// The body as a half-space of its less (or more) effusive material; `name`: which one.
-ThermalBody half_space(const ThermalBody& body, bool less_effusive, std::string_view& name) {
+/// The body as a half-space of its less (or more) effusive material.
+ThermalBody half_space(const ThermalBody& body, bool less_effusive) {
   if (!(body.layer_thickness > 0)) return {.base = body.base, .layer = {}};
   const ThermalMaterial* taken = &body.base;
   const auto offer = [&](const ThermalMaterial& layer) {
@@ -80,7 +64,6 @@ ThermalBody half_space(const ThermalBody& body, bool less_effusive, std::string_
   };
   offer(body.layer);
   for (const ThermalMaterial& layer : body.deeper) offer(layer);
-  name = taken == &body.base ? "base" : "layer";
   return {.base = *taken, .layer = {}};
 }
 
@@ -96,9 +79,7 @@ FlashTemperature flash_temperature(const HeatedLine& line, const ThermalBody& ra
   const std::vector<double> of_rail = kernel(rail, cells, cell_time), of_wheel = kernel(wheel, cells, cell_time);
   FlashTemperature out;
   out.rise.resize(cells);
-  out.peclet = peclet(line, rail, wheel);
   std::vector<double> into_rail(cells);
-  double heat = 0, rail_heat = 0;
   for (std::size_t i = 0; i < cells; ++i) {
     double rail_rise = 0, wheel_rise = of_wheel[0] * line.flux[i];  // the latter with all of this cell's heat
     for (std::size_t j = 0; j < i; ++j) {
@@ -108,30 +89,16 @@ FlashTemperature flash_temperature(const HeatedLine& line, const ThermalBody& ra
     into_rail[i] = (wheel_rise - rail_rise) / (of_rail[0] + of_wheel[0]);
     out.rise[i] = rail_rise + of_rail[0] * into_rail[i];
     out.max = std::max(out.max, out.rise[i]);
-    heat += line.flux[i];
-    rail_heat += into_rail[i];
   }
-  if (heat != 0) out.rail_share = rail_heat / heat;
   return out;
 }
 
 FlashBounds flash_bounds(const HeatedLine& line, const ThermalBody& rail, const ThermalBody& wheel) {
   check(line, rail, wheel);
-  FlashBounds bounds;
-  std::string_view unused;
-  bounds.upper =
-      flash_temperature(line, half_space(rail, true, bounds.rail_upper), half_space(wheel, true, bounds.wheel_upper))
-          .max;
-  bounds.lower = flash_temperature(line, half_space(rail, false, unused), half_space(wheel, false, unused)).max;
-  return bounds;
-}
-
-double austenitisation_share(double rise, double austenitisation, double entry) {
-  if (!(austenitisation > entry))
-    throw CaseError(
-        "the austenitisation temperature must be above the temperature at which the surface enters the contact",
-        "give it in °C; about 720 °C for pearlitic steel");
-  return rise / (austenitisation - entry);
+  const auto rise = [&](bool less_effusive) {
+    return flash_temperature(line, half_space(rail, less_effusive), half_space(wheel, less_effusive)).max;
+  };
+  return {rise(false), rise(true)};
 }
 
 }  // namespace railstrata

@@ -13,7 +13,6 @@
 // plastic work, no film between the surfaces, both bodies as warm when they come. Integrals of the kernel over a cell
 // are exact for piecewise constant heat flux.
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace railstrata {
@@ -46,8 +45,6 @@ inline constexpr double kLeastPeclet = 10;
 struct FlashTemperature {
   std::vector<double> rise;  ///< K, at the end of every cell (its trailing side)
   double max = 0;            ///< K
-  double rail_share = 0;     ///< of the heat of the whole row; 0 without heat
-  double peclet = 0;         ///< of the better conductor of all materials; below kLeastPeclet the result is no good
 };
 
 /// Layers exact in the sense above: rail and wheel have the same temperature at the end of every cell, the share of the
@@ -61,14 +58,7 @@ FlashTemperature flash_temperature(const HeatedLine& line, const ThermalBody& ra
 /// between the two). The smaller effusivity gives the upper bound.
 struct FlashBounds {
   double lower = 0, upper = 0;  ///< K
-  /// "layer" or "base": whose data the upper bound has; of the rail, then of the wheel. Empty without a layer.
-  std::string_view rail_upper, wheel_upper;
 };
 FlashBounds flash_bounds(const HeatedLine& line, const ThermalBody& rail, const ThermalBody& wheel);
-
-/// Share of the way to transformation: rise/(T_A - T_0), with the temperature T_A at which the steel turns to austenite
-/// (some 720 °C at rest and without pressure: given by the user) and T_0 at which the surface comes, both °C. From 1 on
-/// martensite (white etching layers) can form. Throws CaseError unless T_A > T_0.
-double austenitisation_share(double rise, double austenitisation, double entry);
 
 }  // namespace railstrata

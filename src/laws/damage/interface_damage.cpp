@@ -8,50 +8,37 @@
 namespace railstrata {
 namespace {
 
-void extend(StressRange& range, double value, bool first) {
-  range.low = first ? value : std::min(range.low, value);
-  range.high = first ? value : std::max(range.high, value);
-}
-
-InterfacePoint point_of(const StressHistory& history, ResidualRows residual, int above, int column,
-                        const BondStrength* bond) {
-  InterfacePoint point;
-  const Sym3 rest[2] = {residual_of(residual, above), residual_of(residual, above + 1)};
-  for (int i = 0; i < history.samples(); ++i) {
-    const Sym3 s[2] = {history.cycle(above, column)[i] + rest[0], history.cycle(above + 1, column)[i] + rest[1]};
-    const Sym3 mean = 0.5 * (s[0] + s[1]), jump = s[0] - s[1];
-    const double tension = std::max(mean.zz, 0.0), shear = std::hypot(mean.xz, mean.yz);
-    point.tension = std::max(point.tension, tension);
-    point.shear = std::max(point.shear, shear);
-    point.traction_jump = std::max(point.traction_jump, norm(Vec3{jump.xz, jump.yz, jump.zz}));
-    extend(point.shear_x, mean.xz, i == 0);
-    for (int side = 0; side < 2; ++side) {
-      extend(point.xx[side], s[side].xx, i == 0);
-      extend(point.yy[side], s[side].yy, i == 0);
-    }
-    if (!bond) continue;
-    const double n = tension / bond->normal, t = shear / bond->shear;
-    point.delamination = std::max(point.delamination, n * n + t * t);
+/// Smallest and largest value over the cycle.
+struct Range {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  void take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
   }
-  return point;
-}
-
-template <class Measure>
-int column_of_largest(const std::vector<InterfacePoint>& points, Measure measure) {
-  return static_cast<int>(
-      std::max_element(points.begin(), points.end(),
-                       [&](const InterfacePoint& a, const InterfacePoint& b) { return measure(a) < measure(b); }) -
-      points.begin());
-}
+  double size() const { return high - low; }
+};
 
 Interface interface_at(const StressHistory& history, ResidualRows residual, int above, const BondStrength* bond) {
-  Interface out{.row_above = above, .depth = history.depth[above], .point = {}};
-  for (int column = 0; column < history.columns(); ++column)
-    out.point.push_back(point_of(history, residual, above, column, bond));
-  out.most_tension = column_of_largest(out.point, [](const InterfacePoint& p) { return p.tension; });
-  out.most_shear = column_of_largest(out.point, [](const InterfacePoint& p) { return p.shear; });
-  out.most_range = column_of_largest(out.point, [](const InterfacePoint& p) { return p.shear_x.range(); });
-  out.most_delamination = column_of_largest(out.point, [](const InterfacePoint& p) { return p.delamination; });
+  Interface out{.row_above = above, .depth = history.depth[above]};
+  const Sym3 rest[2] = {residual_of(residual, above), residual_of(residual, above + 1)};
+  for (int column = 0; column < history.columns(); ++column) {
+    Range shear_x, xx[2];
+    for (int i = 0; i < history.samples(); ++i) {
+      const Sym3 s[2] = {history.cycle(above, column)[i] + rest[0], history.cycle(above + 1, column)[i] + rest[1]};
+      const Sym3 mean = 0.5 * (s[0] + s[1]);
+      const double tension = std::max(mean.zz, 0.0), shear = std::hypot(mean.xz, mean.yz);
+      out.tension = std::max(out.tension, tension);
+      out.shear = std::max(out.shear, shear);
+      shear_x.take(mean.xz);
+      for (int side = 0; side < 2; ++side) xx[side].take(s[side].xx);
+      if (!bond) continue;
+      const double n = tension / bond->normal, t = shear / bond->shear;
+      out.delamination = std::max(out.delamination, n * n + t * t);
+    }
+    if (column > 0 && !(shear_x.size() > out.shear_range)) continue;
+    out.shear_range = shear_x.size();
+    for (int side = 0; side < 2; ++side) out.xx_range[side] = xx[side].size();
+  }
   return out;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 // Stresses of an interface between materials while a wheel rolls over it.
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,29 +13,16 @@ struct BondStrength {
   double normal = 0, shear = 0;
 };
 
-/// Smallest and largest value over the cycle, Pa.
-struct StressRange {
-  double low = 0, high = 0;
-  double range() const { return high - low; }
-};
-
-/// One point of an interface over the cycle. Tractions are those that act across the plane z = const; they are the same
-/// on both sides, and the mean of the two rows is taken.
-struct InterfacePoint {
-  double tension = 0;        ///< t_n = <sigma_zz>, the largest, Pa
-  double shear = 0;          ///< t_s = sqrt(tau_xz² + tau_yz²), the largest, Pa
-  StressRange shear_x;       ///< tau_xz: its range drives a crack along the interface (mode II)
-  double delamination = 0;   ///< the largest of (t_n/N)² + (t_s/S)² at one time; 0 without strengths
-  StressRange xx[2], yy[2];  ///< sigma_xx and sigma_yy above and below, residual stress included
-  double traction_jump = 0;  ///< Pa, largest difference between tractions of the two rows: error of the solution
-};
-
+/// What an interface sees over the cycle, the largest of all its points. Tractions are those that act across the plane
+/// z = const; they are the same on both sides, and the mean of the two rows is taken.
 struct Interface {
-  int row_above = 0;                  ///< the row below is the next
-  double depth = 0;                   ///< m
-  std::vector<InterfacePoint> point;  ///< by column
-  /// Columns with the largest tension, shear, range of tau_xz and delamination index.
-  int most_tension = 0, most_shear = 0, most_range = 0, most_delamination = 0;
+  int row_above = 0;        ///< the row below is the next
+  double depth = 0;         ///< m
+  double tension = 0;       ///< t_n = <sigma_zz>, Pa
+  double shear = 0;         ///< t_s = sqrt(tau_xz² + tau_yz²), Pa
+  double delamination = 0;  ///< (t_n/N)² + (t_s/S)² at one time; 0 without strengths
+  double shear_range = 0;   ///< Pa, of tau_xz at a point: drives a crack along the interface (mode II)
+  double xx_range[2] = {};  ///< Pa, of sigma_xx above and below at that point
 };
 
 /// Every pair of rows of one depth, from the surface down. `bonds` in that order, or empty: no delamination index, as

@@ -154,15 +154,4 @@ std::map<double, double> failures_until(const DamagedPlace& place, const Removal
   return out;
 }
 
-double magic_wear_rate(const DamagedPlace& place) {
-  double out = 0;
-  for (const KindDamage& kind : place.kinds) {
-    if (!kind.trend.empty()) return kNever;
-    out += kind.wheels * kind.rate.front() * place.depth.front();
-    for (std::size_t j = 1; j < place.depth.size(); ++j)
-      out += kind.wheels * 0.5 * (kind.rate[j] + kind.rate[j - 1]) * (place.depth[j] - place.depth[j - 1]);
-  }
-  return out;
-}
-
 }  // namespace railstrata

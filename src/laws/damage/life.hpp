@@ -74,8 +74,4 @@ std::map<double, double> failures_until(const DamagedPlace& place, const Removal
 /// Units of traffic after which each depth fails if nothing is removed.
 std::vector<double> failures_by_depth(const DamagedPlace& place);
 
-/// m a unit of traffic: wear beyond which nothing fails; infinite where something fades (the answer then depends on
-/// the time).
-double magic_wear_rate(const DamagedPlace& place);
-
 }  // namespace railstrata

@@ -19,9 +19,9 @@ constexpr FreeDirections kResidualOfDepth = free_directions(0, 1), kResidualAtSu
 /// The strength that a row asks for, and the point that asks for most.
 struct Need {
   double strength = 0;
-  int column = -1, sample = -1;
-  void take(double s, int c, int i) {
-    if (s > strength || column < 0) *this = {s, c, i};
+  int column = -1;
+  void take(double s, int c) {
+    if (s > strength || column < 0) *this = {s, c};
   }
 };
 
@@ -40,8 +40,7 @@ double factor_to_yield(const Vec5& u, const Vec5& r, double k) {
 }
 
 void take_ball(const EnclosingBall& ball, int column, int samples, Need& need) {
-  const int point = ball.support[ball.heaviest()];
-  need.take(ball.radius, column < 0 ? point / samples : column, point % samples);
+  need.take(ball.radius, column < 0 ? ball.support[ball.heaviest()] / samples : column);
 }
 
 RowNeeds needs_of_row(const ShakedownInput& in, int row, double* pointwise) {
@@ -57,10 +56,10 @@ RowNeeds needs_of_row(const ShakedownInput& in, int row, double* pointwise) {
     for (int i = 0; i < samples; ++i) {
       const Vec5 u = deviator(h.cycle(row, column)[i]);
       path[static_cast<std::size_t>(column) * samples + i] = u;
-      needs.first_yield.take(std::sqrt(norm_squared(u + process)), column, i);
+      needs.first_yield.take(std::sqrt(norm_squared(u + process)), column);
       if (const double factor = factor_to_yield(u, process, k);
           factor < needs.soonest.strength || needs.soonest.column < 0)
-        needs.soonest = {factor, column, i};
+        needs.soonest = {factor, column};
     }
   take_ball(enclosing_ball(path, kResidualOfDepth), -1, samples, needs.wandering);
   for (int column = 0; column < h.columns(); ++column) {
@@ -91,14 +90,7 @@ void check(const ShakedownInput& in) {
 }
 
 LoadFactor at(const StressHistory& h, double value, int row, const Need& need) {
-  return {.value = value,
-          .row = row,
-          .column = need.column,
-          .sample = need.sample,
-          .x = h.x[need.sample],
-          .y = h.y[need.column],
-          .depth = h.depth[row],
-          .zone = h.zone[row]};
+  return {value, h.y[need.column], h.depth[row], h.zone[row]};
 }
 
 void keep_smaller(LoadFactor& kept, const LoadFactor& other) {

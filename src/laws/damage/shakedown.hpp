@@ -15,9 +15,9 @@
 //   kinematic  one ball for each point, free in all five, the surface too: the limit with unlimited linear kinematic
 //              hardening, whose back stress need not be in equilibrium.
 //
-// damage/single_track.hpp has the level between the first two. For a line contact (one column) `wandering` is the exact
-// limit. The residual stress of a process (cladding, heat treatment) is one more rho: it moves no limit of these, but
-// first yield. [PonterHearleJohnson1985, Johnson1985 sec. 9.2]
+// single_track/single_track.hpp has the level between the first two. For a line contact (one column) `wandering` is the
+// exact limit. The residual stress of a process (cladding, heat treatment) is one more rho: it moves no limit of these,
+// but first yield. [PonterHearleJohnson1985, Johnson1985 sec. 9.2]
 #include <limits>
 #include <vector>
 
@@ -36,8 +36,7 @@ struct ShakedownInput {
 /// A factor and the place that decides it.
 struct LoadFactor {
   double value = std::numeric_limits<double>::infinity();  ///< what the elastic stress may be multiplied by
-  int row = -1, column = -1, sample = -1;                  ///< in the history; -1: nothing decides
-  double x = 0, y = 0, depth = 0;  ///< m; of a ball the point among those that hold it that carries the most
+  double y = 0, depth = 0;  ///< m; of a ball the point among those that hold it that carries the most
   int zone = 0;
 };
 

@@ -8,8 +8,11 @@
 //                                              psi = 1 up to Rm/E = 0.003, beyond 1.375 - 125 Rm/E
 //   medians of many steels [MeggiolaroCastro2004]   s_f = 1.5 Rm, b = -0.09, e_f = 0.45, c = -0.59
 // Both as public programs have them; lives of single tests scatter by more.
+#include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "damage/positive.hpp"
 
 namespace railstrata {
 
@@ -19,17 +22,18 @@ struct StrainLife {
 };
 
 /// Pa. Nothing where psi is not above zero: Rm/E of 0.011 and more.
-std::optional<StrainLife> uniform_material_law(double tensile, double young);
-StrainLife median_strain_life(double tensile);
-
-/// Cycles to a crack: of a stress amplitude [Pa] where all is elastic, of an amplitude of plastic strain, of one of
-/// total strain.
-inline double cycles_of_stress(const StrainLife& life, double amplitude) {
-  return 0.5 * std::pow(amplitude / life.strength, 1 / life.strength_exponent);
+inline std::optional<StrainLife> uniform_material_law(double tensile, double young) {
+  const double psi = std::min(1.0, 1.375 - 125 * positive(tensile, "tensile strength") / positive(young, "modulus"));
+  if (!(psi > 0)) return std::nullopt;
+  return StrainLife{1.5 * tensile, -0.087, 0.59 * psi, -0.58};
 }
+inline StrainLife median_strain_life(double tensile) {
+  return {1.5 * positive(tensile, "tensile strength"), -0.09, 0.45, -0.59};
+}
+
+/// Cycles to a crack, of an amplitude of plastic strain.
 inline double cycles_of_plastic_strain(const StrainLife& life, double amplitude) {
   return 0.5 * std::pow(amplitude / life.ductility, 1 / life.ductility_exponent);
 }
-double cycles_of_strain(const StrainLife& life, double young, double amplitude);
 
 }  // namespace railstrata

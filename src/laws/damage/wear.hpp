@@ -5,7 +5,6 @@
 // loses is the sum over the row. Depth is positive into the body.
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace railstrata {
@@ -24,11 +23,8 @@ struct Streamline {
 /// q·s, W/m², of every cell; below zero only by a fault of the solution.
 std::vector<double> friction_power(const Streamline& line);
 
-struct FrictionEnergy {
-  double energy = 0;     ///< J/m² per passage: the sum of q·s dx/V
-  double power_max = 0;  ///< W/m², of the cell with most
-};
-FrictionEnergy friction_energy(const Streamline& line);
+/// J/m² per passage: the sum of q·s dx/V.
+double friction_energy(const Streamline& line);
 
 // -- University of Sheffield (USFD) -------------------------------------------------------------------------------
 
@@ -46,21 +42,14 @@ double usfd_depth(const Streamline& line, double density);
 
 // -- Archard with Jendel's map (KTH) ------------------------------------------------------------------------------
 
-/// Wear coefficient over pressure and slip velocity: `seizure` where p > seizure_pressure H, else `slow`, `middle` or
-/// `fast` by the slip velocity. [Jendel2002]
+/// Wear coefficient over pressure and slip velocity: `seizure` where p > 0.8 H, H the hardness, else `slow` below
+/// 0.2 m/s, `middle` up to 0.7 m/s and `fast` beyond. [Jendel2002]
 struct ArchardMap {
-  std::string_view note;          ///< what the numbers stand for: shown wherever they are used
-  double seizure_pressure = 0.8;  ///< share of the hardness H
-  double middle_from = 0.2;       ///< m/s
-  double fast_from = 0.7;         ///< m/s
   double slow = 0, middle = 0, fast = 0, seizure = 0;
 };
 /// 5e-4, 35e-4, 5e-4 and 350e-4, the middle of the published ranges (1 to 10, 30 to 40, 1 to 10 and 300 to 400e-4): dry
 /// laboratory surfaces. Natural lubrication of a track divides them by some 5; the factor is uncertain: scale.
 ArchardMap laboratory_dry_archard();
-
-/// Throws CaseError unless coefficients are >= 0, the velocities ascend and the pressure's share is positive.
-void check(const ArchardMap& map);
 double archard_coefficient(const ArchardMap& map, double p, double slip_velocity, double hardness);
 
 /// m worn off per passage, the sum of k p |s| (dx/V)/H; H [Pa] the hardness of what wears, as a pressure (HV 9.80665
@@ -71,11 +60,7 @@ double archard_depth(const Streamline& line, const ArchardMap& map, double hardn
 
 /// |q|/p - k/p of a cell: Ekberg's surface index without the patch's mean; k [Pa] the yield strength in cyclic shear.
 /// > 0: more traction than the surface carries elastically. Cells with p <= 0 have none. [EkbergKaboAndersson2002]
-struct LocalFatigue {
-  double index = 0;
-  int cell = 0;  ///< of the largest
-};
-/// Nothing for a row without contact.
-std::optional<LocalFatigue> local_fatigue(const Streamline& line, double cyclic_shear_yield);
+/// The largest of a row; nothing for a row without contact.
+std::optional<double> local_fatigue(const Streamline& line, double cyclic_shear_yield);
 
 }  // namespace railstrata

@@ -1,6 +1,5 @@
 #include "damage/wear_indices.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -61,12 +60,7 @@ double rcf_damage(const RcfDamageFunction& function, double t_gamma) {
 double brr_wear(double t_gamma, double wheel_diameter) {
   if (!(wheel_diameter > 0)) throw std::invalid_argument("the wheel's diameter must be positive");
   const double square_mm_per_km = 1e-9, diameter_mm = 1e3 * wheel_diameter;
-  double rate = 1.19 * t_gamma - 154;
-  if (t_gamma < 100) {
-    rate = 0.25 * t_gamma;
-  } else if (t_gamma <= 200) {
-    rate = 25;
-  }
+  const double rate = t_gamma < 100 ? 0.25 * t_gamma : t_gamma <= 200 ? 25 : 1.19 * t_gamma - 154;
   return square_mm_per_km * rate / diameter_mm;
 }
 

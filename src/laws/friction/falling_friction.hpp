@@ -14,11 +14,6 @@ namespace railstrata {
 
 enum class FrictionForm { coulomb, falling_exponential, falling_rational };
 
-/// Variables of a friction law at a point. A law of pressure or temperature adds them as members.
-struct FrictionPoint {
-  double slip_velocity = 0;  ///< m/s, >= 0
-};
-
 struct FallingFriction {
   FrictionForm form = FrictionForm::coulomb;
   double kinetic_share = 1;      ///< f_kin/f_stat, 0 to 1
@@ -37,9 +32,10 @@ struct FrictionShare {
   double by_slip_velocity = 0;  ///< s/m, <= 0
 };
 
-RAILSTRATA_POINTWISE FrictionShare friction_share(const FallingFriction& law, const FrictionPoint& point) {
+/// slip_velocity: m/s, >= 0.
+RAILSTRATA_POINTWISE FrictionShare friction_share(const FallingFriction& law, double slip_velocity) {
   if (!law.falls()) return {};
-  const double fall = 1 - law.kinetic_share, v = point.slip_velocity / law.half_velocity;
+  const double fall = 1 - law.kinetic_share, v = slip_velocity / law.half_velocity;
   if (law.form == FrictionForm::falling_exponential) {
     const double left = fall * std::exp2(-v);
     return {law.kinetic_share + left, -std::numbers::ln2 * left / law.half_velocity};

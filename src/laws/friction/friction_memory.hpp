@@ -30,12 +30,11 @@ struct RememberedShare {
   RAILSTRATA_POINTWISE double lost() const { return 1 - share.value; }
 };
 
-/// lost: 0 to 1, before the step of dt [s] at the slip velocity of `point`. Without a memory the law's share.
-RAILSTRATA_POINTWISE RememberedShare remembered_share(const FallingFriction& law, double lost,
-                                                      const FrictionPoint& point, double dt) {
-  const FrictionShare steady = friction_share(law, point);
+/// lost: 0 to 1, before the step of dt [s] at the slip velocity v. Without a memory the law's share.
+RAILSTRATA_POINTWISE RememberedShare remembered_share(const FallingFriction& law, double lost, double v, double dt) {
+  const FrictionShare steady = friction_share(law, v);
   if (!law.remembers()) return {steady, 0};
-  const double v = point.slip_velocity, rate = std::max(v, law.memory_velocity) / law.memory_distance,
+  const double rate = std::max(v, law.memory_velocity) / law.memory_distance,
                kept = law.implicit_memory ? 1 / (1 + rate * dt) : std::exp(-rate * dt),
                falls = law.implicit_memory ? kept * kept : kept, excess = lost - (1 - steady.value);
   const double by_way = v > law.memory_velocity ? excess * falls * dt / law.memory_distance : 0.0;
@@ -44,7 +43,7 @@ RAILSTRATA_POINTWISE RememberedShare remembered_share(const FallingFriction& law
 
 /// The lost share 1 - m after a step. 0 for laws that do not fall.
 RAILSTRATA_POINTWISE double lost_after(const FallingFriction& law, double lost, double slip_velocity, double dt) {
-  return law.falls() ? remembered_share(law, lost, {slip_velocity}, dt).lost() : 0.0;
+  return law.falls() ? remembered_share(law, lost, slip_velocity, dt).lost() : 0.0;
 }
 
 /// Largest |dm/dv| [s/m] at the end of a step of dt [s] that begins with a particle that has not slipped, over all slip

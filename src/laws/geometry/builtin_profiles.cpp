@@ -1,7 +1,6 @@
 #include "geometry/builtin_profiles.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <utility>

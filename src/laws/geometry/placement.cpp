@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/faults.hpp"
-#include "core/rotation.hpp"
 #include "geometry/profile_walk.hpp"
 #include "geometry/turned_wheel.hpp"
 
@@ -20,12 +19,6 @@ namespace {
 constexpr double kSearchStep = 0.05e-3;  // m, along the rail
 constexpr double kCandidate = 1e-7;      // m: a minimum this close to the lowest sample may be the lowest of all
 constexpr double kEqual = 1e-12;         // m: gaps closer than this are equal
-
-/// By the angle whose tangent is given: a cant of 1:40 is 0.025.
-Rotation<double> rotation_of_tangent(double tangent) {
-  const double c = 1 / std::hypot(1.0, tangent);
-  return {c, tangent * c};
-}
 
 /// Lowest point of the yawed wheel in a plane y = const: its coordinates in the wheel's own frame.
 struct LowestPoint {
@@ -222,6 +215,11 @@ GapSamples sample_overlap(const Gap& gap, const Profile& rail) {
   return out;
 }
 
+/// What place_wheel has looked at for a contact; of others it is looked at now.
+std::shared_ptr<const GapSamples> samples_of(const RigidContact& contact, const Gap& gap, const Profile& rail) {
+  return contact.searched ? contact.searched : std::make_shared<const GapSamples>(sample_overlap(gap, rail));
+}
+
 /// Lowest point between two samples: the gap falls before it and rises after it.
 double refine(const Gap& gap, double lo, double centre, double hi) {
   const double start = gap.value(centre);
@@ -326,6 +324,11 @@ std::string pair_name(const Profile& wheel, const Profile& rail) {
 
 }  // namespace
 
+Rotation<double> rotation_of_tangent(double tangent) {
+  const double c = 1 / std::hypot(1.0, tangent);
+  return {c, tangent * c};
+}
+
 Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point) {
   return roll(rotation_of_tangent(track.cant), rail_point);
 }
@@ -374,7 +377,7 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
                                            const RigidContact& first, double descent) {
   constexpr double kRidge = 1e-6;  // m
   const Gap gap(wheel, rail, track, first.wheel_offset_y);
-  const auto searched = first.searched ? first.searched : std::make_shared<const GapSamples>(sample_overlap(gap, rail));
+  const auto searched = samples_of(first, gap, rail);
   const GapSamples& samples = *searched;
   std::vector<std::size_t> places{sample_near(samples, first.rail_s)};
   std::vector<RigidContact> out;
@@ -399,7 +402,8 @@ RigidContact common_contact(const Profile& wheel, const Profile& rail, const Tra
   std::sort(contacts.begin(), contacts.end(),
             [](const RigidContact& a, const RigidContact& b) { return a.rail_s < b.rail_s; });
   const Gap gap(wheel, rail, track, first.wheel_offset_y);
-  const GapSamples samples = first.searched ? *first.searched : sample_overlap(gap, rail);
+  const auto searched = samples_of(first, gap, rail);
+  const GapSamples& samples = *searched;
   const auto depth = [&](std::size_t i) { return -offset_z - samples.gap[i]; };
   std::size_t at = sample_near(samples, contacts.front().rail_s);
   while (at > 0 && depth(at - 1) > 0) --at;
@@ -432,9 +436,7 @@ RigidContact common_contact(const Profile& wheel, const Profile& rail, const Tra
 
 Ridge ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
                     const RigidContact& b) {
-  const auto searched =
-      b.searched ? b.searched
-                 : std::make_shared<const GapSamples>(sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), rail));
+  const auto searched = samples_of(b, Gap(wheel, rail, track, a.wheel_offset_y), rail);
   const GapSamples& samples = *searched;
   const std::size_t i = ridge_sample(samples, sample_near(samples, a.rail_s), sample_near(samples, b.rail_s));
   return {samples.s[i], samples.gap[i]};

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/rotation.hpp"
 #include "geometry/profile.hpp"
 
 namespace railstrata {
@@ -65,6 +66,9 @@ double rail_drop(double rail_radius, double x);
 /// into the rail, turning or not; with a roll as turned_wheel.hpp has it. Like all creepages here without products of
 /// creepages.
 double yaw_creepage(const RigidContact& contact);
+
+/// By the angle whose tangent is given: a cant of 1:40 is 0.025.
+Rotation<double> rotation_of_tangent(double tangent);
 
 /// Rail profile frame -> model frame (rotation by atan(cant)) and back.
 Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point);

@@ -63,6 +63,8 @@ class Profile {
   double y_max() const { return graph_y_end_; }
   /// Arc lengths where pieces join: ends of the segments, or the spline's knots. Increasing; first s_min, last s_max.
   const std::vector<double>& knots() const { return s_; }
+  /// Index of the knot that the piece with the arc length s begins at.
+  std::size_t piece_of(double s) const;
   /// The exact curve; empty for a point profile.
   const std::vector<ProfileSegment>& segments() const { return segments_; }
   /// True for a plane or a single arc (circular_profile): it has no flange or gauge face, and place_wheel centres the
@@ -75,7 +77,6 @@ class Profile {
     Vec2 position, d1, d2;  // derivatives with respect to s; |d1| = 1 for segments, within 1e-6 for splines
   };
   Local local(std::size_t piece, double s) const;
-  std::size_t piece_of(double s) const;
   double s_at_y_within(std::size_t piece, double y, double lo, double hi) const;
   double graph_end(bool towards_field) const;
   /// Where within a spline's piece, from near to far, dy/ds turns: the curve may fold back there between two knots that

@@ -9,11 +9,6 @@
 namespace railstrata {
 namespace {
 
-std::size_t piece_at(const Profile& profile, double s) {
-  const std::vector<double>& knots = profile.knots();
-  return static_cast<std::size_t>(std::upper_bound(knots.begin() + 1, knots.end() - 1, s) - knots.begin()) - 1;
-}
-
 /// 1: the arc is walked anticlockwise.
 double sense(const ProfileSegment& g) { return cross(g.p0 - g.centre, g.p1 - g.centre) > 0 ? 1.0 : -1.0; }
 
@@ -40,9 +35,9 @@ std::vector<Vec2> even_positions(const Profile& profile, double begin, double st
     stop = first + 1;
     out[first] = profile.at(place(first)).position;
     if (profile.segments().empty()) continue;
-    const std::size_t piece = piece_at(profile, place(first));
+    const std::size_t piece = profile.piece_of(place(first));
     const ProfileSegment& g = profile.segments()[piece];
-    while (stop < std::min(count, first + kRun) && piece_at(profile, place(stop)) == piece) ++stop;
+    while (stop < std::min(count, first + kRun) && profile.piece_of(place(stop)) == piece) ++stop;
     const Vec2 along = (step / (profile.knots()[piece + 1] - profile.knots()[piece])) * (g.p1 - g.p0);
     const Rotation<double> turn = rotation_by(g.radius > 0 ? sense(g) * step / g.radius : 0.0);
     for (std::size_t k = first + 1; k < stop; ++k)
@@ -58,7 +53,7 @@ double last_facing(const Profile& profile, double begin, double step, Vec2 direc
   for (double k = 0;;) {
     if (!((end - place(k)) / step > 1)) return place(k);
     const double next = place(k + 1);
-    const std::size_t piece = piece_at(profile, next);
+    const std::size_t piece = profile.piece_of(next);
     if (!profile.segments().empty() && all_tangents_face(profile.segments()[piece], direction, cosine)) {
       const double border = profile.knots()[step > 0 ? piece + 1 : piece];
       k = std::max(k + 1, std::ceil((border - begin) / step) - 1);
@@ -71,8 +66,8 @@ double last_facing(const Profile& profile, double begin, double step, Vec2 direc
 
 RunningSurface::RunningSurface(const Profile& profile) : profile_(profile) {
   if (profile.segments().empty()) return;
-  const std::size_t first = piece_at(profile, profile.s_at_y(profile.y_min())),
-                    last = piece_at(profile, profile.s_at_y(profile.y_max()));
+  const std::size_t first = profile.piece_of(profile.s_at_y(profile.y_min())),
+                    last = profile.piece_of(profile.s_at_y(profile.y_max()));
   for (std::size_t i = first; i <= last; ++i) {
     const ProfileSegment& g = profile.segments()[i];
     const Vec2 along = g.p1 - g.p0;

@@ -26,15 +26,4 @@ struct RailOutline {
 };
 RailOutline rail_outline(const Profile& head);
 
-/// The whole section as a closed polygon, walked anticlockwise seen from +x (y to the right, z up); the last point is
-/// not the first again.
-std::vector<Vec2> outline_polygon(const Profile& head, const RailOutline& outline);
-
-/// Area [m²], centroid height above the lowest point [m], second moments about the horizontal and vertical axes through
-/// the centroid [m⁴] of a closed polygon walked anticlockwise.
-struct SectionProperties {
-  double area, centroid_height, i_horizontal, i_vertical;
-};
-SectionProperties section_properties(const std::vector<Vec2>& polygon);
-
 }  // namespace railstrata

@@ -38,17 +38,10 @@ struct Extent {
   double size() const { return hi - lo; }
 };
 
-template <class Component>
-Extent extent(const std::vector<Vec2>& points, Component component) {
-  Extent e{component(points[0]), component(points[0])};
-  for (const Vec2 p : points) e = {std::min(e.lo, component(p)), std::max(e.hi, component(p))};
-  return e;
-}
-Extent extent_y(const std::vector<Vec2>& points) {
-  return extent(points, [](Vec2 p) { return p.y; });
-}
-Extent extent_z(const std::vector<Vec2>& points) {
-  return extent(points, [](Vec2 p) { return p.z; });
+Extent extent(const std::vector<Vec2>& points, double Vec2::*component) {
+  const auto [lowest, highest] = std::minmax_element(
+      points.begin(), points.end(), [&](const Vec2& a, const Vec2& b) { return a.*component < b.*component; });
+  return {(*lowest).*component, (*highest).*component};
 }
 
 NumberTable table_in(ProfileKind kind, std::string_view text, const std::filesystem::path& file) {
@@ -132,7 +125,7 @@ class Reading {
 
   void to_metres() {
     from_inches();
-    const double y = extent_y(points_).size(), z = extent_z(points_).size();
+    const double y = extent(points_, &Vec2::y).size(), z = extent(points_, &Vec2::z).size();
     if ((z > 0 && z < 5e-4 * y) || y < 2e-2 * z)
       fail(fmt::format("y spans {:.4g} and z spans {:.4g}: the columns seem to be in different units", y, z),
            "give both columns in millimetres or both in metres");
@@ -165,7 +158,8 @@ class Reading {
   void orient_wheel() {
     const auto nearest =
         std::min_element(points_.begin(), points_.end(), [](Vec2 a, Vec2 b) { return std::abs(a.y) < std::abs(b.y); });
-    const double tread = nearest->z, above = extent_z(points_).hi - tread, below = tread - extent_z(points_).lo;
+    const double tread = nearest->z, above = extent(points_, &Vec2::z).hi - tread,
+                 below = tread - extent(points_, &Vec2::z).lo;
     if (std::max(above, below) < kSmallestFlange) {
       note("No flange was found; y was taken as positive to the field side and z as positive up.");
       return;
@@ -185,7 +179,7 @@ class Reading {
   }
 
   void orient_rail() {
-    const Extent y = extent_y(points_);
+    const Extent y = extent(points_, &Vec2::y);
     const double middle = 0.5 * (y.lo + y.hi);
     if (std::abs(middle) > kAxisTolerance)
       fail(fmt::format("the middle of the rail head stands at y = {:.2f} mm", 1e3 * middle),

@@ -1,9 +1,9 @@
 #include "geometry/track_presets.hpp"
 
-#include <algorithm>
 #include <array>
 #include <stdexcept>
 
+#include "core/nearest_word.hpp"
 #include "geometry/profile_names.hpp"
 
 namespace railstrata {
@@ -42,10 +42,8 @@ TrackKind track_kind_named(std::string_view name) {
 }
 
 TrackKind track_of_profile(const std::string& profile) {
-  std::string name = profile;
-  for (char& c : name) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
   for (const ProfileTrack& p : kOfProfiles)
-    if (p.profile == name) return p.kind;
+    if (edit_distance(p.profile, profile) == 0) return p.kind;
   return TrackKind::by_profile;
 }
 

@@ -8,23 +8,16 @@ namespace railstrata {
 TurnedWheel::TurnedWheel(const Profile& wheel, const TrackGeometry& track)
     : wheel_(wheel),
       radius_(track.wheel_radius),
-      roll_cosine_(1 / std::hypot(1.0, track.roll)),
-      roll_sine_(track.roll * roll_cosine_),
-      yaw_cosine_(1 / std::hypot(1.0, track.yaw)),
-      yaw_sine_(track.yaw * yaw_cosine_),
+      roll_(rotation_of_tangent(track.roll)),
+      yaw_(rotation_of_tangent(track.yaw)),
       slope_(track.yaw),
-      lean_cosine_(1 / std::hypot(1.0, slope_ * roll_sine_)),
-      lean_sine_(slope_ * roll_sine_ * lean_cosine_),
+      lean_(rotation_of_tangent(slope_ * roll_.s)),
       begin_(wheel.s_at_y(wheel.y_min())),
       end_(wheel.s_at_y(wheel.y_max())) {}
 
 Vec3 TurnedWheel::turned(Vec3 p) const {
-  const double y = roll_cosine_ * p.y - roll_sine_ * p.z, z = roll_sine_ * p.y + roll_cosine_ * p.z;
-  return {yaw_cosine_ * p.x - yaw_sine_ * y, yaw_sine_ * p.x + yaw_cosine_ * y, z};
-}
-
-Vec2 TurnedWheel::section(Vec2 p) const {
-  return {roll_cosine_ * p.y - roll_sine_ * p.z, roll_sine_ * p.y + roll_cosine_ * p.z};
+  const Vec2 rolled = section({p.y, p.z});
+  return yaw(yaw_, {p.x, rolled.y, rolled.z});
 }
 
 // The normal (t_y sin theta, t_z, -t_y cos theta) of the unturned surface has no part along the rail, which in the
@@ -33,15 +26,13 @@ Vec2 TurnedWheel::section(Vec2 p) const {
 TurnedPoint TurnedWheel::outline(double s) const {
   const ProfilePoint p = wheel_.at(s);
   // a flank too steep for its circle to have such a place lies above the outline
-  const double steep = std::clamp(slope_ * roll_cosine_ * lean_cosine_ * p.tangent.z / std::max(p.tangent.y, 1e-6),
-                                  -1.0, 1.0),
-               level = std::sqrt((1 - steep) * (1 + steep)), sine = steep * lean_cosine_ + level * lean_sine_,
-               cosine = level * lean_cosine_ - steep * lean_sine_, r = radius_ - p.position.z;
+  const double steep = std::clamp(slope_ * roll_.c * lean_.c * p.tangent.z / std::max(p.tangent.y, 1e-6), -1.0, 1.0),
+               level = std::sqrt((1 - steep) * (1 + steep)), sine = steep * lean_.c + level * lean_.s,
+               cosine = level * lean_.c - steep * lean_.s, r = radius_ - p.position.z;
   TurnedPoint out;
   out.position = turned({r * sine, p.position.y, radius_ - r * cosine});
   const Vec3 normal = turned({p.tangent.y * sine, p.tangent.z, -p.tangent.y * cosine});
   out.along = {-normal.z, normal.y};
-  out.radius = r;
   out.depth = r * cosine;
   return out;
 }
@@ -83,8 +74,8 @@ TurnedPoint TurnedWheel::cut(double s, double x) const {
   const double r = radius_ - p.position.z;
   double along = 0, below = r;
   for (int i = 0; i < kTurns; ++i) {
-    const double across = roll_cosine_ * p.position.y - roll_sine_ * (radius_ - below);
-    along = (x + yaw_sine_ * across) / yaw_cosine_;
+    const double across = roll_.c * p.position.y - roll_.s * (radius_ - below);
+    along = (x + yaw_.s * across) / yaw_.c;
     below = std::sqrt(std::max(0.0, (r - along) * (r + along)));
   }
   const double sine = along / r, cosine = below / r;
@@ -94,7 +85,6 @@ TurnedPoint TurnedWheel::cut(double s, double x) const {
   TurnedPoint out;
   out.position = turned({along, p.position.y, radius_ - below});
   out.along = {by_s.y + theta_by_s * by_theta.y, by_s.z + theta_by_s * by_theta.z};
-  out.radius = r;
   out.depth = below;
   return out;
 }

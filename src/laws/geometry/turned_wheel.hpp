@@ -16,9 +16,8 @@ namespace railstrata {
 
 struct TurnedPoint {
   Vec3 position;
-  Vec2 along;         ///< derivative of (y, z) by the profile's arc length, at the same x or on the same outline
-  double radius = 0;  ///< r
-  double depth = 0;   ///< r cos theta
+  Vec2 along;        ///< derivative of (y, z) by the profile's arc length, at the same x or on the same outline
+  double depth = 0;  ///< r cos theta
 };
 
 class TurnedWheel {
@@ -37,18 +36,18 @@ class TurnedWheel {
   TurnedPoint cut(double s, double x) const;
 
   /// Distance from the axle of a point of the section plane y, z of the tape circle.
-  double from_axle(Vec2 point) const { return radius_ - (roll_cosine_ * point.z - roll_sine_ * point.y); }
+  double from_axle(Vec2 point) const { return radius_ - (roll_.c * point.z - roll_.s * point.y); }
   /// A place of the section curve at theta = 0.
-  Vec2 section(Vec2 profile_point) const;
-  double slope() const { return slope_; }
+  Vec2 section(Vec2 profile_point) const { return roll(roll_, profile_point); }
 
  private:
   Vec3 turned(Vec3 p) const;
   const Profile& wheel_;
   double radius_;
-  double roll_cosine_, roll_sine_, yaw_cosine_, yaw_sine_, slope_;
-  double lean_cosine_, lean_sine_;  // of atan(tan(psi) sin(phi))
-  double begin_, end_;              // arc lengths of the running surface
+  Rotation<double> roll_, yaw_;
+  double slope_;
+  Rotation<double> lean_;  // by atan(tan(psi) sin(phi))
+  double begin_, end_;     // arc lengths of the running surface
 };
 
 /// Heights of the outline at places that come one after the other.

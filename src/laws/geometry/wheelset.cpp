@@ -12,6 +12,11 @@ Vec3 turned(const WheelsetMotion& m, Vec3 p) {
   return yaw(rotation_by(m.yaw), Vec3{p.x, rolled.y, rolled.z});
 }
 
+/// From the centre of the wheelset to the tread of the left wheel, R (0, e, -r0), m.
+Vec3 arm_of_tread(const TrackGeometry& track, const WheelsetMotion& motion) {
+  return turned(motion, {0, tape_circle_distance(track), -track.wheel_radius});
+}
+
 /// By how much a rail that is canted further moves its gauge face: its origin has to stay.
 double moved_gauge_face(const Profile& wheel, const Profile& rail, const TrackGeometry& before,
                         const TrackGeometry& after) {
@@ -20,6 +25,8 @@ double moved_gauge_face(const Profile& wheel, const Profile& rail, const TrackGe
 }
 
 }  // namespace
+
+double tape_circle_distance(const TrackGeometry& track) { return 0.5 * track.back_to_back + track.flange_back_to_tape; }
 
 WheelsetMotion mirrored(WheelsetMotion m) {
   for (double WheelsetMotion::*odd : {&WheelsetMotion::y, &WheelsetMotion::yaw, &WheelsetMotion::roll,
@@ -31,12 +38,6 @@ WheelsetMotion mirrored(WheelsetMotion m) {
 RailMotion mirrored(RailMotion rail) {
   for (double RailMotion::*odd : {&RailMotion::y, &RailMotion::roll, &RailMotion::y_rate}) rail.*odd = -(rail.*odd);
   return rail;
-}
-
-double tape_circle_distance(const TrackGeometry& track) { return 0.5 * track.back_to_back + track.flange_back_to_tape; }
-
-Vec3 arm_of_tread(const TrackGeometry& track, const WheelsetMotion& motion) {
-  return turned(motion, {0, tape_circle_distance(track), -track.wheel_radius});
 }
 
 TrackGeometry track_under(const Profile& wheel, const Profile& rail, const TrackGeometry& at_rest,

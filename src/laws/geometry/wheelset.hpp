@@ -36,8 +36,6 @@ RailMotion mirrored(RailMotion rail);
 
 /// e, m.
 double tape_circle_distance(const TrackGeometry& track);
-/// From the centre of the wheelset to the tread of the left wheel, R (0, e, -r0), m.
-Vec3 arm_of_tread(const TrackGeometry& track, const WheelsetMotion& motion);
 
 /// What place_wheel needs for the left wheel of the motion; `at_rest`: of the track, with lateral_shift 0.
 TrackGeometry track_under(const Profile& wheel, const Profile& rail, const TrackGeometry& at_rest,

@@ -1,9 +1,10 @@
 #include "halfspace/boussinesq_cerruti.hpp"
 
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+
+#include "halfspace/corner_table.hpp"
 
 namespace railstrata {
 
@@ -88,25 +89,9 @@ RectangleInfluence rectangle_influence(const SurfaceCompliance& compliance, doub
 
 std::vector<RectangleInfluence> rectangle_influence_table(const SurfaceCompliance& compliance, int nx, int ny,
                                                           double dx, double dy) {
-  assert(nx > 0 && ny > 0 && dx > 0 && dy > 0);
-  const auto width = static_cast<std::size_t>(ny) + 1;
-  std::vector<RectangleInfluence> lower(width), upper(width);
-  const auto fill = [&](std::vector<RectangleInfluence>& row, int i) {
-    for (std::size_t j = 0; j < width; ++j)
-      row[j] = corner_sum(compliance, (i - 0.5) * dx, (static_cast<double>(j) - 0.5) * dy);
-  };
-  std::vector<RectangleInfluence> table(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
-  fill(upper, 0);
-  for (int i = 0; i < nx; ++i) {
-    lower.swap(upper);
-    fill(upper, i + 1);
-    for (int j = 0; j < ny; ++j) {
-      const auto k = static_cast<std::size_t>(j);
-      table[static_cast<std::size_t>(i) * static_cast<std::size_t>(ny) + k] =
-          difference(upper[k + 1], lower[k + 1], upper[k], lower[k]);
-    }
-  }
-  return table;
+  return corner_table(
+      nx, ny, dx, dy, [&](double x, double y) { return corner_sum(compliance, x, y); },
+      [](std::size_t, const auto&... corners) { return difference(corners...); });
 }
 
 }  // namespace railstrata

@@ -6,75 +6,35 @@
 #include <cstddef>
 #include <numbers>
 
-#include "halfspace/classical_rolling.hpp"
-
 namespace railstrata {
 
 namespace {
 
-constexpr std::size_t kRatios = 19;
-/// [Kalker1990 table E.3]: axis ratios a/b, then C11, C22, C23 for nu = 0, 1/4, 1/2.
-constexpr std::array<double, kRatios> kRatio{0.1, 0.2, 0.3,       0.4,       0.5,       0.6,       0.7,
-                                             0.8, 0.9, 1,         1.0 / 0.9, 1.0 / 0.8, 1.0 / 0.7, 1.0 / 0.6,
-                                             2,   2.5, 1.0 / 0.3, 5,         10};
-constexpr std::array<std::array<CreepCoefficients, kRatios>, 3> kTable{{
-    {{{2.51, 2.51, 0.334},
-      {2.59, 2.59, 0.483},
-      {2.68, 2.68, 0.607},
-      {2.78, 2.78, 0.72},
-      {2.88, 2.88, 0.827},
-      {2.98, 2.98, 0.93},
-      {3.09, 3.09, 1.03},
-      {3.19, 3.19, 1.13},
-      {3.29, 3.29, 1.23},
-      {3.4, 3.4, 1.33},
-      {3.51, 3.51, 1.44},
-      {3.65, 3.65, 1.58},
-      {3.82, 3.82, 1.76},
-      {4.06, 4.06, 2.01},
-      {4.37, 4.37, 2.35},
-      {4.84, 4.84, 2.88},
-      {5.57, 5.57, 3.79},
-      {6.96, 6.96, 5.72},
-      {10.7, 10.7, 12.2}}},
-    {{{3.31, 2.52, 0.473},
-      {3.37, 2.63, 0.603},
-      {3.44, 2.75, 0.715},
-      {3.53, 2.88, 0.823},
-      {3.62, 3.01, 0.929},
-      {3.72, 3.14, 1.03},
-      {3.81, 3.28, 1.14},
-      {3.91, 3.41, 1.25},
-      {4.01, 3.54, 1.36},
-      {4.12, 3.67, 1.47},
-      {4.22, 3.81, 1.59},
-      {4.36, 3.99, 1.75},
-      {4.54, 4.21, 1.95},
-      {4.78, 4.5, 2.23},
-      {5.1, 4.9, 2.62},
-      {5.57, 5.48, 3.24},
-      {6.34, 6.4, 4.32},
-      {7.78, 8.14, 6.63},
-      {11.7, 12.8, 14.6}}},
-    {{{4.85, 2.53, 0.731},
-      {4.81, 2.66, 0.809},
-      {4.8, 2.81, 0.889},
-      {4.82, 2.98, 0.977},
-      {4.83, 3.14, 1.07},
-      {4.91, 3.31, 1.18},
-      {4.97, 3.48, 1.29},
-      {5.05, 3.65, 1.4},
-      {5.12, 3.82, 1.51},
-      {5.2, 3.98, 1.63},
-      {5.3, 4.16, 1.77},
-      {5.42, 4.39, 1.94},
-      {5.58, 4.67, 2.18},
-      {5.8, 5.04, 2.5},
-      {6.11, 5.56, 2.96},
-      {6.57, 6.31, 3.7},
-      {7.34, 7.51, 5.01},
-      {8.82, 9.79, 7.89},
-      {12.9, 16, 18}}},
+/// [Kalker1990 table E.3]: axis ratio a/b, then C11, C22, C23 for nu = 0, 1/4, 1/2.
+struct KalkerRow {
+  double ratio;
+  std::array<CreepCoefficients, 3> at_nu;
+};
+constexpr std::array<KalkerRow, 19> kTable{{
+    {0.1, {{{2.51, 2.51, 0.334}, {3.31, 2.52, 0.473}, {4.85, 2.53, 0.731}}}},
+    {0.2, {{{2.59, 2.59, 0.483}, {3.37, 2.63, 0.603}, {4.81, 2.66, 0.809}}}},
+    {0.3, {{{2.68, 2.68, 0.607}, {3.44, 2.75, 0.715}, {4.8, 2.81, 0.889}}}},
+    {0.4, {{{2.78, 2.78, 0.72}, {3.53, 2.88, 0.823}, {4.82, 2.98, 0.977}}}},
+    {0.5, {{{2.88, 2.88, 0.827}, {3.62, 3.01, 0.929}, {4.83, 3.14, 1.07}}}},
+    {0.6, {{{2.98, 2.98, 0.93}, {3.72, 3.14, 1.03}, {4.91, 3.31, 1.18}}}},
+    {0.7, {{{3.09, 3.09, 1.03}, {3.81, 3.28, 1.14}, {4.97, 3.48, 1.29}}}},
+    {0.8, {{{3.19, 3.19, 1.13}, {3.91, 3.41, 1.25}, {5.05, 3.65, 1.4}}}},
+    {0.9, {{{3.29, 3.29, 1.23}, {4.01, 3.54, 1.36}, {5.12, 3.82, 1.51}}}},
+    {1, {{{3.4, 3.4, 1.33}, {4.12, 3.67, 1.47}, {5.2, 3.98, 1.63}}}},
+    {1.0 / 0.9, {{{3.51, 3.51, 1.44}, {4.22, 3.81, 1.59}, {5.3, 4.16, 1.77}}}},
+    {1.0 / 0.8, {{{3.65, 3.65, 1.58}, {4.36, 3.99, 1.75}, {5.42, 4.39, 1.94}}}},
+    {1.0 / 0.7, {{{3.82, 3.82, 1.76}, {4.54, 4.21, 1.95}, {5.58, 4.67, 2.18}}}},
+    {1.0 / 0.6, {{{4.06, 4.06, 2.01}, {4.78, 4.5, 2.23}, {5.8, 5.04, 2.5}}}},
+    {2, {{{4.37, 4.37, 2.35}, {5.1, 4.9, 2.62}, {6.11, 5.56, 2.96}}}},
+    {2.5, {{{4.84, 4.84, 2.88}, {5.57, 5.48, 3.24}, {6.57, 6.31, 3.7}}}},
+    {1.0 / 0.3, {{{5.57, 5.57, 3.79}, {6.34, 6.4, 4.32}, {7.34, 7.51, 5.01}}}},
+    {5, {{{6.96, 6.96, 5.72}, {7.78, 8.14, 6.63}, {8.82, 9.79, 7.89}}}},
+    {10, {{{10.7, 10.7, 12.2}, {11.7, 12.8, 14.6}, {12.9, 16, 18}}}},
 }};
 
 CreepCoefficients weighted(const std::array<CreepCoefficients, 3>& c, const std::array<double, 3>& w) {
@@ -90,18 +50,18 @@ CreepCoefficients weighted(const std::array<CreepCoefficients, 3>& c, const std:
 }  // namespace
 
 CreepCoefficients kalker_coefficients(double a_over_b, double poisson) {
-  const double ratio = std::clamp(a_over_b, kRatio.front(), kRatio.back());
-  std::size_t i =
-      static_cast<std::size_t>(std::upper_bound(kRatio.begin() + 1, kRatio.end() - 1, ratio) - kRatio.begin()) - 1;
+  const double ratio = std::clamp(a_over_b, kTable.front().ratio, kTable.back().ratio);
+  const auto above = std::upper_bound(kTable.begin() + 1, kTable.end() - 1, ratio,
+                                      [](double r, const KalkerRow& row) { return r < row.ratio; });
+  const KalkerRow &low = *(above - 1), &high = *above;
   // the coefficients go with b/a above one and with a/b below: interpolate in whichever is bounded
   const auto coordinate = [](double r) { return r <= 1 ? r : 2 - 1 / r; };
-  const double t = (coordinate(ratio) - coordinate(kRatio[i])) / (coordinate(kRatio[i + 1]) - coordinate(kRatio[i]));
+  const double t = (coordinate(ratio) - coordinate(low.ratio)) / (coordinate(high.ratio) - coordinate(low.ratio));
   const double n = 4 * poisson;  // parabola through nu = 0, 1/4, 1/2
   std::array<CreepCoefficients, 3> at_nu;
   for (std::size_t v = 0; v < 3; ++v) {
-    const CreepCoefficients &low = kTable[v][i], &high = kTable[v][i + 1];
-    at_nu[v] = {low.c11 + t * (high.c11 - low.c11), low.c22 + t * (high.c22 - low.c22),
-                low.c23 + t * (high.c23 - low.c23)};
+    const CreepCoefficients &a = low.at_nu[v], &b = high.at_nu[v];
+    at_nu[v] = {a.c11 + t * (b.c11 - a.c11), a.c22 + t * (b.c22 - a.c22), a.c23 + t * (b.c23 - a.c23)};
   }
   return weighted(at_nu, {(n - 1) * (n - 2) / 2, -n * (n - 2), n * (n - 1) / 2});
 }
@@ -135,7 +95,7 @@ CreepForce vermeulen_johnson(const RollingEllipse& e, const Creepage& c) {
   const CreepForce linear = linear_theory(e, c);
   const double size = std::hypot(linear.x, linear.y), bound = e.friction * e.contact.load;
   if (size == 0) return {};
-  const double scale = bound * vermeulen_johnson_force_ratio(size / bound) / size;
+  const double left = std::max(0.0, 1 - size / bound / 3), scale = bound * (1 - left * left * left) / size;
   return {scale * linear.x, scale * linear.y};
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "halfspace/boussinesq_cerruti.hpp"
+#include "halfspace/corner_table.hpp"
 
 namespace railstrata {
 
@@ -106,22 +107,11 @@ InteriorInfluence rectangle_interior(const HalfSpaceMaterial& m, double x, doubl
 
 std::vector<InteriorInfluence> rectangle_interior_table(const HalfSpaceMaterial& m, double z, int nx, int ny, double dx,
                                                         double dy) {
-  assert(z >= 0 && nx > 0 && ny > 0 && dx > 0 && dy > 0);
+  assert(z >= 0);
   const double nu = m.poisson, c = 1 / (2 * m.shear());
-  const auto pitch = static_cast<std::size_t>(ny), width = pitch + 1;
-  std::vector<InteriorInfluence> lower(width), upper(width), table(static_cast<std::size_t>(nx) * pitch);
-  const auto fill = [&](std::vector<InteriorInfluence>& row, int i) {
-    for (std::size_t j = 0; j < width; ++j)
-      row[j] = corner(nu, c, (i - 0.5) * dx, (static_cast<double>(j) - 0.5) * dy, z);
-  };
-  fill(upper, 0);
-  for (int i = 0; i < nx; ++i) {
-    lower.swap(upper);
-    fill(upper, i + 1);
-    for (std::size_t j = 0; j < pitch; ++j)
-      table[static_cast<std::size_t>(i) * pitch + j] = difference(upper[j + 1], lower[j + 1], upper[j], lower[j]);
-  }
-  return table;
+  return corner_table(
+      nx, ny, dx, dy, [&](double x, double y) { return corner(nu, c, x, y, z); },
+      [](std::size_t, const auto&... corners) { return difference(corners...); });
 }
 
 InteriorDisplacement rectangle_displacement(const HalfSpaceMaterial& m, double x, double y, double z, double dx,
@@ -134,25 +124,12 @@ InteriorDisplacement rectangle_displacement(const HalfSpaceMaterial& m, double x
 
 std::vector<InteriorDisplacement> rectangle_displacement_table(const HalfSpaceMaterial& m, double z, int nx, int ny,
                                                                double dx, double dy) {
-  assert(z >= 0 && nx > 0 && ny > 0 && dx > 0 && dy > 0);
+  assert(z >= 0);
   const double c = 1 / (2 * m.shear());
   const auto surface = rectangle_influence_table(at_depth(m, z), nx, ny, dx, dy);
-  const auto pitch = static_cast<std::size_t>(ny);
-  std::vector<InteriorDisplacement> lower(pitch + 1), upper(pitch + 1), table(surface.size());
-  const auto fill = [&](std::vector<InteriorDisplacement>& row, int i) {
-    for (std::size_t j = 0; j < row.size(); ++j)
-      row[j] = corner_beside_surface(c, (i - 0.5) * dx, (static_cast<double>(j) - 0.5) * dy, z);
-  };
-  fill(upper, 0);
-  for (int i = 0; i < nx; ++i) {
-    lower.swap(upper);
-    fill(upper, i + 1);
-    for (std::size_t j = 0; j < pitch; ++j) {
-      const std::size_t k = static_cast<std::size_t>(i) * pitch + j;
-      table[k] = displacement(surface[k], upper[j + 1], lower[j + 1], upper[j], lower[j]);
-    }
-  }
-  return table;
+  return corner_table(
+      nx, ny, dx, dy, [&](double x, double y) { return corner_beside_surface(c, x, y, z); },
+      [&](std::size_t k, const auto&... corners) { return displacement(surface[k], corners...); });
 }
 
 }  // namespace railstrata

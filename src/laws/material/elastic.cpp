@@ -1,7 +1,6 @@
 #include "material/elastic.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 namespace railstrata {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "core/faults.hpp"
 
@@ -31,7 +30,6 @@ State stepped(const PlasticMaterial& m, const State& before, const std::array<do
   advance_plastic<kTerms, kNewton>(m.plastic, e, out.history.data());
   plastic_stress(m.lambda, m.plastic.mu, e, out.history.data(), s);
   std::copy(s, s + 6, out.stress.begin());
-  out.dissipated += plastic_dissipation<kTerms>(m.plastic, s, before.history.data(), out.history.data());
   return out;
 }
 
@@ -140,11 +138,6 @@ std::vector<MaterialState> drive_path(const PlasticMaterial& material, const Mat
     from = to;
   }
   return out;
-}
-
-std::vector<MaterialState> drive_path(const PlasticMaterial& material, const MaterialPath& path, int increments) {
-  const auto nothing = [](const MaterialState&) {};
-  return drive_path(material, path, increments, nothing);
 }
 
 }  // namespace railstrata

@@ -35,7 +35,6 @@ struct MaterialPath {
 struct MaterialState {
   std::array<double, 6> strain{}, stress{};                          ///< -, Pa
   std::array<double, kPlasticHistory<kMostBackstresses>> history{};  ///< E^p, p, α_1 ..
-  double dissipated = 0;                                             ///< J/m³ since the beginning
 };
 
 /// A point that the material cannot reach: no strain gives the stress.
@@ -50,6 +49,5 @@ struct BeyondMaterial {
 /// iterations does not hold an increment this large.
 std::vector<MaterialState> drive_path(const PlasticMaterial& material, const MaterialPath& path, int increments,
                                       CallableRef<void(const MaterialState&)> at_increment);
-std::vector<MaterialState> drive_path(const PlasticMaterial& material, const MaterialPath& path, int increments);
 
 }  // namespace railstrata

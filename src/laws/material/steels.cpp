@@ -17,7 +17,7 @@ namespace {
 constexpr double kYoung = 206e9;
 
 /// The least squares fit of relative stress at 60 amplitudes, geometrically spaced, over K': the curve of one exponent
-/// is one curve times K' (tests/material/calibrate_test.cpp repeats the fit).
+/// is one curve times K' (extras/calibrate/tests/calibrate_test.cpp repeats the fit).
 struct Term {
   double modulus, recall;
 };

@@ -103,17 +103,8 @@ DuctilityReach passes_to_ductility(double ductility, double reached, const std::
 }
 
 std::string class_text(PassClass kind) {
-  switch (kind) {
-    case PassClass::elastic_shakedown:
-      return "elastic shakedown";
-    case PassClass::plastic_shakedown:
-      return "plastic shakedown";
-    case PassClass::ratchetting:
-      return "ratchetting";
-    case PassClass::transient:
-      break;
-  }
-  return "transient: no claim yet";
+  constexpr const char* kTexts[]{"elastic shakedown", "plastic shakedown", "ratchetting", "transient: no claim yet"};
+  return kTexts[static_cast<int>(kind)];
 }
 
 }  // namespace railstrata

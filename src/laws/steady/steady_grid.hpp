@@ -11,7 +11,11 @@
 // The return is no physics: plastic strain that goes back leaves stress around it, so it must be far from where flow is
 // followed and slow. What it does to the load's surroundings is of the order of the pass's increment alone and dies
 // away as 1/distance in plane strain, 1/distance² under a patch.
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace railstrata {
@@ -28,11 +32,17 @@ struct SteadyGrid {
   double y(int j) const { return y0 + j * dy; }
   int rows() const { return static_cast<int>(thickness.size()); }
   /// Stations where plastic flow is followed.
-  int active_stations() const;
+  int active_stations() const { return std::clamp(static_cast<int>(std::lround((front + active) / dx)), 1, nx); }
   /// Mid-depth of a row, m.
-  double depth(int row) const;
+  double depth(int row) const {
+    const auto at = thickness.begin() + row;
+    return std::accumulate(thickness.begin(), at, 0.0) + 0.5 * *at;
+  }
   /// Share of the pass's increment at a station behind the active ones: 1, then cos² to 0.
-  double share(int i) const;
+  double share(int i) const {
+    const double end = front - nx * dx, begin = -active - hold;
+    return 0.5 - 0.5 * std::cos(std::numbers::pi * std::clamp((x(i) - end) / (begin - end), 0.0, 1.0));
+  }
 
   std::size_t plane() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
   /// Layout of a field of six components: xx, yy, zz, xy, yz, xz, each a plane per row, columns fastest.

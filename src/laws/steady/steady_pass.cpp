@@ -77,21 +77,17 @@ SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowM
 
 void move_guess(const SteadyGrid& g, int columns, PassState& state) {
   if (columns == 0) return;
-  const std::size_t line = static_cast<std::size_t>(g.active_stations());
-  Field moved(state.residual_strain.size());
-  for (int c = 0; c < 6; ++c)
-    for (int r = 0; r < g.rows(); ++r)
-      for (int j = std::max(0, columns); j < std::min(g.ny, g.ny + columns); ++j) {
-        const auto from = state.residual_strain.begin() +
-                          static_cast<std::ptrdiff_t>((c * g.points() + g.point(r, j - columns)) * line);
-        std::copy_n(from, line, moved.begin() + static_cast<std::ptrdiff_t>((c * g.points() + g.point(r, j)) * line));
-      }
-  state.residual_strain = std::move(moved);
-  Field rise(state.rise.size());
-  for (std::size_t row = 0; row < rise.size(); row += static_cast<std::size_t>(g.ny))
-    for (int j = std::max(0, columns); j < std::min(g.ny, g.ny + columns); ++j)
-      rise[row + static_cast<std::size_t>(j)] = state.rise[row + static_cast<std::size_t>(j - columns)];
-  state.rise = std::move(rise);
+  const auto move = [&](Field& field, int together) {  // numbers of a column that lie side by side
+    Field moved(field.size());
+    const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(g.ny) * together,
+                         by = static_cast<std::ptrdiff_t>(std::clamp(columns, -g.ny, g.ny)) * together,
+                         from = std::max<std::ptrdiff_t>(0, -by);
+    for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(field.size()); row += line)
+      std::copy_n(field.begin() + row + from, line - std::abs(by), moved.begin() + row + from + by);
+    field = std::move(moved);
+  };
+  move(state.residual_strain, g.active_stations());
+  move(state.rise, 1);
 }
 
 PassState SteadyBody::virgin() const {

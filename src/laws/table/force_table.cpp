@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/faults.hpp"
+#include "core/lagrange.hpp"
 
 namespace railstrata {
 namespace {
@@ -15,15 +16,6 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 std::size_t below(const std::vector<double>& at, double value) {
   return static_cast<std::size_t>(std::upper_bound(at.begin() + 1, at.end() - 1, value) - at.begin()) - 1;
-}
-
-/// Weights of the cubic through four points. [Lagrange's form]
-std::array<double, 4> cubic_weights(const std::array<double, 4>& at, double value) {
-  std::array<double, 4> out{1, 1, 1, 1};
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t j = 0; j < 4; ++j)
-      if (j != k) out[k] *= (value - at[j]) / (at[k] - at[j]);
-  return out;
 }
 
 bool ascends(const std::vector<double>& at) {
@@ -168,9 +160,9 @@ TableInterpolation::Place TableInterpolation::linear(const std::vector<double>& 
 }
 
 TableInterpolation::Place TableInterpolation::cubic(const std::vector<double>& at, double value, std::size_t stride) {
-  const std::size_t k = below(at, value), first = std::min(k - std::min<std::size_t>(k, 1), at.size() - 4);
-  Place out{{}, cubic_weights({at[first], at[first + 1], at[first + 2], at[first + 3]}, value), 4};
-  for (std::size_t i = 0; i < 4; ++i) out.index[i] = (first + i) * stride;
+  const LagrangeStencil stencil = lagrange_stencil(at.data(), static_cast<int>(at.size()), value);
+  Place out{{}, stencil.weight, 4};
+  for (std::size_t i = 0; i < 4; ++i) out.index[i] = (static_cast<std::size_t>(stencil.first) + i) * stride;
   return out;
 }
 
@@ -178,7 +170,8 @@ TableInterpolation::Place TableInterpolation::cubic(const std::vector<double>& a
 TableInterpolation::Place TableInterpolation::around(const std::vector<double>& at, double value, std::size_t stride) {
   const std::size_t n = at.size();
   const double steps = (value / kTurn + 0.5) * static_cast<double>(n), k = std::floor(steps);
-  Place out{{}, cubic_weights({-1, 0, 1, 2}, steps - k), 4};
+  constexpr double kPoints[]{-1, 0, 1, 2};
+  Place out{{}, lagrange_stencil(kPoints, 4, steps - k).weight, 4};
   for (std::size_t i = 0; i < 4; ++i) out.index[i] = (static_cast<std::size_t>(k) + n + i - 1) % n * stride;
   return out;
 }

@@ -12,7 +12,6 @@
 // and the receptance is g(x - x_force) + sum of g(x - x_pad) F. [GrassieGregory1982] has the model, [Timoshenko1921]
 // the beam.
 #include <complex>
-#include <vector>
 
 #include "track/sleeper_track.hpp"
 

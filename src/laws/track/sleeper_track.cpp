@@ -1,6 +1,7 @@
 #include "track/sleeper_track.hpp"
 
 #include <cmath>
+#include <map>
 
 namespace railstrata {
 
@@ -8,33 +9,19 @@ namespace railstrata {
 // medium: UIC60 on sleepers B70 of 280 kg, in [RailFe]. cn60: pad and sleeper of [ZhaiWangLin2004]; of its two layers
 // below the sleeper, 137.75 MN/m and 58.8 kN s/m on 77.5 MN/m and 31.2 kN s/m with a mass of 531 kg between them, the
 // stiffness in series and about the damping of the lower one (in series it would be 20.4 kN s/m).
-const std::vector<NamedTrack>& named_tracks() {
+const SleeperTrack* named_track(std::string_view name) {
   const auto track = [](double pad, double pad_damping, double sleeper, double ballast, double ballast_damping) {
-    SleeperTrack out;
-    out.pad_stiffness = pad;
-    out.pad_damping = pad_damping;
-    out.sleeper_mass = sleeper;
-    out.ballast_stiffness = ballast;
-    out.ballast_damping = ballast_damping;
-    return out;
+    return SleeperTrack{.pad_stiffness = pad,
+                        .pad_damping = pad_damping,
+                        .sleeper_mass = sleeper,
+                        .ballast_stiffness = ballast,
+                        .ballast_damping = ballast_damping};
   };
-  static const std::vector<NamedTrack> all{
-      {TrackSet::delft, "delft", "UIC60", "Track3", track(1300e6, 67.5e3, 140, 45e6, 32e3)},
-      {TrackSet::medium, "medium", "UIC60", "RailFe", track(200e6, 28e3, 140, 40e6, 47e3)},
-      {TrackSet::cn60, "cn60", "CN60", "ZhaiWangLin2004", track(65e6, 75e3, 125.5, 50e6, 30e3)}};
-  return all;
-}
-
-const NamedTrack* named_track(TrackSet set) {
-  for (const NamedTrack& t : named_tracks())
-    if (t.set == set) return &t;
-  return nullptr;
-}
-
-const NamedTrack* named_track(std::string_view name) {
-  for (const NamedTrack& t : named_tracks())
-    if (t.name == name) return &t;
-  return nullptr;
+  static const std::map<std::string_view, SleeperTrack> all{{"delft", track(1300e6, 67.5e3, 140, 45e6, 32e3)},
+                                                            {"medium", track(200e6, 28e3, 140, 40e6, 47e3)},
+                                                            {"cn60", track(65e6, 75e3, 125.5, 50e6, 30e3)}};
+  const auto found = all.find(name);
+  return found == all.end() ? nullptr : &found->second;
 }
 
 std::vector<double> sleepers_between(const SleeperTrack& track, double begin, double end) {

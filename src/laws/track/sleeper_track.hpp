@@ -28,16 +28,8 @@ enum class TrackSet {
   cn60     ///< soft pads
 };
 
-struct NamedTrack {
-  TrackSet set;
-  std::string_view name, rail, source;
-  SleeperTrack track;
-};
-/// All sets but `held`.
-const std::vector<NamedTrack>& named_tracks();
-/// Null for `held` and for a word that names none.
-const NamedTrack* named_track(TrackSet set);
-const NamedTrack* named_track(std::string_view name);
+/// The numbers of a set by its word; null for `held` and for a word that names none.
+const SleeperTrack* named_track(std::string_view name);
 
 /// Positions of the sleepers whose pads lie within [begin, end], m, increasing.
 std::vector<double> sleepers_between(const SleeperTrack& track, double begin, double end);

@@ -1,9 +1,10 @@
 #pragma once
-// Limit for wheels that all run in the same place (damage/single_track.hpp) of a section that has its other factors.
+// Limit for wheels that all run in the same place (single_track/single_track.hpp) of a section that has its other
+// factors.
 #include <functional>
 
 #include "damage/shakedown.hpp"
-#include "damage/single_track.hpp"
+#include "single_track/single_track.hpp"
 
 namespace railstrata {
 

@@ -53,8 +53,7 @@ void add_dang_van(const CaseSpec& spec, BodyId body, const StressHistory& histor
   if (!found.row) return;
   for (std::size_t p = 0; p < found.point.size(); ++p)
     out.dang_van_used.push_back(found.point[p].stress / limits[p / history.y.size()].limit);
-  const int column = found.worst_column[*found.row];
-  out.dang_van = place(spec, body, history, *found.row, column, found.utilisation);
+  out.dang_van = place(spec, body, history, *found.row, found.column, found.utilisation);
 }
 
 std::vector<CriticalPlaneMaterial> plane_materials(const CaseSpec& spec, BodyId body, const StressHistory& history,
@@ -106,8 +105,8 @@ void add_zones(const CaseSpec& spec, BodyId body, const StressHistory& history, 
     const StrengthSpec& s = zone_material(spec, body, z.zone).strength;
     BrittleSummary b;
     b.zone = zone_name(spec, body, z.zone);
-    b.sigma1 = z.inside.stress;
-    b.depth = history.depth[z.inside.row];
+    b.sigma1 = z.stress;
+    b.depth = history.depth[z.row];
     if (z.zone > 0) b.thickness = z.thickness;
     if (s.tensile_strength) b.share_of_tensile = b.sigma1 / *s.tensile_strength;
     if (s.fracture_toughness) b.critical_flaw = critical_flaw(*s.fracture_toughness, b.sigma1);
@@ -135,13 +134,12 @@ void add_interfaces(const CaseSpec& spec, BodyId body, const StressHistory& hist
     s.above = zone_name(spec, body, history.zone[i.row_above]);
     s.below = zone_name(spec, body, history.zone[i.row_above + 1]);
     s.depth = i.depth;
-    s.tension = i.point[i.most_tension].tension;
-    s.shear = i.point[i.most_shear].shear;
-    const InterfacePoint& worst = i.point[i.most_range];
-    s.shear_range = worst.shear_x.range();
-    s.sigma_xx_range_above = worst.xx[0].range();
-    s.sigma_xx_range_below = worst.xx[1].range();
-    if (!bonds.empty()) s.delamination = i.point[i.most_delamination].delamination;
+    s.tension = i.tension;
+    s.shear = i.shear;
+    s.shear_range = i.shear_range;
+    s.sigma_xx_range_above = i.xx_range[0];
+    s.sigma_xx_range_below = i.xx_range[1];
+    if (!bonds.empty()) s.delamination = i.delamination;
     out.interfaces.push_back(s);
   }
 }

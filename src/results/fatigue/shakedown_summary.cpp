@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "damage/history_stress.hpp"
 #include "fatigue/one_track.hpp"
 #include "material/elastic.hpp"
 #include "model/zone.hpp"
 #include "result/patch.hpp"
 #include "result/stress_cycles.hpp"
+#include "single_track/history_stress.hpp"
 
 namespace railstrata {
 namespace {

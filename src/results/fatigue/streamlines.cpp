@@ -91,13 +91,6 @@ SurfaceData surface_data(const CaseSpec& spec) {
           wear_data(spec, BodyId::wheel), surface_shear_strength(spec)};
 }
 
-/// One coefficient whatever the pressure and the slip.
-ArchardMap constant_archard(double k) {
-  ArchardMap map;
-  map.slow = map.middle = map.fast = map.seizure = k;
-  return map;
-}
-
 struct WearDepths {
   double usfd = kNotApplicable, archard = kNotApplicable, kth = kNotApplicable;  ///< m
 };
@@ -108,7 +101,7 @@ WearDepths wear_depths(const Streamline& line, const WearData& data) {
   out.usfd = usfd_depth(line, data.density);
   if (!std::isfinite(data.hardness)) return out;
   out.kth = archard_depth(line, laboratory_dry_archard(), data.hardness);
-  if (data.coefficient) out.archard = archard_depth(line, constant_archard(*data.coefficient), data.hardness);
+  if (const auto k = data.coefficient) out.archard = archard_depth(line, {*k, *k, *k, *k}, data.hardness);
   return out;
 }
 
@@ -131,7 +124,7 @@ StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double
                         dx,      speed,     cells.power, cells.pressed};
   StreamlineRow row;
   row.width = cells.area / dx;
-  row.friction_energy = friction_energy(line).energy;
+  row.friction_energy = friction_energy(line);
   const WearDepths rail = wear_depths(line, data.rail_wear), wheel = wear_depths(line, data.wheel_wear);
   row.usfd_depth = rail.usfd;
   row.archard_depth = rail.archard;
@@ -140,8 +133,7 @@ StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double
   row.wheel_archard_depth = wheel.archard;
   row.wheel_kth_depth = wheel.kth;
   heat(data, line, row);
-  if (std::isfinite(data.shear_strength))
-    row.local_fatigue = local_fatigue(line, data.shear_strength).value_or(LocalFatigue{}).index;
+  if (std::isfinite(data.shear_strength)) row.local_fatigue = local_fatigue(line, data.shear_strength).value_or(0);
   return row;
 }
 

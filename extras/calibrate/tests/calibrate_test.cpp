@@ -1,4 +1,4 @@
-#include "material/calibrate.hpp"
+#include "calibrate/calibrate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "damage/cone_program.hpp"
+#include "single_track/cone_program.hpp"
 
 #include <algorithm>
 #include <cassert>

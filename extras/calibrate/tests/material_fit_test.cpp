@@ -1,14 +1,14 @@
 // Fits of tests as people bring them: half loops, loops the wrong way round, compression, percents, further columns.
-#include "laboratory/material_fit.hpp"
+#include "calibrate/material_fit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
+#include "calibrate/test_curves.hpp"
 #include "core/faults.hpp"
 #include "reader/case_file.hpp"
-#include "tables/material_tables.hpp"
 
 namespace railstrata {
 namespace {

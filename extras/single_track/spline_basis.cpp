@@ -1,4 +1,4 @@
-#include "damage/spline_basis.hpp"
+#include "single_track/spline_basis.hpp"
 
 #include <algorithm>
 

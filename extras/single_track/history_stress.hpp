@@ -1,10 +1,9 @@
 #pragma once
 // The stress of a history at any point: what a single track asks for where only samples are there.
-#include <array>
 #include <vector>
 
-#include "damage/single_track.hpp"
 #include "damage/stress_history.hpp"
+#include "single_track/single_track.hpp"
 
 namespace railstrata {
 

@@ -1,6 +1,5 @@
 #pragma once
 // Cubic B-splines on a line with the conditions that the potentials of a residual stress have at its ends.
-#include <array>
 #include <vector>
 
 namespace railstrata {

@@ -1,4 +1,4 @@
-#include "damage/single_track.hpp"
+#include "single_track/single_track.hpp"
 
 #include <gtest/gtest.h>
 

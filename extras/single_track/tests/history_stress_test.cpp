@@ -1,9 +1,8 @@
-#include "damage/history_stress.hpp"
+#include "single_track/history_stress.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "damage/shakedown.hpp"

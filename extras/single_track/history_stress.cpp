@@ -1,8 +1,7 @@
-#include "damage/history_stress.hpp"
+#include "single_track/history_stress.hpp"
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <stdexcept>
 
 #include "core/lagrange.hpp"

@@ -1,4 +1,4 @@
-#include "laboratory/material_fit.hpp"
+#include "calibrate/material_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "calibrate/test_curves.hpp"
 #include "core/faults.hpp"
 #include "io/provenance.hpp"
 #include "reader/case_file.hpp"
 #include "record/unit.hpp"
 #include "report/plots.hpp"
-#include "tables/material_tables.hpp"
 #include "text/text_file.hpp"
 #include "text/units.hpp"
 

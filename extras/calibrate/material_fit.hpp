@@ -1,10 +1,10 @@
 #pragma once
-// A law fitted to tests (material/calibrate.hpp): the card of a case and a picture of the fit.
+// A law fitted to tests (calibrate.hpp): the card of a case and a picture of the fit.
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "material/calibrate.hpp"
+#include "calibrate/calibrate.hpp"
 #include "spec/case_fwd.hpp"
 
 namespace railstrata {

@@ -1,4 +1,4 @@
-#include "damage/single_track.hpp"
+#include "single_track/single_track.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -9,9 +9,9 @@
 
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
-#include "damage/cone_program.hpp"
 #include "damage/enclosing_ball.hpp"
-#include "damage/spline_basis.hpp"
+#include "single_track/cone_program.hpp"
+#include "single_track/spline_basis.hpp"
 
 namespace railstrata {
 namespace {
