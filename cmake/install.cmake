@@ -53,7 +53,7 @@ function(railstrata_install_headers layout libdir)
   install(FILES ${package_build}/${layout}pc/railstrata.pc DESTINATION ${libdir}/pkgconfig ${part})
 endfunction()
 
-# Shipped cases; of the recorded results of a study the table that a validation set reads; profiles and published numbers, the script for ParaView, texts.
+# Shipped cases; of the recorded results of a study the table that a validation set reads; profiles, the script for ParaView, texts.
 function(railstrata_install_data layout)
   railstrata_part(program)
   set(data_folder ${CMAKE_INSTALL_DATADIR}/railstrata)

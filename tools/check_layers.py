@@ -25,7 +25,7 @@ LOUD = re.compile(r"\bspdlog\b|\bfmt::print\b|\bstd::(?:cout|cerr|clog)\b|\bf?(?
 FACTOR = re.compile(r"\bconstexpr\b.*\bk(?:To)?(?:Milli|Micro|Nano|Mega|Kilo|Giga|Percent|Milli(?:metres?)"
                     r"|M(?:ega)?[Pp]a(?:scals?)?|Degrees?)\s*=\s*[-\d.(]")
 LOUD_FILES = {"mpi/plug_in.cpp",  # the end of all ranks, where one has died
-              "study/child_process.cpp",  # what a child does between fork and exec
+              "study/case_process.cpp",  # what a child does between fork and exec
               "cntc/message_file.cpp"}  # the screen, where a user of CONTACT's interface asks for it
 
 

@@ -24,10 +24,9 @@ import time
 import records
 
 ROOT = records.ROOT
-READERS = ["profile", "case_file", "history_table", "study_file", "published", "results", "checkpoint",
-           "checkpoint_content"]
+READERS = ["profile", "case_file", "history_table", "study_file", "results", "checkpoint", "checkpoint_content"]
 # bytes of an input
-LONGEST = {"profile": 1200, "case_file": 1200, "history_table": 600, "study_file": 1600, "published": 1400,
+LONGEST = {"profile": 1200, "case_file": 1200, "history_table": 600, "study_file": 1600,
            "results": 1200, "checkpoint": 700, "checkpoint_content": 700}
 LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-malloc_limit_mb=512"]
 # HDF5 asks for the sizes in a forged file, is refused, and reports it

@@ -4,10 +4,9 @@
     tools/record_study.py results/study cases/paper/recorded/study [--equal-cells results/equal_cells]
     tools/record_study.py results/study cases/paper/recorded/study --anew bem [--equal-cells results/equal_cells]
 
-Copies study.csv, published.csv, claims.csv and, without folders, provenance.json; gathers every case's centre line in
-centre_lines.csv (five digits) and every summary in summaries.json; with --equal-cells also the half-space cases on
-cells as large as the elements and the agreement of the engines (tools/engine_agreement.py). Files that are not there
-are left out and named.
+Copies study.csv and, without folders, provenance.json; gathers every case's centre line in centre_lines.csv (five
+digits) and every summary in summaries.json; with --equal-cells also the half-space cases on cells as large as the
+elements and the agreement of the engines (tools/engine_agreement.py). Cases without a result are left out and named.
 
 --anew bem records the half-space results alone (`railstrata study … --engine bem`); what is there of the finite
 elements stays, with the program that computed it in provenance.json, that of the half-spaces in provenance_bem.json.
@@ -19,7 +18,6 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import tomllib
 
 
 def table(path):
@@ -74,46 +72,9 @@ def study_anew(old, new, to):
     return {case_of(row): row for row in rows}
 
 
-def published_anew(old, new, numbers, study, published):
-    """The half-space's column from `new`; where that is a part of a finite element answer (`engines`) that too. What
-    the reason names must not change by it: it is not made anew."""
-    asked = {(n["section"], n["quantity"]): n for n in published["number"]}
-    prefixes = {c["name"]: c.get("prefix", "") for c in published["column"] if c["engine"] == "fem"}
-    out = []
-    for ours, theirs in zip(table(old), table(new), strict=True):
-        number = asked[ours["section"], ours["quantity"]]
-        before = dict(ours)
-        if not any(ours[name] for name in prefixes):
-            ours.update(theirs)
-        ours["half-space"] = theirs["half-space"]
-        if number.get("engines"):
-            group, case = number["given"].split("/")
-            half_space = float(study[group, case, "bem"][number["column"]])
-            for name, prefix in prefixes.items():
-                row = study.get((prefix + group, case, "fem")) or study[group, case, "fem"]
-                value = float(row[number["column"]])
-                ours[name] = str(100 * abs(value / half_space - 1))
-                if number.get("bound") == "at most" and ((float(ours[name]) <= number["value"])
-                                                         != (float(before[name]) <= number["value"])):
-                    sys.exit(f"{ours['quantity']}: agrees no more, or does now; record the whole study")
-            if ours["difference"]:
-                ours["difference"] = f"{float(ours['finite elements, converged']) - number['value']:+.1f} points"
-        out.append(ours)
-    write_table(numbers, [], list(out[0]), out)
-
-
-def claims_anew(old, new, to):
-    rows = [ours | {"half-space": theirs["half-space"]} for ours, theirs in zip(table(old), table(new), strict=True)]
-    write_table(to, [], list(rows[0]), rows)
-
-
 def half_spaces_anew(args):
     """Returns the study's rows for what follows."""
     study = study_anew(args.to / "study.csv", args.study / "study.csv", args.to / "study.csv")
-    source = pathlib.Path(__file__).resolve().parent.parent / "data/paper/published.toml"
-    published = tomllib.loads(source.read_text(encoding="utf-8"))
-    published_anew(args.to / "published.csv", args.study / "published.csv", args.to / "published.csv", study, published)
-    claims_anew(args.to / "claims.csv", args.study / "claims.csv", args.to / "claims.csv")
     recorded = table(args.to / "centre_lines.csv")
     names, lines = list(recorded[0]), []
     summaries = json.loads((args.to / "summaries.json").read_text(encoding="utf-8"))
@@ -153,16 +114,11 @@ def main():
         return 0
     args.to.mkdir(parents=True, exist_ok=True)
 
-    missing = []
-    for name in ("study.csv", "published.csv", "claims.csv"):
-        if (args.study / name).exists():
-            shutil.copyfile(args.study / name, args.to / name)
-        else:
-            missing.append(name)
+    shutil.copyfile(args.study / "study.csv", args.to / "study.csv")
     provenance = without_folders(json.loads((args.study / "provenance.json").read_text(encoding="utf-8")))
     (args.to / "provenance.json").write_text(json.dumps(provenance, indent=1) + "\n", encoding="utf-8")
 
-    lines, summaries = [], {}
+    missing, lines, summaries = [], [], {}
     for row in table(args.study / "study.csv"):
         folder = args.study / row["folder"]
         where = [row["group"], row["case"], row["engine"]]

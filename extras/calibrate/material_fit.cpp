@@ -65,10 +65,6 @@ double longest(const std::vector<CurvePoint>& points) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 constexpr double kDoubtful = 0.05, kNoClaim = 0.1;  // of plastic strain
 
 /// Strains above 0.5 are probably per cent without a unit. No message up to `from`.
@@ -105,6 +101,22 @@ void note_rate_at_edge(const PlasticParameters<double>& law, const std::vector<C
                   place, law.rate, bounds.low, bounds.high, law.rate <= kNear * bounds.low ? "larger" : "smaller"));
 }
 
+MaterialFit fit_shear_yield(const std::filesystem::path& file) {
+  MaterialFit out;
+  out.of_shear_yield = true;
+  out.monotonic = read_shear_yield(file_text(file), file);
+  out.whole = out.stabilised = at_place(file.string(), [&] { return fit_yield_stresses(out.monotonic); });
+  note_rate_at_edge(out.whole.law, out.monotonic, file.string(), out.notes);
+  if (out.whole.law.saturation < 0)
+    out.notes.push_back(fmt::format(
+        "{}: the yield stress falls as strain grows, and sheared steel hardens: look at the columns", file.string()));
+  if (longest(out.monotonic) > kNoClaim)
+    out.notes.push_back(fmt::format(
+        "{}: plastic strain reaches {:.0f} %: the card has the strength of sheared steel, no law of small strains",
+        file.string(), kToPercent * longest(out.monotonic)));
+  return out;
+}
+
 }  // namespace
 
 MaterialFit fit_curves(MaterialCurves curves) {
@@ -133,26 +145,6 @@ MaterialFit fit_curves(MaterialCurves curves) {
   note_rate_at_edge(out.whole.law, out.monotonic, curves.monotonic_place, out.notes);
   return out;
 }
-
-namespace {
-
-MaterialFit fit_shear_yield(const std::filesystem::path& file) {
-  MaterialFit out;
-  out.of_shear_yield = true;
-  out.monotonic = read_shear_yield(file_text(file), file);
-  out.whole = out.stabilised = at_place(file.string(), [&] { return fit_yield_stresses(out.monotonic); });
-  note_rate_at_edge(out.whole.law, out.monotonic, file.string(), out.notes);
-  if (out.whole.law.saturation < 0)
-    out.notes.push_back(fmt::format(
-        "{}: the yield stress falls as strain grows, and sheared steel hardens: look at the columns", file.string()));
-  if (longest(out.monotonic) > kNoClaim)
-    out.notes.push_back(fmt::format(
-        "{}: plastic strain reaches {:.0f} %: the card has the strength of sheared steel, no law of small strains",
-        file.string(), kToPercent * longest(out.monotonic)));
-  return out;
-}
-
-}  // namespace
 
 MaterialFit fit_material(const MaterialTests& tests, double young) {
   if (!tests.shear_yield.empty()) return fit_shear_yield(tests.shear_yield);

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "study/child_process.hpp"
+#include "study/running_case.hpp"
 
 namespace railstrata {
 namespace {

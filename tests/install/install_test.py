@@ -62,7 +62,7 @@ class Install(unittest.TestCase):
 class Tree(unittest.TestCase):
     def test_program_library_headers_packages_data_and_texts_are_there(self):
         shared = ["cases/quick/case.toml", "cases/paper/study.toml", "data/profiles/lma_wheel.csv",
-                  "data/paper/published.toml", "report/view.py", "report/report.js"]
+                  "report/view.py", "report/report.js"]
         headers = ["railstrata.hpp", "railstrata.h", "railstrata_cntc.h", "ask/library.hpp"]
         for name in ["bin/railstrata", *(f"include/railstrata/{h}" for h in headers),
                      *(f"share/railstrata/{s}" for s in shared)]:

@@ -41,13 +41,14 @@ TEST(Axis, ARangeOfRotationsKeepsItsUnit) {
 }
 
 TEST(Axis, EveryOptionAndColumnHasAnSiUnit) {
-  EXPECT_EQ(si_unit(*option_of_key("layer.0.thickness")), "m");
-  EXPECT_EQ(si_unit(*option_of_key("drive.friction_coefficient")), "");
+  EXPECT_EQ(si_unit(option_of_key("layer.0.thickness")->dimension), "m");
+  EXPECT_EQ(si_unit(option_of_key("drive.friction_coefficient")->dimension), "");
   EXPECT_EQ(option_of_key("layer.0.thicknes"), nullptr);
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options) {
-      EXPECT_NO_THROW(si_unit(option)) << table.name << '.' << option.key;
-      for (const Option& column : option.columns) EXPECT_NO_THROW(si_unit(column)) << option.key << '.' << column.key;
+      EXPECT_NO_THROW(si_unit(option.dimension)) << table.name << '.' << option.key;
+      for (const Option& column : option.columns)
+        EXPECT_NO_THROW(si_unit(column.dimension)) << option.key << '.' << column.key;
     }
 }
 

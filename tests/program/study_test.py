@@ -16,7 +16,6 @@ import signal
 import subprocess
 import sys
 import time
-import tomllib
 
 from outside import SMALL, TINY, FromOutside, broken_files, fact, main, railstrata, results, slow, start
 
@@ -262,17 +261,12 @@ class Cases(StudyTest):
 
 
 class Paper(FromOutside):
-    def test_every_case_that_the_published_numbers_name_is_in_the_study(self):
+    def test_the_study_has_every_thickness_with_every_stiffness(self):
         folder = SOURCE / "cases/paper"
         rc, out, err = railstrata("study", folder / "study.toml", "--out", self.folder / "none", "--dry-run", "--json")
         self.assertEqual(rc, 0, err)
         cases = [(c["engine"], f"{c['group']}/{c['case']}") for c in json.loads(out)]
         self.assertEqual(len(cases), len(set(cases)))
-        names = {name for _, name in cases} | {"mesh/elements 1"}  # the same case as one of paper_layers
-        published = tomllib.loads((SOURCE / "data/paper/published.toml").read_text())
-        for entry in published["number"] + published["claim"]:
-            for key in ("given", "against"):
-                self.assertIn(entry.get(key, "mesh/elements 1"), names)
         grid = [(c["values"].get("layer.0.thickness"), c["values"].get("layer.0.young_ratio")) for c in json.loads(out)
                 if c["group"] == "layers" and c["engine"] == "fem"]
         self.assertEqual(grid, [(h, e) for h in ("0.2 mm", "0.5 mm", "1 mm", "3 mm", "6 mm")

@@ -126,6 +126,7 @@ class Validate(FromOutside):
                                   ('"load_kN"', '"load"', 'column = "load" is no column of data.csv'),
                                   ('"measured"', '"guess"', 'reference = "guess" is unknown'),
                                   ('source =', 'sauce =', 'unknown key sauce'),
+                                  ('[[vary]]', '[vary]', 'vary must be a list of tables'),
                                   ('relative = true', 'relative = "yes"', 'relative must be true or false'),
                                   ('bar = 0.02', '', 'bar must be a finite number')):
             _, err = self.validate(self.own(OWN.replace(old, new)), expected=2)

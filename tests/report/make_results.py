@@ -89,7 +89,6 @@ title = "a small <i>study</i>"
 base = "layers.toml"
 engines = ["bem"]
 cell = "0.8 mm"
-published = "published.toml"
 [[group]]
 name = "grid"
 [group.vary]
@@ -141,40 +140,6 @@ series = "layer.0.young_ratio"
 groups = ["grid"]
 where = { "layer.0.thickness" = ["0.5 mm"] }
 """
-PUBLISHED = """
-source = "Somebody"
-[[column]]
-name = "rolled"
-engine = "fem"
-[[column]]
-name = "half-space"
-engine = "bem"
-[[number]]
-section = "1"
-quantity = "rise of the pressure"
-value = 3
-unit = "%"
-within = 1000
-column = "p_max_MPa"
-given = "grid/thickness 10 mm, young_ratio 4"
-against = "plain/case"
-[[number]]
-section = "2"
-quantity = "shear"
-value = 1e-3
-unit = "MPa"
-within = 1e-3
-column = "q_max_MPa"
-given = "wheel/case"
-[[claim]]
-section = "3"
-text = "harder is higher"
-kind = "rises"
-column = "p_max_MPa"
-along = "layer.0.young_ratio"
-each = "layer.0.thickness"
-groups = ["grid", "plain"]
-"""
 
 
 def railstrata(*words):
@@ -217,6 +182,5 @@ railstrata("report", FOLDER / "old", "--no-reference", "--quiet")
 railstrata("report", FOLDER / "fem", FOLDER / "bem", FOLDER / "fem" / "half_space", "--out", FOLDER / "three.html",
            "--quiet")
 (FOLDER / "plain.toml").write_text(HALF_SPACE.split("[[layer]]")[0])
-(FOLDER / "published.toml").write_text(PUBLISHED)
 (FOLDER / "study.toml").write_text(STUDY)
 railstrata("study", FOLDER / "study.toml", "--out", FOLDER / "study", "--quiet")

@@ -111,8 +111,7 @@ TEST(StudyFile, EveryMistakeIsToldAtOnceWithPlaceAndRemedy) {
       (std::vector<std::string>{
           "2:8: base = \"nowhere.toml\": there is no file " + (kFile.parent_path() / "nowhere.toml").string() +
               " | name it relative to the study's folder",
-          "3:1: unknown key study.engine | did you mean engines? keys of [study]: title, base, engines, cell, set, "
-          "published",
+          "3:1: unknown key study.engine | did you mean engines? keys of [study]: title, base, engines, cell, set",
           "4:8: cell = \"1 s\": \"s\" is not the unit of a length | write a length, e.g. \"0.2 mm\" (units: mm, m, µm, "
           "cm)",
           "6:8: group.name = \"a b\": must be a word of letters, digits, _ - and .: folders bear it | write name = "
@@ -127,6 +126,15 @@ TEST(StudyFile, EveryMistakeIsToldAtOnceWithPlaceAndRemedy) {
           "18:11: engines: there is no engine \"bme\" | write engines = [\"fem\", \"bem\"], or one of them",
           "19:1: figure \"figure-1\" is a trend and has no x | name the key along its axis: x = \"layer.0.thickness\"",
           "21:10: figure \"figure-1\": there is no group \"y\" | groups: x"}));
+}
+
+TEST(StudyFile, PublishedNumbersAreForValidate) {
+  const std::vector<std::string> told =
+      errors("[study]\nbase = \"base.toml\"\npublished = \"published.toml\"\n[[group]]\nname = \"a\"\n");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_TRUE(
+      told[0].starts_with("3:1: a study is no longer compared with published numbers | take the key out; "
+                          "`railstrata validate` compares"));
 }
 
 TEST(StudyFile, NoGroupNoTomlNoStudy) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/faults.hpp"
-#include "jobs/profile_table.hpp"
+#include "jobs/state_table.hpp"
 #include "reader/case_file.hpp"
 #include "tests/places.hpp"
 #include "wear/wear_loop_page.hpp"
@@ -160,7 +160,8 @@ TEST(WearLoopPage, ContactsAreReadBackAndThePageNamesTheLoads) {
   std::vector<Vec2> worn = rail.points;
   for (Vec2& p : worn)
     if (std::abs(p.y) < 5e-3) p.z -= 30e-6;
-  write_wear_loop_page(out / "report.html", {"arcs", {"freight", "coach"}, rail.points, {{2, 8e3, 3e-7, worn}}, back});
+  write_wear_loop_page(out / "report.html",
+                       {"arcs", {"freight", "coach"}, rail.points, {{2, 8e3, 3e-7, worn, {}}}, back});
   std::ifstream in(out / "report.html");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   for (const char* words : {"arcs: wear loop", "freight", "coach", "after 8000 passages", "Where each load touches"})

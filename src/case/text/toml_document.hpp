@@ -1,5 +1,5 @@
 #pragma once
-// TOML as the readers of cases, studies and published tables take it: within bounds, with places, with the whole values
+// TOML as the readers of cases, studies and validation sets take it: within bounds, with places, with the whole values
 // of its numbers.
 #include <toml++/toml.h>
 #include <optional>

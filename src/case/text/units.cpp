@@ -67,34 +67,34 @@ struct Prefix {
 constexpr std::array kPrefixes{Prefix{"G", 9},  Prefix{"M", 6},  Prefix{"k", 3},  Prefix{"c", -2},
                                Prefix{"m", -3}, Prefix{"µ", -6}, Prefix{"u", -6}, Prefix{"n", -9}};
 
-/// How people write each dimension: the first unit is the one values are shown in.
+/// How people write each dimension: the first unit is the one values are shown in. si: as names of columns have it.
 struct Customary {
   Dimension dimension;
-  std::string_view noun, example;
+  std::string_view si, noun, example;
   std::vector<std::string_view> units;
 };
 const std::vector<Customary>& customary() {
   static const std::vector<Customary> all{
-      {dimension::kNumber, "a number", "0.2", {""}},
-      {dimension::kLength, "a length", "0.2 mm", {"mm", "m", "µm", "cm"}},
-      {dimension::kMass, "a mass", "8000 kg", {"kg", "t", "Mt"}},
-      {dimension::kTime, "a time", "1.5 ms", {"ms", "s", "µs"}},
-      {dimension::kSpeed, "a speed", "100 km/h", {"m/s", "km/h"}},
-      {dimension::kRate, "a rate", "2000 1/s", {"1/s", "Hz", "kHz"}},
-      {dimension::kPressure, "a pressure or modulus", "210 GPa", {"GPa", "MPa", "Pa"}},
-      {dimension::kDensity, "a density", "7800 kg/m^3", {"kg/m^3", "t/m^3", "g/cm^3"}},
-      {dimension::kStiffness, "a stiffness", "0.95 MN/m", {"MN/m", "kN/mm", "kN/m", "N/mm", "N/m"}},
-      {dimension::kDamping, "a damping", "10.4 kN s/m", {"kN s/m", "N s/m"}},
-      {dimension::kPressureGradient, "a stress by displacement", "400 MPa/mm", {"MPa/mm", "N/mm^3", "GPa/m"}},
-      {dimension::kForce, "a force", "85 kN", {"kN", "N", "MN"}},
-      {dimension::kSpin, "a spin", "0.1 1/m", {"1/m", "rad/m", "1/mm", "rad/mm"}},
-      {dimension::kToughness, "a fracture toughness", "15 MPa √m", {"MPa √m", "MPa m^0.5"}},
-      {dimension::kConductivity, "a thermal conductivity", "50 W/(m K)", {"W/(m K)"}},
-      {dimension::kHeatCapacity, "a specific heat capacity", "460 J/(kg K)", {"J/(kg K)"}},
-      {dimension::kTemperature, "a temperature difference", "700 K", {"K"}},
-      {dimension::kHardness, "a hardness", "380 HV", {"HV", "HBW"}},
-      {dimension::kRotation, "a rotation", "400 rpm", {"rpm", "rad/s"}},
-      {dimension::kSlope, "an inclination", "1:40", {"", "mrad", "rad", "deg"}},
+      {dimension::kNumber, "", "a number", "0.2", {""}},
+      {dimension::kLength, "m", "a length", "0.2 mm", {"mm", "m", "µm", "cm"}},
+      {dimension::kMass, "kg", "a mass", "8000 kg", {"kg", "t", "Mt"}},
+      {dimension::kTime, "s", "a time", "1.5 ms", {"ms", "s", "µs"}},
+      {dimension::kSpeed, "m/s", "a speed", "100 km/h", {"m/s", "km/h"}},
+      {dimension::kRate, "1/s", "a rate", "2000 1/s", {"1/s", "Hz", "kHz"}},
+      {dimension::kPressure, "Pa", "a pressure or modulus", "210 GPa", {"GPa", "MPa", "Pa"}},
+      {dimension::kDensity, "kg/m3", "a density", "7800 kg/m^3", {"kg/m^3", "t/m^3", "g/cm^3"}},
+      {dimension::kStiffness, "N/m", "a stiffness", "0.95 MN/m", {"MN/m", "kN/mm", "kN/m", "N/mm", "N/m"}},
+      {dimension::kDamping, "N s/m", "a damping", "10.4 kN s/m", {"kN s/m", "N s/m"}},
+      {dimension::kPressureGradient, "Pa/m", "a stress by displacement", "400 MPa/mm", {"MPa/mm", "N/mm^3", "GPa/m"}},
+      {dimension::kForce, "N", "a force", "85 kN", {"kN", "N", "MN"}},
+      {dimension::kSpin, "1/m", "a spin", "0.1 1/m", {"1/m", "rad/m", "1/mm", "rad/mm"}},
+      {dimension::kToughness, "Pa m^0.5", "a fracture toughness", "15 MPa √m", {"MPa √m", "MPa m^0.5"}},
+      {dimension::kConductivity, "W/(m K)", "a thermal conductivity", "50 W/(m K)", {"W/(m K)"}},
+      {dimension::kHeatCapacity, "J/(kg K)", "a specific heat capacity", "460 J/(kg K)", {"J/(kg K)"}},
+      {dimension::kTemperature, "K", "a temperature difference", "700 K", {"K"}},
+      {dimension::kHardness, "HV", "a hardness", "380 HV", {"HV", "HBW"}},
+      {dimension::kRotation, "rad/s", "a rotation", "400 rpm", {"rpm", "rad/s"}},
+      {dimension::kSlope, "", "an inclination", "1:40", {"", "mrad", "rad", "deg"}},
   };
   return all;
 }
@@ -327,6 +327,8 @@ std::string describe(const Dimension& dimension) {
   const std::string_view quote = dimension == dimension::kNumber ? "" : "\"";
   return fmt::format("{}, e.g. {}{}{}", c.noun, quote, c.example, quote);
 }
+
+std::string si_unit(const Dimension& dimension) { return std::string(customary(dimension).si); }
 
 std::string suggest_quantity(std::string_view whole, const Dimension& dimension,
                              const std::function<bool(double)>& allowed) {

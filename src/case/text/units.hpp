@@ -53,6 +53,9 @@ std::string format_quantity(double value, const Dimension& dimension);
 /// "a length, e.g. \"0.2 mm\"": for messages, schema and reference page.
 std::string describe(const Dimension& dimension);
 
+/// The SI unit as names of columns and tables have it: "N", "kg/m3"; "" of a plain number.
+std::string si_unit(const Dimension& dimension);
+
 /// A text like `text` with another prefix or unit of the same dimension whose value is allowed ("210 MPa" ->
 /// "210 GPa"), but never in micrometres or microseconds; empty if there is none, and for zero, which no unit changes.
 std::string suggest_quantity(std::string_view text, const Dimension& dimension,

@@ -22,7 +22,7 @@
 #include "record/output_file.hpp"
 #include "report/passes_page.hpp"
 #include "report/read_run.hpp"
-#include "runs/write_framed_report.hpp"
+#include "runs/write_report.hpp"
 
 namespace railstrata {
 namespace {
@@ -77,7 +77,7 @@ void require_results(const std::vector<std::filesystem::path>& folders) {
 
 /// Returns whether the page's verdict holds.
 bool write_page(const std::filesystem::path& page, const ReportOptions& own) {
-  const WrittenPage written = write_framed_report(page, own.folders, own.reference, what_if(own));
+  const WrittenPage written = write_report(page, own.folders, own.reference, what_if(own));
   if (own.what_if)
     spdlog::info("with the explorer: {:.1f} MB", 1e-6 * static_cast<double>(std::filesystem::file_size(page)));
   report_page(written, control());

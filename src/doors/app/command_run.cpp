@@ -12,7 +12,6 @@
 #include "app/option_values.hpp"
 #include "app/processors.hpp"
 #include "app/summary_text.hpp"
-#include "runs/ranked_run.hpp"
 #include "runs/run_job.hpp"
 
 namespace railstrata {
@@ -45,9 +44,7 @@ void warn_of_shared_processors(int threads) {
 ExitCode run_along(const std::filesystem::path& resumed, const CommandOptions& options, const FemOptions& fem) {
   spdlog::set_level(spdlog::level::off);
   if (!resumed.empty()) require_resume_alone(options);
-  RankedRun run = resumed.empty() ? join_run(load_case_of(options, uses::kFiniteElements), fem.ranks)
-                                  : join_resumed_run(resumed, fem.ranks);
-  follow_run(run, fem);
+  follow_run(resumed.empty() ? load_case_of(options, uses::kFiniteElements) : load_case(resumed / "case.toml"), resumed, fem);
   return ExitCode::ok;
 }
 

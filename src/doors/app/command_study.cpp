@@ -96,7 +96,6 @@ ExitCode report_cases(const StudyOptions& own, const CommandOptions& options, co
 ExitCode command_study(const StudyOptions& own, const CommandOptions& options) {
   const LoadedStudy study = study_of(options);
   cell_size(study.spec.cell);  // what is wrong is reported before the first case
-  Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
   const Shard shard = parse_shard(own.shard);
   const double lease = lease_of(own);
   std::vector<StudyCase> cases = plan_study(study, options.overrides);
@@ -118,8 +117,8 @@ ExitCode command_study(const StudyOptions& own, const CommandOptions& options) {
     print_list(rows, options.json);
     spdlog::info("the table is {}", (out / "study.csv").string());
   };
-  return code_of(carry_out_study(study, std::move(published), std::move(cases), std::move(ours), std::move(order),
-                                 control_by_signals(), show));
+  return code_of(
+      carry_out_study(study, std::move(cases), std::move(ours), std::move(order), control_by_signals(), show));
 }
 
 CommandWork declare_study(CLI::App& sub, CommandOptions& options) {

@@ -19,7 +19,6 @@
 #include "judge/check_limits.hpp"
 #include "many/each_case.hpp"
 #include "many/sweep.hpp"
-#include "many/sweep_page.hpp"
 #include "record/json.hpp"
 
 namespace railstrata {

@@ -8,7 +8,7 @@ namespace railstrata {
 Control& control();
 
 /// From here on the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (the terminal is gone; not under nohup) asks to stop, the
-/// second ends the program at once; SIGUSR1 asks for a checkpoint. In a case of a study (study/child_process.hpp) no
+/// second ends the program at once; SIGUSR1 asks for a checkpoint. In a case of a study (study/running_case.hpp) no
 /// second signal is the end.
 Control& control_by_signals();
 

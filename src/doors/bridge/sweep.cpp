@@ -50,7 +50,7 @@ void sweep(Call& call) {
   call.answer["axes"] = Json::array();
   for (const Axis& axis : axes) {
     const Option* option = option_of_key(axis.key);
-    call.answer["axes"].push_back({option ? si_unit(*option) : "", axis.values.size()});
+    call.answer["axes"].push_back({option ? si_unit(option->dimension) : "", axis.values.size()});
   }
   Json& columns = call.answer["columns"] = Json::array();
   for (const ResultColumn& c : result_columns(options.stresses)) columns.push_back({c.name, c.path, c.factor});

@@ -41,7 +41,7 @@ std::string table_text(const std::string& key, const Option* option, const Json&
   return fmt::format("{{{}}}", fmt::join(out, ", "));
 }
 
-bool has_unit(const Option* option) { return option && !si_unit(*option).empty(); }
+bool has_unit(const Option* option) { return option && !si_unit(option->dimension).empty(); }
 
 std::string text_inside(const std::string& key, const Option* option, const Json& value) {
   if (value.is_string()) return toml_quoted(value.get<std::string>());

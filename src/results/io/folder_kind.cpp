@@ -22,17 +22,6 @@ bool has(const fs::path& folder, const char* name) {
   return fs::exists(folder / name, error);
 }
 
-/// The words of the command line in provenance.json; none if it has none.
-std::vector<std::string> command_line_of(const fs::path& folder) {
-  std::ifstream in(folder / "provenance.json", std::ios::binary);
-  const auto origin = nlohmann::json::parse(in, nullptr, false);
-  std::vector<std::string> words;
-  if (!origin.is_object() || !origin.contains("command_line") || !origin["command_line"].is_array()) return words;
-  for (const auto& word : origin["command_line"])
-    if (word.is_string()) words.push_back(word.get<std::string>());
-  return words;
-}
-
 /// A folder of another kind than a result of one case, recognised by a file in it.
 struct Kind {
   const char *file, *what, *remedy;
@@ -77,6 +66,16 @@ Diagnostic begun(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<std::string> command_line_of(const fs::path& folder) {
+  std::ifstream in(folder / "provenance.json", std::ios::binary);
+  const auto origin = nlohmann::json::parse(in, nullptr, false);
+  std::vector<std::string> words;
+  if (!origin.is_object() || !origin.contains("command_line") || !origin["command_line"].is_array()) return words;
+  for (const auto& word : origin["command_line"])
+    if (word.is_string()) words.push_back(word.get<std::string>());
+  return words;
+}
 
 std::string command_again(const fs::path& folder) {
   const std::vector<std::string> words = command_line_of(folder);

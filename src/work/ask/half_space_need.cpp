@@ -18,10 +18,6 @@ namespace {
 constexpr double kBaseBytes = 20e6, kBytesPerCell = 1300;
 constexpr double kCells = 1e5, kSecondsPerCell = 4e-5, kGrowth = 0.4;
 
-std::string minutes(double seconds) {
-  return seconds < 90 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60);
-}
-
 }  // namespace
 
 HalfSpaceNeed half_space_need(const CaseSpec& spec, const Placement& placement, double cell) {
@@ -50,8 +46,9 @@ void require_memory(const HalfSpaceNeed& need, double cell) {
 }
 
 std::string need_text(const HalfSpaceNeed& need) {
-  return fmt::format("{:.2g} million cells, about {:.2g} GB of memory and {}", 1e-6 * need.cells,
-                     1e-9 * need.memory_bytes, minutes(need.seconds));
+  const bool soon = need.seconds < 90;
+  return fmt::format("{:.2g} million cells, about {:.2g} GB of memory and {:.0f} {}", 1e-6 * need.cells,
+                     1e-9 * need.memory_bytes, soon ? need.seconds : need.seconds / 60, soon ? "s" : "min");
 }
 
 }  // namespace railstrata

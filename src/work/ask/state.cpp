@@ -16,18 +16,14 @@ struct OptionOfMember {
   const Option* option = nullptr;
   std::string key;
 };
-OptionOfMember option_of(const StateMember& member) {
-  for (const OptionTable& table : case_tables())
-    for (const Option& option : table.options)
-      if (option.slot == member.in_case && !option.derivation)
-        return {&option, fmt::format("{}.{}", table.name, option.key)};
-  throw std::logic_error(fmt::format("no option has the place of {}", member.name));
-}
-const OptionOfMember& known_option(const StateMember& member) {
+const OptionOfMember& option_of(const StateMember& member) {
   static const auto kOptions = [] {
     std::array<OptionOfMember, kState.size()> out;
     for (std::size_t k = 0; k < out.size(); ++k)
-      if (kState[k].in_case) out[k] = option_of(kState[k]);
+      for (const OptionTable& table : case_tables())
+        for (const Option& option : table.options)
+          if (kState[k].in_case && option.slot == kState[k].in_case && !option.derivation)
+            out[k] = {&option, fmt::format("{}.{}", table.name, option.key)};
     return out;
   }();
   return kOptions[static_cast<std::size_t>(&member - kState.data())];
@@ -48,7 +44,7 @@ void put(CaseSpec& spec, const StateMember& member, std::optional<double> value)
 }
 
 void require_range(const StateMember& member, double value) {
-  const auto& [option, key] = known_option(member);
+  const auto& [option, key] = option_of(member);
   if (!std::isfinite(value) || !option->range.holds(value))
     throw CaseError(fmt::format("{} = {:g} is out of range", member.name, value),
                     fmt::format("give a value {}", describe(option->range, option->dimension)), key);

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <string>
-#include <utility>
 
-#include "ask/patch_forces.hpp"
 #include "core/faults.hpp"
 #include "core/root.hpp"
 #include "halfspace/hertz.hpp"

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "ask/contact.hpp"
-#include "ask/named.hpp"
+#include "ask/patch_forces.hpp"
 #include "geometry/wheelset.hpp"
 
 namespace railstrata {
@@ -46,16 +45,9 @@ inline constexpr std::array<Named<WheelsetState, double, std::optional<double>, 
                     {"rail_z_rate", "m/s", &WheelsetState::rail_z_rate}}};
 
 /// One wheel, in the track's axes; meanings are those of rs_wheel (railstrata.h).
-struct WheelForces {
-  Vec3 force, moment;
-  double normal_force = 0, lateral_force = 0, spin_moment = 0;
+struct WheelForces : PatchForces {
   double creepage_x = 0, creepage_y = 0, spin = 0;
-  double approach = 0;
-  Vec3 point;
-  Vec2 on_wheel, on_rail;
-  double contact_angle = 0, rolling_radius = 0;
-  double p_max = 0, patch_area = 0, dissipation = 0;
-  int patches = 0, cells = 0;
+  int patches = 0;
   bool checks_hold = true;
 };
 inline constexpr std::array<Named<WheelForces, double, int, bool, Vec2, Vec3>, 20> kWheelForces{

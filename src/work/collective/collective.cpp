@@ -57,14 +57,6 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
   row.fault = failed_check(row.summary_json);
 }
 
-void solve_or_tell(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
-  try {
-    solve(row, folder, options);
-  } catch (const std::exception& e) {
-    row.fault = fault_line(e);
-  }
-}
-
 /// Rows whose checks failed are shown, but not summed.
 std::vector<WheelKind> kinds_of(const std::vector<CollectiveRow>& rows) {
   std::vector<WheelKind> out;
@@ -92,7 +84,11 @@ void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::p
                       const CollectiveOptions& options) {
   std::size_t done = 0;
   for_each_completed(rows.size(), options.control, [&](std::size_t i) {
-    solve_or_tell(rows[i], folder, options);
+    try {
+      solve(rows[i], folder, options);
+    } catch (const std::exception& e) {
+      rows[i].fault = fault_line(e);
+    }
     return [&, i] {
       rows[i].done = true;
       if (options.control)

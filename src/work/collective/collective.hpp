@@ -1,7 +1,6 @@
 #pragma once
 // A load collective: half-space solutions of the case's rows of [[load]], and what all their passages do to the rail.
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -24,10 +24,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool known(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
 /// In the unit of a column, or as people see it: divided, as these files have always been, to the last digit.
 double in_column(const Unit& unit, double si) { return si / (1 / unit.column_factor); }
 double as_shown(const Unit& unit, double si) { return si / (1 / unit.factor); }
@@ -43,7 +39,9 @@ std::vector<KnownWear> known_laws(const Damage& damage, const std::string& whose
   for (const KnownWear& wear :
        {KnownWear{WearLaw::usfd, "usfd", "USFD"}, KnownWear{WearLaw::kth, "kth", "Archard, Jendel's map (KTH)"},
         KnownWear{WearLaw::archard, "archard", fmt::format("Archard, {} wear_coefficient", whose)}})
-    if (known(damage.depth(wear.law))) out.push_back(wear);
+    if (const std::vector<double>& depth = damage.depth(wear.law);
+        std::all_of(depth.begin(), depth.end(), [](double v) { return std::isfinite(v); }))
+      out.push_back(wear);
   return out;
 }
 
@@ -101,6 +99,13 @@ ReportCheck unsolved_check(const std::vector<CollectiveRow>& rows) {
   return out;
 }
 
+/// Of the sound rows.
+double passages_of(const std::vector<CollectiveRow>& rows) {
+  double out = 0;
+  for (const CollectiveRow& row : rows) out += row.sound() ? row.passages : 0;
+  return out;
+}
+
 double mgt_of(const Lives& lives) { return lives.tonnes / 1e6; }
 
 /// The depth of a thousand passages, and how far the sum over all of them can be trusted.
@@ -112,8 +117,7 @@ ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const Collectiv
   if (asked == known.end()) return {};
   const std::vector<double> depth = smoothed_wear(d, wanted);
   const auto deepest = std::max_element(depth.begin(), depth.end());
-  double passages = 0;
-  for (const CollectiveRow& row : rows) passages += row.sound() ? row.passages : 0;
+  const double passages = passages_of(rows);
   const double micro = as_shown(unit::kMicrometres, *deepest),
                y = d.y[static_cast<std::size_t>(deepest - depth.begin())], mgt = mgt_of(both.lives);
   const std::string per_traffic =
@@ -235,8 +239,7 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
     t.rows.push_back({what, units, total, shown(values[at]), as_shown(unit::kMillimetres, damage.y[at])});
   };
   const auto plain = [](double v) { return v; };
-  double passages = 0;
-  for (const CollectiveRow& row : rows) passages += row.sound() ? row.passages : 0;
+  const double passages = passages_of(rows);
   add("passages; over one place", "", passages, damage.passages, plain);
   add("friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
       damage.friction_energy, [](double v) { return unit::kSurfaceEnergy.factor * v; });
@@ -255,21 +258,10 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
   return t;
 }
 
-/// The cells that are rolled over, with a little room on either side, from `first` up to `second`.
-std::pair<std::size_t, std::size_t> rolled_range(const std::vector<double>& passages) {
-  constexpr std::size_t kRoom = 8;
-  const auto rolled = [](double v) { return v > 0; };
-  const auto first = std::find_if(passages.begin(), passages.end(), rolled);
-  const auto last = std::find_if(passages.rbegin(), passages.rend(), rolled).base();
-  if (first == passages.end()) return {0, passages.size()};
-  const auto from = static_cast<std::size_t>(first - passages.begin()),
-             to = static_cast<std::size_t>(last - passages.begin());
-  return {from > kRoom ? from - kRoom : 0, std::min(passages.size(), to + kRoom)};
-}
-
 ReportSeries series_over(const std::string& name, const std::vector<double>& y, const std::vector<double>& rolled,
                          const std::vector<double>& values, const Unit& shown_in) {
-  const auto [from, to] = rolled_range(rolled);
+  constexpr std::size_t kRoom = 8;
+  const auto [from, to] = cells_above(rolled, 0, kRoom);
   ReportSeries s{.name = name, .x = {}, .y = {}, .markers = false};
   for (std::size_t i = from; i < to; ++i) {
     s.x.push_back(as_shown(unit::kMillimetres, y[i]));
@@ -357,6 +349,15 @@ std::vector<ReportChart> charts_of(const RailDamage& d) {
 }
 
 }  // namespace
+
+ShownCells cells_above(const std::vector<double>& values, double least, std::size_t room) {
+  const auto above = [&](double v) { return v > least; };
+  const auto first = std::find_if(values.begin(), values.end(), above);
+  if (first == values.end()) return {0, values.size()};
+  const auto from = static_cast<std::size_t>(first - values.begin()),
+             to = static_cast<std::size_t>(std::find_if(values.rbegin(), values.rend(), above).base() - values.begin());
+  return {from > room ? from - room : 0, std::min(values.size(), to + room)};
+}
 
 std::vector<KnownWear> known_wear(const RailDamage& damage) { return known_laws(damage, "the rail's"); }
 std::vector<KnownWear> known_wear(const WheelDamage& damage) { return known_laws(damage, "the wheel's"); }

@@ -13,6 +13,13 @@ namespace railstrata {
 /// Title of the axis of pictures across the rail.
 inline constexpr const char* kAcross = "y across the rail, from its axis to the field side [mm]";
 
+/// Cells from the first up to the second.
+struct ShownCells {
+  std::size_t from = 0, to = 0;
+};
+/// From the first to the last value above `least`, with `room` cells on either side; all where there is none.
+ShownCells cells_above(const std::vector<double>& values, double least, std::size_t room);
+
 /// The columns of collective.csv, a row for each load.
 CaseTable collective_table(const std::vector<CollectiveRow>& rows);
 void write_collective_table(const std::filesystem::path& file, const std::vector<std::string>& origin,

@@ -10,13 +10,13 @@
 #include "ask/answer.hpp"
 #include "core/faults.hpp"
 #include "many/each_case.hpp"
-#include "model/model.hpp"
 #include "result/result_table.hpp"
 #include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
 
+constexpr std::size_t kMostTablePoints = 2'000'000;
 constexpr std::string_view kLongitudinal = "drive.creepage", kLateral = "drive.lateral_creepage", kSpin = "drive.spin";
 
 /// Creepages are set in a spec that is loaded already: a row along one of them needs no case to be read.
@@ -102,28 +102,9 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 }  // namespace
 
-/// The case at a combination of what is no creepage, or why there is none.
-struct CreepTable::Outer {
-  std::optional<CaseSpec> spec;
-  Placement placement;
-  std::string fault;
-};
-
-/// Points along one axis, in its order.
-struct CreepTable::Row {
-  std::size_t first = 0, stride = 1;
-};
-
-CreepTable::~CreepTable() = default;
-CreepTable::CreepTable(CreepTable&&) noexcept = default;
-
 CreepTable::CreepTable(const LoadedCase& base, const std::vector<std::string>& overrides, std::vector<NumberAxis> axes,
                        std::optional<ScaledCounts> scaled)
-    : base_(base),
-      overrides_(overrides),
-      axes_(std::move(axes)),
-      row_axis_(axes_.size() - 1),
-      noting_(std::make_unique<std::mutex>()) {
+    : base_(base), overrides_(overrides), axes_(std::move(axes)), row_axis_(axes_.size() - 1) {
   if (scaled) put_creepages_first(axes_);
   double points_asked = 1;
   std::vector<Axis> outer_axes;
@@ -233,7 +214,7 @@ std::string CreepTable::place_words(const std::vector<double>& asked, bool witho
 }
 
 void CreepTable::note_fault(std::size_t point, const std::string& fault) {
-  const std::lock_guard lock(*noting_);
+  const std::lock_guard lock(noting_);
   const std::string text =
       fmt::format("{}: {}", place_words(asked_place(table_, point), !outer_at(point).spec), first_line(fault));
   if (faults_.size() < 20 && std::find(faults_.begin(), faults_.end(), text) == faults_.end()) faults_.push_back(text);

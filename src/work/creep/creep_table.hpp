@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,13 +11,11 @@
 #include "bem/bem_options.hpp"
 #include "core/control.hpp"
 #include "many/axis.hpp"
+#include "model/model.hpp"
 #include "reader/case_file.hpp"
 #include "table/force_table.hpp"
 
 namespace railstrata {
-
-/// Largest number of solutions of a table.
-inline constexpr std::size_t kMostTablePoints = 2'000'000;
 
 /// The numbers of a point in the order of the table's.
 inline constexpr std::size_t kCreepNumbers = 10;
@@ -48,10 +45,6 @@ class CreepTable {
   /// value or two axes together, too many points, a scaled table without one of the three.
   CreepTable(const LoadedCase& base, const std::vector<std::string>& overrides, std::vector<NumberAxis> axes,
              std::optional<ScaledCounts> scaled = {});
-  ~CreepTable();
-  CreepTable(CreepTable&&) noexcept;
-  CreepTable& operator=(CreepTable&&) = delete;
-
   const ForceTable& table() const { return table_; }
   std::size_t points() const { return table_.points(); }
   std::size_t missing() const;                                        ///< points without an answer: one that failed
@@ -72,8 +65,16 @@ class CreepTable {
   std::optional<CreepNumbers> direct(const std::vector<double>& point, const BemOptions& bem) const;
 
  private:
-  struct Outer;
-  struct Row;
+  /// The case at a combination of what is no creepage, or why there is none.
+  struct Outer {
+    std::optional<CaseSpec> spec;
+    Placement placement;
+    std::string fault;
+  };
+  /// Points along one axis, in its order.
+  struct Row {
+    std::size_t first = 0, stride = 1;
+  };
   std::vector<std::size_t> index_of(std::size_t point) const;
   const Outer& outer_at(std::size_t point) const;
   Outer load(const std::vector<std::string>& values) const;
@@ -94,7 +95,7 @@ class CreepTable {
   ForceTable table_;
   std::vector<Outer> outer_;
   std::vector<std::string> faults_;
-  std::unique_ptr<std::mutex> noting_;
+  std::mutex noting_;
 };
 
 }  // namespace railstrata

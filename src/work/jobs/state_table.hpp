@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/vec.hpp"
 #include "record/csv.hpp"
 
 namespace railstrata {
@@ -55,6 +56,21 @@ std::vector<Row> read_rows(const std::filesystem::path& file, const StateColumns
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*column.value = values[k];
   }
   return rows;
+}
+
+/// A profile as profiles are read (geometry/read_profile.hpp): y and z in mm.
+inline const StateColumns<Vec2> kProfileColumns{{"y", &Vec2::y, unit::kMillimetres},
+                                                {"z", &Vec2::z, unit::kMillimetres}};
+
+inline void write_profile_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                                std::vector<Vec2> points) {
+  for (Vec2& p : points) p = in_table(kProfileColumns, p);
+  write_rows(file, origin, kProfileColumns, points);
+}
+inline std::vector<Vec2> read_profile_table(const std::filesystem::path& file) {
+  std::vector<Vec2> points = read_rows(file, kProfileColumns);
+  for (Vec2& p : points) p = in_si(kProfileColumns, p);
+  return points;
 }
 
 }  // namespace railstrata

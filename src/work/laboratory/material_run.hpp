@@ -1,7 +1,6 @@
 #pragma once
 // A material law driven along a path (material/material_path.hpp): tables and a picture of it.
 #include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 

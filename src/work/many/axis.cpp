@@ -44,31 +44,6 @@ bool is_number(const Option* option) {
   return std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot);
 }
 
-struct UnitWord {
-  Dimension dimension;
-  const char* unit;
-};
-const UnitWord kUnits[] = {{dimension::kNumber, ""},
-                           {dimension::kLength, "m"},
-                           {dimension::kForce, "N"},
-                           {dimension::kPressure, "Pa"},
-                           {dimension::kMass, "kg"},
-                           {dimension::kTime, "s"},
-                           {dimension::kSpeed, "m/s"},
-                           {dimension::kSpin, "1/m"},
-                           {dimension::kSlope, ""},
-                           {dimension::kDensity, "kg/m3"},
-                           {dimension::kRate, "1/s"},
-                           {dimension::kHardness, "HV"},
-                           {dimension::kStiffness, "N/m"},
-                           {dimension::kDamping, "N s/m"},
-                           {dimension::kPressureGradient, "Pa/m"},
-                           {dimension::kToughness, "Pa m^0.5"},
-                           {dimension::kConductivity, "W/(m K)"},
-                           {dimension::kHeatCapacity, "J/(kg K)"},
-                           {dimension::kTemperature, "K"},
-                           {dimension::kRotation, "rad/s"}};
-
 std::vector<std::string> split(std::string_view text, char by) {
   std::vector<std::string> out;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -220,7 +195,7 @@ NumberAxis number_axis(const std::string& option, const std::string& text) {
   }
   AxisNumbers numbers(name, *found);
   if (!is_number(found)) numbers.refuse(fmt::format("{} is no number", out.key));
-  out.unit = si_unit(*found);
+  out.unit = si_unit(found->dimension);
   out.at = numbers(said.values);
   if (out.at.size() < 2) numbers.refuse("an axis needs at least two values");
   if (std::adjacent_find(out.at.begin(), out.at.end(), std::greater_equal<>()) != out.at.end())
@@ -250,12 +225,6 @@ const Option* option_of_key(const std::string& key) {
   for (const Option& option : found->options)
     if (option.key == key.substr(last + 1)) return &option;
   return nullptr;
-}
-
-std::string si_unit(const Option& option) {
-  for (const UnitWord& u : kUnits)
-    if (u.dimension == option.dimension) return u.unit;
-  throw std::logic_error("dimension without an SI unit");
 }
 
 std::vector<std::string> axis_words() {

@@ -38,9 +38,6 @@ bool takes_no_number(const std::string& key);
 /// A value as people read it: ["-200 MPa", "-100 MPa"] as -200 MPa; -100 MPa.
 std::string shown_value(const std::string& text);
 
-/// The SI unit of an option's numbers as names of columns and tables have it: "N", "kg/m3"; "" of a plain number.
-std::string si_unit(const Option& option);
-
 /// The axis of a word or key. One value that stands for several is expanded: "from:to:count" at equal distances, "log
 /// from:to:count" at equal ratios, "+-largest:count", odd, through 0 and by equal ratios over two and a half decades to
 /// both sides. Throws CaseError: a range of what is no number, values out of the key's range.

@@ -1,10 +1,14 @@
 #include "many/case_row.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "record/csv.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
+#include "record/spreadsheet_text.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {
@@ -27,6 +31,21 @@ Value found(const std::vector<std::pair<std::string, Value>>& pairs, const std::
   const auto at = std::find_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.first == name; });
   return at == pairs.end() ? otherwise : at->second;
 }
+
+/// In quotes where it needs them, no formula to a spreadsheet.
+std::string csv_cell(const std::string& given) {
+  const std::string text = without_formula(given);
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+/// Empty for a number that does not apply.
+std::string csv_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 }  // namespace
 

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "record/escaped_text.hpp"
-
 namespace railstrata {
 std::vector<ResultColumn> result_columns(bool stresses) {
   std::vector<ResultColumn> out = table_columns();
@@ -83,19 +81,6 @@ double column_value(const ResultColumn& column, const nlohmann::ordered_json& su
   const nlohmann::ordered_json::json_pointer at(column.path);
   return summary.contains(at) && summary[at].is_number() ? column.factor * summary[at].get<double>() : kNotApplicable;
 }
-
-std::string csv_cell(const std::string& given) {
-  const std::string text = without_formula(given);
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-
-std::string csv_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 ResultRemarks remarks_of(const nlohmann::ordered_json& summary) {
   if (!summary.is_object()) return {};

@@ -31,11 +31,6 @@ std::string column_title(const std::string& name);
 /// The number of a summary; NaN where it is null or missing.
 double column_value(const ResultColumn& column, const nlohmann::ordered_json& summary);
 
-/// A cell of a CSV table: in quotes where it needs them, no formula to a spreadsheet (record/spreadsheet_text.hpp).
-std::string csv_cell(const std::string& text);
-/// Empty for a number that does not apply.
-std::string csv_cell(double value);
-
 /// Columns beside the numbers of a result in a table: its patches (0: no result), "ok" or the checks that fail, the
 /// warnings; names separated by "; "; whether it lasts and the zone that decides, both empty without a strength.
 struct ResultRemarks {

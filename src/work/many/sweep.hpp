@@ -1,6 +1,6 @@
 #pragma once
 // Half-space solutions over every combination of values of a case's keys.
-#include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -48,5 +48,10 @@ void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options);
 /// The cases that are done, in their order: keys, numbers, remarks.
 CaseTable sweep_table(const std::vector<SweepCase>& cases, const std::vector<Axis>& axes,
                       const std::vector<ResultColumn>& columns);
+
+/// The page: a chart for each number over the key with most values on an axis, a line for each combination of the other
+/// keys', and all cases in a table. Throws EnvironmentError for the disk.
+void write_sweep_page(const std::filesystem::path& page, const std::string& title, const std::vector<Axis>& keys,
+                      const std::vector<CaseRow>& rows);
 
 }  // namespace railstrata

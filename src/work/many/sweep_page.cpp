@@ -1,5 +1,3 @@
-#include "many/sweep_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <set>
 
 #include "many/case_page.hpp"
+#include "many/sweep.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
 #include "report/page.hpp"

@@ -8,13 +8,12 @@ namespace {
 
 constexpr const char* kKey = "run.device";
 
-bool on_a_device(const CaseSpec& spec) { return spec.run.rolling && spec.run.device != ComputeDevice::cpu; }
-
 }  // namespace
 
 void require_device(const CaseSpec& spec, const Ranks& ranks) {
-  if (spec.run.rolling && !ranks.alone()) require_support(uses::kRanks, spec);
-  if (on_a_device(spec)) device::require_at_hand();
+  if (!spec.run.rolling) return;
+  if (!ranks.alone()) require_support(uses::kRanks, spec);
+  if (spec.run.device != ComputeDevice::cpu) device::require_at_hand();
 }
 
 void require_device(const LoadedCase& loaded, const Ranks& ranks) {

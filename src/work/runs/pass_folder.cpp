@@ -7,7 +7,7 @@
 #include "ask/answer.hpp"
 #include "ask/solve_settings.hpp"
 #include "core/faults.hpp"
-#include "jobs/profile_table.hpp"
+#include "jobs/state_table.hpp"
 #include "judge/check_limits.hpp"
 #include "passes/pass_plan.hpp"
 #include "passes/pass_runner.hpp"

@@ -60,18 +60,11 @@ CaseSpec case_of_rolls(CaseSpec spec, const std::filesystem::path& folder, const
   return spec;
 }
 
-/// The rail for the next wheel: a piece with free ends, after the passes so far.
-RailBefore piece_with(const RollingSystem& system, const PlasticSection& section) {
+/// The rail after the passes so far: for the next wheel a piece with free ends, for the results endless.
+RailBefore rail_with(const RollingSystem& system, const PlasticSection& section, bool endless) {
   RailBefore out;
   out.history = history_of_section(system.rail(), section);
-  out.u = rail_at_rest(system, out.history);
-  return out;
-}
-/// The rail of the results: endless.
-RailBefore endless_rail_with(const RollingSystem& system, const PlasticSection& section) {
-  RailBefore out;
-  out.history = history_of_section(system.rail(), section);
-  out.u = endless_rail_at_rest(system, out.history);
+  out.u = endless ? endless_rail_at_rest(system, out.history) : rail_at_rest(system, out.history);
   return out;
 }
 
@@ -140,7 +133,7 @@ std::optional<RolledPasses::Pass> RolledPasses::next(RolledSeries& series, const
   const RollingSystem system(model);
   RailBefore before;
   if (!begun && !series.section.quads.empty()) {
-    before = piece_with(system, series.section);
+    before = rail_with(system, series.section, false);
     own.before = &before;
   }
   PlasticSection after, first, second;
@@ -159,7 +152,7 @@ std::optional<RolledPasses::Pass> RolledPasses::next(RolledSeries& series, const
   if (solution.stopped) return std::nullopt;
 
   const PlasticSection was = on_quads(series.section, after);
-  Pass out{rolled_pass(system, base_, was, after, endless_rail_with(system, after), 0.5 * (roll_.from + roll_.to)), {}};
+  Pass out{rolled_pass(system, base_, was, after, rail_with(system, after, true), 0.5 * (roll_.from + roll_.to)), {}};
   out.loops = rolled_loops(system, base_, after, out, rolled);
   const Summary& summary = solution.positions.back().summary;
   out.uneven = unevenness(was, first, second);

@@ -8,13 +8,10 @@ double RunControl::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - times_.begun).count();
 }
 
-bool RunControl::out_of_time(double now) const {
-  return times_.limit > 0 && now + 2 * longest_save_ + longest_pause_ + 0.01 * times_.limit >= times_.limit;
-}
-
 bool RunControl::must_stop(double now) {
   if (asked_.stop) return true;
-  limit_reached_ = limit_reached_ || out_of_time(now);
+  limit_reached_ = limit_reached_ ||
+                   (times_.limit > 0 && now + 2 * longest_save_ + longest_pause_ + 0.01 * times_.limit >= times_.limit);
   return limit_reached_;
 }
 

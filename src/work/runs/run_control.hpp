@@ -31,7 +31,6 @@ class RunControl {
 
  private:
   double elapsed() const;
-  bool out_of_time(double now) const;
   bool must_stop(double now);
   RunTimes times_;
   Control& asked_;

@@ -1,6 +1,5 @@
 #pragma once
 // Time and memory of a run, estimated without running it.
-#include <string>
 
 #include <vector>
 

@@ -114,4 +114,17 @@ std::string RunJob::to_resume() const {
   return fmt::format("\n    railstrata run --resume {}", shell_word(folder().string()));
 }
 
+void follow_run(const LoadedCase& loaded, const std::filesystem::path& resumed, const FemOptions& options) {
+  if (resumed.empty()) require_support(uses::kFiniteElements, loaded);
+  require_device(loaded, options.ranks);
+  std::optional<RunState> begun;
+  if (!resumed.empty()) begun = read_checkpoint(resumed, identity_in_folder(resumed, loaded)).checkpoint.run;
+  const RollingSystem system = fem_system(loaded.spec, loaded.folder());
+  RunObserver observer;  // what rank 0 asks for: all ranks take part in collecting the state
+  const CaseSpec& spec = system.model.spec;
+  if (spec.run.rolling && spec.run.output.patch_series) observer.frame = [](const RollingSample&) {};
+  observer.save = [](const RunState&, bool) {};
+  solve_fem(system, observer, options, std::move(begun));
+}
+
 }  // namespace railstrata

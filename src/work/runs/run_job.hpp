@@ -47,4 +47,9 @@ class RunJob : public CaseJob {
   std::optional<RunResidual> residual_;
 };
 
+/// A rank other than 0: computes along with rank 0's job until the files are to be written, and touches none. resumed:
+/// the folder that rank 0 resumes; empty: it begins. Throws CaseError as RunJob does for what the case asks, and as
+/// solve_fem.
+void follow_run(const LoadedCase& loaded, const std::filesystem::path& resumed, const FemOptions& options);
+
 }  // namespace railstrata

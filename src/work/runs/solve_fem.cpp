@@ -16,41 +16,23 @@
 namespace railstrata {
 namespace {
 
-/// Asks the control on behalf of the rolling, and hands the states that it asked for to the observer.
-class StateKeeper {
- public:
-  StateKeeper(RunControl& control, const RunObserver& observer, const FemOptions& options)
-      : control_(control),
-        observer_(observer),
-        ranks_(options.ranks),
-        states_wanted_(observer.save || options.control || options.times.limit > 0) {}
-
-  void observe(RunObserver& run) {
-    run.demand = [this] {  // of several ranks what any of them asks for: signals and clocks differ
-      const auto own = static_cast<double>(answer(control_.demand()));
-      return static_cast<Demand>(largest_of_all(ranks_, own));
-    };
-    if (states_wanted_) run.save = [this](const RunState& state, bool stopping) { save(state, stopping); };
-  }
-
-  std::optional<RunState> stopped_at;
-
- private:
-  /// Without anyone to take a checkpoint, there is nothing to do on the way.
-  Demand answer(Demand demand) const { return demand == Demand::save && !observer_.save ? Demand::go_on : demand; }
-
-  void save(const RunState& state, bool stopping) {
+/// Lets the run ask the control, and hands the states that it asked for to the observer; the one that it stops at is
+/// left in `stopped_at`.
+void observe_states(RunControl& control, const RunObserver& observer, const FemOptions& options, RunObserver& run,
+                    std::optional<RunState>& stopped_at) {
+  run.demand = [&] {  // of several ranks what any of them asks for: signals and clocks differ
+    Demand own = control.demand();
+    if (own == Demand::save && !observer.save) own = Demand::go_on;  // nobody takes a checkpoint on the way
+    return static_cast<Demand>(largest_of_all(options.ranks, static_cast<double>(own)));
+  };
+  if (!observer.save && !options.control && !(options.times.limit > 0)) return;
+  run.save = [&](const RunState& state, bool stopping) {
     const auto start = std::chrono::steady_clock::now();
-    if (observer_.save) observer_.save(state, stopping);
-    control_.saved(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (observer.save) observer.save(state, stopping);
+    control.saved(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     if (stopping) stopped_at = state;
-  }
-
-  RunControl& control_;
-  const RunObserver& observer_;
-  Ranks ranks_;
-  bool states_wanted_;
-};
+  };
+}
 
 FemPosition position_of(const RollingSystem& system, const RunResult& run, const PositionSamples& samples) {
   FemPosition out;
@@ -108,7 +90,6 @@ FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, 
                       std::optional<RunState> begun) {
   Control& asked = control_or_none(options.control);
   RunControl control(options.times, asked);
-  StateKeeper states(control, observer, options);
   RunObserver run_observer = observer;
   run_observer.preload = [&](double residual, double wanted, int iterations) {
     asked.detail("preload: residual {:.1e} (wanted {:.0e}), {} iterations", residual, wanted, iterations);
@@ -125,7 +106,8 @@ FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, 
     if (observer.finished) observer.finished(state);
     if (has_residual(system, options) && varying_key(system.model.spec).empty()) residual = run_residual(system, state);
   };
-  states.observe(run_observer);
+  std::optional<RunState> stopped_at;
+  observe_states(control, observer, options, run_observer, stopped_at);
 
   RunResult run = roll(system, run_observer, control, options, std::move(begun));
   if (has_residual(system, options)) {
@@ -135,7 +117,7 @@ FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, 
   FemSolution out;
   out.stopped = run.stopped;
   out.limit_reached = control.limit_reached();
-  out.state = std::move(states.stopped_at);
+  out.state = std::move(stopped_at);
   if (!options.ranks.is_root()) return out;
   for (const PositionSamples& samples : run.positions) {
     if (samples.samples.empty()) break;

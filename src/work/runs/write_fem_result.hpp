@@ -1,11 +1,12 @@
 #pragma once
 // The files of a finite element run: those that grow while it is solved, and its results.
 #include <filesystem>
-#include <memory>
-#include <string>
+#include <optional>
+#include <vector>
 
 #include "io/checkpoint_file.hpp"
 #include "runs/solve_fem.hpp"
+#include "runs/write_transient.hpp"
 
 namespace railstrata {
 
@@ -23,7 +24,6 @@ class FemWriter {
   /// from; history.csv and the series of its patch are then written again up to there.
   FemWriter(const RollingSystem& system, std::filesystem::path folder, CheckpointOrigin origin,
             const RunState* begun = nullptr);
-  ~FemWriter();
 
   /// Makes the observer write history.csv, patch.pvd with its frames in patch_series/ (if the case asks for them) and
   /// checkpoint.h5, by save_checkpoint. The writer and the control must outlive the observer.
@@ -36,11 +36,17 @@ class FemWriter {
   void write(const FemSolution& solution);
 
  private:
-  struct GrowingFiles;
+  void begin_history();
+  void add(const HistoryRow& row);
+  bool has_series() const;
+  PatchSeries& series(const std::vector<double>& times = {});
   const RollingSystem& system_;
   std::filesystem::path folder_;
   CheckpointOrigin origin_;
-  std::unique_ptr<GrowingFiles> growing_;
+  // made when there is something to put in: a run stopped before the rolling leaves none
+  std::optional<RecordLog<HistoryRow>> history_;
+  std::optional<RecordLog<PointRow>> points_;
+  std::optional<PatchSeries> series_;
 };
 
 }  // namespace railstrata

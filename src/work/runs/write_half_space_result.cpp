@@ -18,14 +18,16 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
                              const CaseSpec& spec, const Placement& placement, const Answer& answer) {
   const BemResult& result = answer.result;
   const Summary& summary = answer.summary;
-  std::vector<LoadedContact> contacts{{result.place, result.force.normal}};
-  for (const BemPatch& p : result.further) contacts.push_back({p.place, p.force.normal});
+  std::vector<LoadedContact> contacts;
+  std::vector<const ContactField*> fields;
+  for (const BemPatch* p : patches_of(result)) {
+    contacts.push_back({p->place, p->force.normal});
+    fields.push_back(&p->field);
+  }
   write_geometry(folder / "geometry.json", answer.moment ? case_of_moment(spec, *answer.moment) : spec, placement,
                  contacts);
   write_placed_surfaces(folder, placement, summary.position);
   write_view_script(folder);
-  std::vector<const ContactField*> fields{&result.field};
-  for (const BemPatch& p : result.further) fields.push_back(&p.field);
   write_patch_tables(folder, provenance, fields);
   const StressMaximum& deepest = summary.rail.subsurface->von_mises;
   const double rail_depth = depths_of_interest(result.rail, summary.contact).deepest;

@@ -4,20 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "io/output_folder.hpp"
 #include "reader/case_file.hpp"
 #include "record/output_file.hpp"
 #include "report/page.hpp"
 #include "report/read_run.hpp"
-#include "runs/write_framed_report.hpp"
 #include "runs/write_half_space_result.hpp"
 
 namespace railstrata {
@@ -32,12 +30,6 @@ void solve_reference(const fs::path& case_file, const fs::path& folder) {
   fs::create_directories(folder);
   write_origin(folder, loaded, {"railstrata", "bem", case_file.string(), "--out", folder.string()}, max_threads());
   write_half_space_result(folder, table_origin(loaded), loaded.spec, placement, answer);
-}
-
-bool same_text(const fs::path& a, const fs::path& b) {
-  std::ifstream left(a, std::ios::binary), right(b, std::ios::binary);
-  return left && right &&
-         std::equal(std::istreambuf_iterator<char>(left), {}, std::istreambuf_iterator<char>(right), {});
 }
 
 std::string title_of(const std::vector<ReportRun>& runs) {
@@ -81,14 +73,12 @@ void add_shear_on_elements(const std::vector<fs::path>& folders, std::vector<Rep
       runs[k].shear_on_elements = shear_on_elements(folder_of_case(folders[k]) / "case.toml");
 }
 
-}  // namespace
-
-fs::path case_file_of(const fs::path& folder) { return folder_of_case(folder) / "case.toml"; }
-
+/// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that holds
+/// this case already. Of several positions each has the one of the run's folder. Returns the folder; empty, with a note
+/// of the reason, where the case or its profiles cannot be read any more or theory has no answer.
 fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& notes) {
   const fs::path home = folder_of_case(folder);
   fs::path out = home / kReferenceFolder;
-  if (fs::exists(out / "summary.json") && same_text(home / "case.toml", out / "case.toml")) return out;
   if (!fs::exists(home / "case.toml")) {
     notes.push_back(
         fmt::format("no half-space reference: {} has no case.toml; put back the one of the run, or leave "
@@ -96,6 +86,7 @@ fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& 
                     home.string()));
     return {};
   }
+  if (fs::exists(out / "summary.json") && file_text(home / "case.toml") == file_text(out / "case.toml")) return out;
   try {
     solve_reference(home / "case.toml", out);
     return out;
@@ -106,6 +97,10 @@ fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& 
   }
   return {};
 }
+
+}  // namespace
+
+fs::path case_file_of(const fs::path& folder) { return folder_of_case(folder) / "case.toml"; }
 
 bool write_page_or_warn(const fs::path& page, const Control& control, const std::function<WrittenPage()>& write) {
   try {
@@ -127,17 +122,13 @@ void report_page(const WrittenPage& page, const Control& control) {
   page.verdict.ok ? control.info("{}", verdict) : control.warn("{}", verdict);
 }
 
-WrittenPage write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference) {
-  return write_framed_report(page, folders, reference, {});
-}
-
 bool add_report(const fs::path& folder, const Control& control) {
   const fs::path page = folder / "report.html";
   return write_page_or_warn(page, control, [&] { return write_report(page, {folder}, true); });
 }
 
-WrittenPage write_framed_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference,
-                                const FramedPage& what_if) {
+WrittenPage write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference,
+                         const FramedPage& what_if) {
   std::vector<std::string> notes;
   Report report;
   for (const fs::path& folder : folders) report.runs.push_back(read_report_run(folder));

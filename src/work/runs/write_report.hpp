@@ -7,6 +7,7 @@
 
 #include "core/control.hpp"
 #include "report/checks.hpp"
+#include "report/framed_page.hpp"
 
 namespace railstrata {
 
@@ -23,15 +24,14 @@ bool write_page_or_warn(const std::filesystem::path& page, const Control& contro
 /// Reports the notes and the verdict of a written page, a failed one as a warning.
 void report_page(const WrittenPage& page, const Control& control);
 
-/// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that holds
-/// this case already. Of several positions each has the one of the run's folder. Returns the folder; empty, with a note
-/// of the reason, where the case or its profiles cannot be read any more or theory has no answer.
-std::filesystem::path half_space_reference(const std::filesystem::path& folder, std::vector<std::string>& notes);
+/// The case of a result folder: of a position that of the run's folder. The file need not be there.
+std::filesystem::path case_file_of(const std::filesystem::path& folder);
 
-/// Writes the page for these folders; throws CaseError where one is no result, EnvironmentError for the disk. A single
-/// finite element result is compared with its half-space reference if `reference` is true.
+/// Writes the page for these folders, with `what_if` in a frame unless its text is empty; throws CaseError where one is
+/// no result, EnvironmentError for the disk. A single finite element result is compared with its half-space reference
+/// if `reference` is true.
 WrittenPage write_report(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders,
-                         bool reference);
+                         bool reference, const FramedPage& what_if = {});
 
 /// The last step of `run` and `bem`: report.html of a folder, or a warning. Returns whether its verdict holds, true
 /// without a page.

@@ -1,18 +1,60 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <sstream>
 
 #include "core/faults.hpp"
 #include "core/text.hpp"
-#include "study/child_process.hpp"
 #include "study/running_case.hpp"
 
 namespace railstrata {
 namespace {
+
+/// Starts this same program with other arguments; its output and errors go to `log`. The kernel kills it when this
+/// process ends, in whatever way. To be called from the main thread. Throws EnvironmentError.
+pid_t start_self(const std::vector<std::string>& words, const std::filesystem::path& log) {
+  std::vector<std::string> copy = words;
+  std::vector<char*> argv;
+  for (std::string& w : copy) argv.push_back(w.data());
+  argv.push_back(nullptr);
+  const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (out < 0) throw EnvironmentError(fmt::format("cannot write {}: {}", log.string(), std::strerror(errno)));
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child == 0) {  // only calls that are safe after fork
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) _exit(static_cast<int>(ExitCode::interrupted));  // it died before that was said
+    ::dup2(out, STDOUT_FILENO);
+    ::dup2(out, STDERR_FILENO);
+    if (const int in = ::open("/dev/null", O_RDONLY); in >= 0) ::dup2(in, STDIN_FILENO);
+    ::signal(SIGUSR1, SIG_IGN);  // until it has a handler of its own: the default would end it
+    ::execv("/proc/self/exe", argv.data());
+    _exit(static_cast<int>(ExitCode::environment));
+  }
+  ::close(out);
+  if (child < 0) throw EnvironmentError(fmt::format("cannot start a process: {}", std::strerror(errno)));
+  return child;
+}
+
+/// True once it has ended; `status` is then that of waitpid.
+bool has_ended(pid_t child, int& status) {
+  const pid_t got = ::waitpid(child, &status, WNOHANG);
+  return got == child || (got < 0 && errno == ECHILD);
+}
+
+/// "killed by signal 9 (Killed)", "exit code 3".
+std::string describe_end(int status) {
+  if (WIFSIGNALED(status))
+    return fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+  return fmt::format("exit code {}", WEXITSTATUS(status));
+}
 
 /// Reason of a failure by the log: its first error, else its last line.
 std::string reason_of(const std::string& log, int status) {
@@ -66,6 +108,8 @@ class CaseProcess : public RunningCase {
 };
 
 }  // namespace
+
+void ignore_second_signal_in_children() { ::setenv(kIgnoreSecondSignal, "1", 1); }
 
 std::unique_ptr<RunningCase> start_process(const StudyCase& c, const CaseSettings& settings,
                                            const std::filesystem::path& folder, bool begun) {

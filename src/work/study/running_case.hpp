@@ -35,6 +35,14 @@ struct CaseSettings {
   std::counting_semaphore<>* wake = nullptr;  ///< released when a thread has ended
 };
 
+/// The variable of the environment by which a program that study starts knows that a second signal is not to end it.
+inline constexpr const char* kIgnoreSecondSignal = "RAILSTRATA_ONE_SIGNAL";
+
+/// Sets kIgnoreSecondSignal for all programs started from now on. A terminal's Ctrl-C and a batch system's SIGTERM
+/// reach them beside the signal that this program sends: two signals within one step would end them without a
+/// checkpoint. This program kills those that take too long.
+void ignore_second_signal_in_children();
+
 /// The command line that computes a case into a folder.
 std::vector<std::string> case_command(const StudyCase& c, const CaseSettings& settings,
                                       const std::filesystem::path& folder);

@@ -14,8 +14,7 @@
 #include "many/result_columns.hpp"
 #include "options/option_table.hpp"
 #include "text/text_file.hpp"
-#include "text/toml_document.hpp"
-#include "text/units.hpp"
+#include "text/toml_reader.hpp"
 
 namespace railstrata {
 namespace {
@@ -41,13 +40,13 @@ class StudyReader {
   StudyReader(CaseSource& source, StudySpec& spec) : source_(source), spec_(spec) {}
 
   void read(const toml::table& document) {
-    known(document, "", {"study", "group", "figure"});
+    keys_of(document, "", {"study", "group", "figure"});
     if (const toml::table* study = table_at(document, "study", "[study]"))
       read_study(*study);
     else if (!document.contains("study"))
       source_.complain_at({1, 1}, "there is no [study]", "begin with [study] and base = \"case.toml\" below it");
-    for (const toml::table* t : tables_at(document, "group")) read_group(*t);
-    for (const toml::table* t : tables_at(document, "figure")) read_figure(*t);
+    for (const toml::table* t : tables(source_, document, "group")) read_group(*t);
+    for (const toml::table* t : tables(source_, document, "figure")) read_figure(*t);
     if (spec_.groups.empty() && !document.contains("group"))
       source_.complain_at({1, 1}, "the study has no [[group]] of cases",
                           "write [[group]], name = \"layers\", and below it [group.vary] with \"layer.0.thickness\" = "
@@ -56,20 +55,27 @@ class StudyReader {
 
  private:
   void read_study(const toml::table& t) {
-    known(t, "study", {"title", "base", "engines", "cell", "set", "published"});
-    spec_.title = text(t, "title", source_.file().stem().string());
-    spec_.cell = length(t, "cell");
-    base_ = file(t, "base");
-    spec_.published = file(t, "published");
-    engines_ = engines_of(t, engines_);
+    TomlReader r = keys_of(t, "study", {"title", "base", "engines", "cell", "set"}, "published");
+    if (const auto published = t.find("published"); published != t.end())
+      source_.complain_at(place_of(published->first), "a study is no longer compared with published numbers",
+                          "take the key out; `railstrata validate` compares: a set whose series has recorded = "
+                          "\"study.csv\" (docs/validate.md)");
+    spec_.title = r.text_or("title", source_.file().stem().string());
+    spec_.cell = r.text("cell");
+    if (const double cell = spec_.cell.empty() ? 1 : r.quantity("cell", dimension::kLength, 1);
+        !(cell > 0 && std::isfinite(cell)))
+      source_.complain_at(place_of(*t.get("cell")), fmt::format("cell = \"{}\": must be above 0 mm", spec_.cell),
+                          "write a length, e.g. \"0.5 mm\"");
+    base_ = file(t, r, "base");
+    engines_ = engines_of(t, r, engines_);
     set_ = values_at(t, "set");
   }
 
   void read_group(const toml::table& t) {
-    known(t, "group", {"name", "title", "base", "engines", "set", "tags", "vary", "zip", "case"});
+    TomlReader r = keys_of(t, "group", {"name", "title", "base", "engines", "set", "tags", "vary", "zip", "case"});
     StudyGroup g;
-    g.name = text(t, "name", "");
-    g.title = text(t, "title", g.name);
+    g.name = r.text("name");
+    g.title = r.text_or("title", g.name);
     const bool plain = !g.name.empty() &&
                        g.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
                            std::string::npos &&
@@ -87,11 +93,11 @@ class StudyReader {
     else if (!names_.insert(g.name).second)
       source_.complain_at(place_of(*t.get("name")), fmt::format("there are two groups named \"{}\"", g.name),
                           "give each group its own name");
-    g.base = t.contains("base") ? file(t, "base") : base_;
+    g.base = t.contains("base") ? file(t, r, "base") : base_;
     if (g.base.empty() && !t.contains("base"))
       source_.complain_at(place_of(t), fmt::format("group \"{}\" has no base case", g.name),
                           "write base = \"case.toml\" in it or in [study]");
-    g.engines = engines_of(t, engines_);
+    g.engines = engines_of(t, r, engines_);
     g.set = set_;
     for (const StudyValue& v : values_at(t, "set")) put(g.set, v);
     g.tags = values_at(t, "tags");
@@ -100,24 +106,23 @@ class StudyReader {
   }
 
   void read_figure(const toml::table& t) {
-    known(t, "figure",
-          {"id", "title", "note", "kind", "value", "each", "series", "x", "y", "groups", "engines", "where"});
+    TomlReader r =
+        keys_of(t, "figure",
+                {"id", "title", "note", "kind", "value", "each", "series", "x", "y", "groups", "engines", "where"});
     StudyFigure f;
-    f.id = text(t, "id", fmt::format("figure-{}", spec_.figures.size() + 1));
-    f.title = text(t, "title", f.id);
-    f.note = text(t, "note", "");
-    f.kind = choice(t, "kind", {"centre_line", "trend", "map", "verdict", "grid"});
-    if (f.kind == "centre_line")
-      f.value = choice(t, "value", {"p", "q"});
-    else if (f.kind == "map")
-      f.value = choice(t, "value", {"state", "von_mises", "sigma_1"});
-    else if (f.kind == "trend" || f.kind == "grid")
-      f.value = text(t, "value", "p_max_MPa");
+    f.id = r.text_or("id", fmt::format("figure-{}", spec_.figures.size() + 1));
+    f.title = r.text_or("title", f.id);
+    f.note = r.text("note");
+    f.kind = r.text("kind");
+    r.choice("kind", f.kind, {"centre_line", "trend", "map", "verdict", "grid"});
+    if (f.kind != "verdict") f.value = r.text_or("value", f.kind == "trend" || f.kind == "grid" ? "p_max_MPa" : "");
+    if (f.kind == "centre_line") r.choice("value", f.value, {"p", "q"});
+    if (f.kind == "map") r.choice("value", f.value, {"state", "von_mises", "sigma_1"});
     if (f.kind == "trend" || f.kind == "grid") check_column(t, f);
-    f.each = text(t, "each", "");
-    f.series = text(t, "series", "");
-    f.x = text(t, "x", "");
-    f.y = text(t, "y", "");
+    f.each = r.text("each");
+    f.series = r.text("series");
+    f.x = r.text("x");
+    f.y = r.text("y");
     if ((f.kind == "verdict" || f.kind == "grid") && (f.x.empty() || f.y.empty()))
       source_.complain_at(place_of(t),
                           fmt::format("figure \"{}\" shows {} over two keys and has no {}", f.id,
@@ -130,14 +135,18 @@ class StudyReader {
       source_.complain_at(place_of(*t.get("x")),
                           fmt::format("figure \"{}\" is a trend over {}, which takes no number", f.id, f.x),
                           "make it the series of the trend, or draw kind = \"grid\" over two keys");
-    f.groups = texts(t, "groups");
+    f.groups = r.texts("groups");
     for (const std::string& g : f.groups)
       if (!names_.contains(g))
         source_.complain_at(place_of(*t.get("groups")), fmt::format("figure \"{}\": there is no group \"{}\"", f.id, g),
                             fmt::format("groups: {}", fmt::join(names_, ", ")));
     if (f.groups.empty()) f.groups.assign(names_.begin(), names_.end());
-    f.engines = engines_of(t, engines_);
-    for (const Axis& k : lists_at(t, "where")) f.where[k.key] = k.values;
+    f.engines = engines_of(t, r, engines_);
+    for (const auto& key : keyed_lists(t, "where")) {
+      std::vector<std::string>& texts = f.where[key.front().key];
+      texts.clear();
+      for (const StudyValue& v : key) texts.push_back(v.text);
+    }
     spec_.figures.push_back(std::move(f));
   }
 
@@ -186,7 +195,7 @@ class StudyReader {
       out = product(out, rows, t);
     }
     std::vector<StudyPoint> listed;
-    for (const toml::table* row : tables_at(t, "case")) {
+    for (const toml::table* row : tables(source_, t, "case")) {
       listed.emplace_back();
       flatten(*row, "", listed.back());
       if (listed.back().empty())
@@ -268,9 +277,10 @@ class StudyReader {
       if (!check_key(full, key)) return;
       std::vector<StudyValue> values = values_of(full, node);
       if (values.empty())
-        return source_.complain_at(
-            place_of(node), fmt::format("{} under {}: must be a list of at least one value", full, name),
-            fmt::format("write \"{}\" = [{}], or put a single value into [group.set]", full, plain_example(node)));
+        return source_.complain_at(place_of(node),
+                                   fmt::format("{} under {}: must be a list of at least one value", full, name),
+                                   fmt::format("write \"{}\" = [{}], or put a single value into [group.set]", full,
+                                               node.is_array() ? "value, value" : toml_text(node)));
       for (std::size_t i = 0; i < values.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
           if (values[i].toml == values[j].toml)
@@ -297,29 +307,13 @@ class StudyReader {
     return out;
   }
 
-  static std::string plain_example(const toml::node& node) {
-    return node.is_array() ? "value, value" : toml_text(node);
-  }
-
-  std::vector<Axis> lists_at(const toml::table& t, const char* name) {
-    std::vector<Axis> out;
-    for (const auto& key : keyed_lists(t, name)) {
-      out.push_back({key.front().key, {}});
-      for (const StudyValue& v : key) out.back().values.push_back(v.text);
-    }
-    return out;
-  }
-
-  void known(const toml::table& t, const std::string& name, const std::vector<std::string>& keys) {
-    for (const auto& [key, node] : t) {
-      const std::string word(key.str());
-      if (std::find(keys.begin(), keys.end(), word) != keys.end()) continue;
-      const std::string near = nearest_word(word, keys);
-      source_.complain_at(
-          place_of(key), fmt::format("unknown key {}{}{}", name, name.empty() ? "" : ".", word),
-          fmt::format("{}{}: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
-                      name.empty() ? "tables of a study" : fmt::format("keys of [{}]", name), fmt::join(keys, ", ")));
-    }
+  /// gone: a key that was one once, and of which the caller complains.
+  TomlReader keys_of(const toml::table& t, const std::string& name, std::vector<std::string> keys,
+                     const std::string& gone = {}) {
+    const std::string all = fmt::format(
+        "{}: {}", name.empty() ? "tables of a study" : fmt::format("keys of [{}]", name), fmt::join(keys, ", "));
+    if (!gone.empty()) keys.push_back(gone);
+    return {source_, t, keys, all, name};
   }
 
   const toml::table* table_at(const toml::table& t, const char* key, const std::string& remedy) {
@@ -331,60 +325,10 @@ class StudyReader {
     return node->as_table();
   }
 
-  std::vector<const toml::table*> tables_at(const toml::table& t, const char* key) {
-    std::vector<const toml::table*> out;
-    const toml::node* node = t.get(key);
-    if (!node) return out;
-    const toml::array* list = node->as_array();
-    if (list)
-      for (const toml::node& item : *list)
-        if (const toml::table* inner = item.as_table()) out.push_back(inner);
-    if (!list || out.size() != list->size())
-      source_.complain_at(place_of(*node), fmt::format("{} must be a list of tables", key),
-                          fmt::format("write [[{}]] with two brackets", key));
-    return out;
-  }
-
-  std::string text(const toml::table& t, const char* key, std::string otherwise) {
-    const toml::node* node = t.get(key);
-    if (!node) return otherwise;
-    if (const auto* words = node->as_string()) return words->get();
-    source_.complain_at(place_of(*node), fmt::format("{} = {}: must be a text", key, toml_text(*node)),
-                        "put it in quotes");
-    return otherwise;
-  }
-
-  std::string length(const toml::table& t, const char* key) {
-    std::string written = text(t, key, "");
-    try {
-      if (!written.empty() && !(parse_quantity(written, dimension::kLength) > 0 &&
-                                std::isfinite(parse_quantity(written, dimension::kLength))))
-        source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": must be above 0 mm", key, written),
-                            "write a length, e.g. \"0.5 mm\"");
-    } catch (const UnitError& e) {
-      source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": {}", key, written, e.what()), e.remedy);
-    }
-    return written;
-  }
-
-  std::vector<std::string> texts(const toml::table& t, const char* key) {
-    std::vector<std::string> out;
-    const toml::node* node = t.get(key);
-    if (!node) return out;
-    const toml::array* list = node->as_array();
-    if (list)
-      for (const toml::node& item : *list)
-        if (const auto* word = item.as_string()) out.push_back(word->get());
-    if (!list || out.size() != list->size() || out.empty())
-      source_.complain_at(place_of(*node), fmt::format("{} must be a list of texts", key),
-                          fmt::format("write {} = [\"…\"]", key));
-    return out;
-  }
-
-  std::vector<Engine> engines_of(const toml::table& t, const std::vector<Engine>& otherwise) {
+  std::vector<Engine> engines_of(const toml::table& t, TomlReader& r, const std::vector<Engine>& otherwise) {
     if (!t.contains("engines")) return otherwise;
     std::vector<Engine> out;
-    for (const std::string& word : texts(t, "engines"))
+    for (const std::string& word : r.texts("engines"))
       if (const auto engine = engine_of(word))
         out.push_back(*engine);
       else
@@ -394,18 +338,9 @@ class StudyReader {
     return out;
   }
 
-  std::string choice(const toml::table& t, const char* key, const std::vector<std::string>& choices) {
-    std::string word = text(t, key, "");
-    if (std::find(choices.begin(), choices.end(), word) == choices.end())
-      source_.complain_at(t.contains(key) ? place_of(*t.get(key)) : place_of(t),
-                          fmt::format("{} = \"{}\": must be one of \"{}\"", key, word, fmt::join(choices, "\", \"")),
-                          fmt::format("write {} = \"{}\"", key, choices.front()));
-    return word;
-  }
-
   /// Relative to the study's folder.
-  std::filesystem::path file(const toml::table& t, const char* key) {
-    const std::string name = text(t, key, "");
+  std::filesystem::path file(const toml::table& t, TomlReader& r, const char* key) {
+    const std::string name = r.text(key);
     const toml::node* node = t.get(key);
     if (!node || !node->is_string()) return {};
     if (name.empty()) {

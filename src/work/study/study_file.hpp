@@ -42,8 +42,7 @@ struct StudyFigure {
 };
 
 struct StudySpec {
-  std::string title, cell;          ///< cell: of the half-space engine; empty: its default
-  std::filesystem::path published;  ///< file of published numbers to compare with; empty: none
+  std::string title, cell;  ///< cell: of the half-space engine; empty: its default
   std::vector<StudyGroup> groups;
   std::vector<StudyFigure> figures;
 };

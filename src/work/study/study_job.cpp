@@ -3,20 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-
-#include <nlohmann/json.hpp>
 
 #include "core/faults.hpp"
 #include "core/printable.hpp"
+#include "io/folder_kind.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "jobs/duration_text.hpp"
 #include "many/each_case.hpp"
 #include "record/output_file.hpp"
+#include "report/checks.hpp"
+#include "report/page.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/write_report.hpp"
-#include "study/study_page.hpp"
+#include "study/study_report.hpp"
 
 namespace railstrata {
 namespace {
@@ -26,10 +26,7 @@ namespace fs = std::filesystem;
 /// A study has begun in this folder. It is known by the command line in provenance.json, which is written first;
 /// study.toml is what people call their own files.
 bool is_study_folder(const fs::path& folder) {
-  std::ifstream in(folder / "provenance.json", std::ios::binary);
-  const auto origin = nlohmann::json::parse(in, nullptr, false);
-  if (!origin.is_object() || !origin.contains("command_line") || !origin["command_line"].is_array()) return false;
-  const auto& words = origin["command_line"];
+  const std::vector<std::string> words = command_line_of(folder);
   return std::find(words.begin(), words.end(), "study") != words.end();
 }
 
@@ -42,14 +39,13 @@ std::vector<std::string> study_origin(const LoadedStudy& study) {
 
 class StudyJob : public Job {
  public:
-  StudyJob(const LoadedStudy& study, Published published, std::vector<StudyCase> cases, std::vector<bool> ours,
-           StudyOrder order, Control& control)
+  StudyJob(const LoadedStudy& study, std::vector<StudyCase> cases, std::vector<bool> ours, StudyOrder order,
+           Control& control)
       : Job({"study", nullptr, ""}, order, control),
         study_(study),
         cases_(std::move(cases)),
         ours_(std::move(ours)),
-        wanted_(std::move(order)),
-        published_(std::move(published)) {
+        wanted_(std::move(order)) {
     require_case_processes();
     require_devices();
   }
@@ -87,11 +83,10 @@ class StudyJob : public Job {
       if (std::find(inputs.begin(), inputs.end(), g.base) == inputs.end()) inputs.push_back(g.base);
     write_whole_file(folder() / "provenance.json",
                      provenance_json(order_.command.command_line, wanted_.overrides, inputs, order_.command.threads));
-    write_whole_file(
-        folder() / "study.toml",
-        fmt::format("# A copy for the record of {}: run that one, for its base and published are named relative "
-                    "to its folder.\n{}",
-                    printable(study_.file.filename().string()), study_.source_text));
+    write_whole_file(folder() / "study.toml",
+                     fmt::format("# A copy for the record of {}: run that one, for its base is named relative "
+                                 "to its folder.\n{}",
+                                 printable(study_.file.filename().string()), study_.source_text));
     recover(folder(), cases_, wanted_.lease);
     find_results(folder(), cases_);
   }
@@ -164,7 +159,11 @@ class StudyJob : public Job {
     if (std::none_of(rows_.begin(), rows_.end(), [](const CaseRow& r) { return r.done(); })) return true;
     const fs::path page = folder() / "report.html";
     return write_page_or_warn(page, control_, [&] {
-      return WrittenPage{write_study_page(page, study_, published_, rows_), {}};
+      std::vector<CaseRow> rows = rows_;
+      for (CaseRow& row : rows) row.folder = folder() / row.folder;
+      const Report report = study_report(study_.spec, rows);
+      write_whole_file(page, report_page(report));
+      return WrittenPage{verdict_of(report), {}};
     });
   }
 
@@ -176,7 +175,6 @@ class StudyJob : public Job {
   std::vector<StudyCase> cases_;
   std::vector<bool> ours_;
   const StudyOrder wanted_;
-  Published published_;
   bool computed_ = false;
   std::ptrdiff_t left_ = 0;  ///< to other processes
   std::vector<CaseRow> rows_, our_rows_;
@@ -184,10 +182,9 @@ class StudyJob : public Job {
 
 }  // namespace
 
-JobEnd carry_out_study(const LoadedStudy& study, Published published, std::vector<StudyCase> cases,
-                       std::vector<bool> ours, StudyOrder order, Control& control,
-                       const std::function<void(const std::vector<CaseRow>&)>& at_end) {
-  StudyJob job(study, std::move(published), std::move(cases), std::move(ours), std::move(order), control);
+JobEnd carry_out_study(const LoadedStudy& study, std::vector<StudyCase> cases, std::vector<bool> ours, StudyOrder order,
+                       Control& control, const std::function<void(const std::vector<CaseRow>&)>& at_end) {
+  StudyJob job(study, std::move(cases), std::move(ours), std::move(order), control);
   return job.carry_out([&] { at_end(job.rows()); });
 }
 

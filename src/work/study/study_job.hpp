@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "jobs/job.hpp"
-#include "study/published.hpp"
 #include "study/study_file.hpp"
 #include "study/study_results.hpp"
 #include "study/study_run.hpp"
@@ -23,9 +22,8 @@ struct StudyOrder : JobOrder {
 
 /// Carries the study out. `ours`: of the cases those that this job sees to; `at_end`: called with their rows. Throws
 /// EnvironmentError for a device that a case asks for and this machine lacks, or where no processes are started.
-JobEnd carry_out_study(const LoadedStudy& study, Published published, std::vector<StudyCase> cases,
-                       std::vector<bool> ours, StudyOrder order, Control& control,
-                       const std::function<void(const std::vector<CaseRow>&)>& at_end);
+JobEnd carry_out_study(const LoadedStudy& study, std::vector<StudyCase> cases, std::vector<bool> ours, StudyOrder order,
+                       Control& control, const std::function<void(const std::vector<CaseRow>&)>& at_end);
 
 /// The rows of the cases of `ours`.
 std::vector<CaseRow> rows_of(const std::vector<CaseRow>& all, const std::vector<bool>& ours);

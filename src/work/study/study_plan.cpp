@@ -12,6 +12,7 @@
 #include "core/faults.hpp"
 #include "io/kept_inputs.hpp"
 #include "io/provenance.hpp"
+#include "many/axis.hpp"
 
 namespace railstrata {
 namespace {
@@ -73,10 +74,8 @@ void add_placed(const CaseError& e, const LoadedStudy& study, const std::vector<
   }
 }
 
-}  // namespace
-
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
-
+/// Hash of everything that a result depends on: engine, kResultVersion, the resolved case without its title (profile
+/// files by their content), and of the half-space engine the cell size.
 std::string result_key(const LoadedCase& loaded, Engine engine, const std::string& cell) {
   std::string text = fmt::format("{} {} {}\n", engine_word(engine), kResultVersion, engine == Engine::bem ? cell : "");
   std::istringstream lines(case_by_content(loaded));
@@ -84,6 +83,10 @@ std::string result_key(const LoadedCase& loaded, Engine engine, const std::strin
     if (!line.starts_with("title = ")) text += line + '\n';
   return sha256_of(text);
 }
+
+}  // namespace
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<std::string>& overrides) {
   std::vector<StudyCase> out;

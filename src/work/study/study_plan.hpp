@@ -32,10 +32,6 @@ struct StudyCase {
 /// "thickness" of "layer.0.thickness".
 std::string last_part(const std::string& key);
 
-/// Hash of everything that a result depends on: engine, kResultVersion, the resolved case without its title (profile
-/// files by their content), and of the half-space engine the cell size.
-std::string result_key(const LoadedCase& loaded, Engine engine, const std::string& cell);
-
 /// Every case of the study, in the order of the file, per group and case the engines. `overrides` hold for all cases.
 /// Throws CaseError with every value that a case refuses, at its place in the study file.
 std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<std::string>& overrides);

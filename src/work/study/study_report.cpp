@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -17,7 +16,6 @@
 #include "record/json.hpp"
 #include "report/checks.hpp"
 #include "report/read_run.hpp"
-#include "study/published_table.hpp"
 #include "study/study_plan.hpp"
 
 namespace railstrata {
@@ -366,7 +364,7 @@ std::vector<CaseColumn> head_columns(const StudySpec& study, const std::vector<C
 
 }  // namespace
 
-Report study_report(const StudySpec& study, const Published& published, const std::vector<CaseRow>& entries) {
+Report study_report(const StudySpec& study, const std::vector<CaseRow>& entries) {
   Report report;
   report.title = study.title;
   report.answers = study_answers(entries);
@@ -384,8 +382,6 @@ Report study_report(const StudySpec& study, const Published& published, const st
     if (report.runs.empty() && e.done()) run_of(e, report);
   ReportTable pairs = engines_table();
   add_verdict(entries, report, pairs);
-  if (!published.claims.empty()) report.tables.push_back(claims_table(published, entries));
-  if (!published.numbers.empty()) report.tables.push_back(published_table(published, entries));
   if (!pairs.rows.empty()) report.tables.push_back(std::move(pairs));
   report.tables.push_back(cases_table("study.csv has every column.", head_columns(study, entries), entries));
   return report;

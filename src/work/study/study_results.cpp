@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -141,18 +140,27 @@ void put_in_place(const fs::path& working, const fs::path& place) {
 /// An unfinished copy of a folder: of no use to anybody.
 std::string copy_ending() { return ".copy" + part_ending(); }
 
-/// Folders of a case that others had begun. Small files that they have left are removed: only the owner of the claim
-/// asks.
-std::vector<fs::path> left_behind(const fs::path& out, const StudyCase& c) {
-  std::vector<fs::path> left, useless;
+/// What processes have begun of a case and not renamed yet.
+std::vector<fs::directory_entry> parts_of(const fs::path& out, const StudyCase& c) {
+  std::vector<fs::directory_entry> parts;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator((out / c.folder).parent_path(), error))
     if (const std::string name = entry.path().filename().string();
-        name.starts_with(c.folder.filename().string() + ".") && is_part(name)) {
-      const bool whole = entry.is_directory(error) && name.find(".copy.") == std::string::npos;
-      (whole ? left : useless).push_back(entry.path());
-    }
-  for (const fs::path& file : useless) fs::remove_all(file, error);
+        name.starts_with(c.folder.filename().string() + ".") && is_part(name))
+      parts.push_back(entry);
+  return parts;
+}
+
+/// Folders of a case that others had begun. Small files that they have left are removed: only the owner of the claim
+/// asks.
+std::vector<fs::path> left_behind(const fs::path& out, const StudyCase& c) {
+  std::vector<fs::path> left;
+  std::error_code error;
+  for (const fs::directory_entry& part : parts_of(out, c))
+    if (part.is_directory(error) && part.path().filename().string().find(".copy.") == std::string::npos)
+      left.push_back(part.path());
+    else
+      fs::remove_all(part.path(), error);
   return left;
 }
 
@@ -199,6 +207,29 @@ bool can_go_on(const fs::path& folder, const StudyCase& c) {
   } catch (const CaseError&) {
     return false;
   }
+}
+
+void recover_case(const fs::path& out, const StudyCase& c) {
+  std::error_code error;
+  for (const fs::path& folder : left_behind(out, c)) {
+    if (is_done(out, c) || !(holds(folder, c) || has_checkpoint(folder)))
+      fs::remove_all(folder, error);
+    else if (holds(folder, c) && make_working(out, c, folder, working_folder(out, c)))
+      put_in_place(working_folder(out, c), out / c.folder);
+  }
+}
+
+/// Tables that a process had half written: it is known to be dead, or has not written for a lease.
+void remove_half_tables(const fs::path& out, double lease) {
+  std::error_code error;
+  std::vector<fs::path> tables;
+  for (const auto& entry : fs::directory_iterator(out, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file(error) || !is_part(name)) continue;
+    const std::optional<double> written = written_at(entry.path()), now = file_server_time(out / "study");
+    if (is_abandoned_part(name) || (written && now && *now - *written > lease)) tables.push_back(entry.path());
+  }
+  for (const fs::path& file : tables) fs::remove(file, error);
 }
 
 }  // namespace
@@ -251,45 +282,10 @@ bool keep_failure(const fs::path& out, const StudyCase& c, const fs::path& worki
   return true;
 }
 
-namespace {
-
-bool has_parts(const fs::path& out, const StudyCase& c) {
-  std::error_code error;
-  const std::string begin = c.folder.filename().string() + ".";
-  for (const auto& entry : fs::directory_iterator((out / c.folder).parent_path(), error))
-    if (const std::string name = entry.path().filename().string(); name.starts_with(begin) && is_part(name))
-      return true;
-  return fs::exists(claim_file(out, c), error);
-}
-
-void recover_case(const fs::path& out, const StudyCase& c) {
-  std::error_code error;
-  for (const fs::path& folder : left_behind(out, c)) {
-    if (is_done(out, c) || !(holds(folder, c) || has_checkpoint(folder)))
-      fs::remove_all(folder, error);
-    else if (holds(folder, c) && make_working(out, c, folder, working_folder(out, c)))
-      put_in_place(working_folder(out, c), out / c.folder);
-  }
-}
-
-/// Tables that a process had half written: it is known to be dead, or has not written for a lease.
-void remove_half_tables(const fs::path& out, double lease) {
-  std::error_code error;
-  std::vector<fs::path> tables;
-  for (const auto& entry : fs::directory_iterator(out, error)) {
-    const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file(error) || !is_part(name)) continue;
-    const std::optional<double> written = written_at(entry.path()), now = file_server_time(out / "study");
-    if (is_abandoned_part(name) || (written && now && *now - *written > lease)) tables.push_back(entry.path());
-  }
-  for (const fs::path& file : tables) fs::remove(file, error);
-}
-
-}  // namespace
-
 void recover(const fs::path& out, const std::vector<StudyCase>& cases, double lease) {
+  std::error_code error;
   for (const StudyCase& c : cases)
-    if (c.first && has_parts(out, c))
+    if (c.first && (!parts_of(out, c).empty() || fs::exists(claim_file(out, c), error)))
       if (const auto claim = Claim::take(claim_file(out, c), lease)) recover_case(out, c);
   remove_half_tables(out, lease);
 }

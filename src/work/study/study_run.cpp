@@ -15,7 +15,6 @@
 #include "io/kept_inputs.hpp"
 #include "record/output_file.hpp"
 #include "runs/write_fem_result.hpp"
-#include "study/child_process.hpp"
 #include "study/running_case.hpp"
 #include "study/study_results.hpp"
 
@@ -180,7 +179,6 @@ class Pool {
       leave(r);
       return;
     }
-    end_.failures += fault.empty() ? 0 : 1;
     const double seconds = seconds_since(r.start);
     Spent& s = spent_[c.engine];
     s.seconds += seconds;

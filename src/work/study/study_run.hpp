@@ -30,7 +30,6 @@ void require_case_processes();
 /// checkpoint to go on from. Throws EnvironmentError for the disk, CaseError where another study writes into the
 /// folder, after the processes it has started are gone.
 struct StudyRunEnd {
-  int failures = 0;
   int elsewhere = 0;                       ///< ended meanwhile by other processes
   std::vector<const StudyCase*> not_ours;  ///< that others compute still
 };

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "validate/recorded_answers.hpp"
-
 namespace railstrata {
 namespace {
 
@@ -24,23 +22,19 @@ RowTexts rows_of(const ValidationSet& set) {
   return rows;
 }
 
-/// Each row's measure of the column's bar: absolute, or over the data.
-double measure(const ComparedColumn& c, const ComparedPoint& p, double absolute) {
-  return c.relative ? absolute / std::abs(p.data) : absolute;
-}
-
+/// Of all rows, as the bar of the column has it: absolute, or over the data.
 template <class Absolute>
 double of_all(const Comparison& comparison, Absolute&& absolute) {
+  const ComparedColumn& column = *comparison.column;
   double squares = 0, largest = 0;
   for (const ComparedPoint& p : comparison.points) {
-    const double m = measure(*comparison.column, p, absolute(p));
+    const double m = absolute(p) / (column.relative ? std::abs(p.data) : 1);
     if (!std::isfinite(m)) return kUnknown;
     squares += m * m;
     largest = std::max(largest, m);
   }
-  return comparison.column->by == DifferenceBy::largest
-             ? largest
-             : std::sqrt(squares / static_cast<double>(comparison.points.size()));
+  return column.by == DifferenceBy::largest ? largest
+                                            : std::sqrt(squares / static_cast<double>(comparison.points.size()));
 }
 
 Agreement agreement_of(const Comparison& c) {
@@ -71,19 +65,8 @@ Comparison compare(const ValidationSet& set, const ValidationSeries& series, con
 }  // namespace
 
 const char* agreement_text(Agreement a) {
-  switch (a) {
-    case Agreement::not_judged:
-      return "not judged";
-    case Agreement::within_scatter:
-      return "within the scatter";
-    case Agreement::within_bar:
-      return "within the bar";
-    case Agreement::outside:
-      return "outside";
-    case Agreement::unsolved:
-      break;
-  }
-  return "not solved";
+  constexpr const char* kTexts[] = {"not judged", "within the scatter", "within the bar", "outside", "not solved"};
+  return kTexts[static_cast<int>(a)];
 }
 
 Validation validate(const ValidationSet& set, const AnswerOptions& options) {

@@ -38,6 +38,11 @@ struct ValidationKind {
                     const AnswerOptions& options);
 };
 
+/// Answers that were computed at length before, from a table of results such as study.csv: of each row the first one of
+/// series.recorded that has its texts in the columns named as the varied keys, and those of series.where. Throws
+/// CaseError: no such table or column.
+Answers recorded_answers(const ValidationSet& set, const ValidationSeries& series, const RowTexts& rows);
+
 /// contact, the default, material, pressure.
 const std::vector<ValidationKind>& validation_kinds();
 

@@ -10,7 +10,6 @@
 #include "tables/unit_table.hpp"
 #include "text/text_file.hpp"
 #include "text/toml_reader.hpp"
-#include "text/units.hpp"
 
 namespace railstrata {
 namespace {
@@ -84,8 +83,8 @@ class SetReader {
 
   PressedCircle circle(const toml::table& t) {
     TomlReader r(source_, t, {"x", "y", "radius", "pressure"}, kExample);
-    return {quantity(r, t, "x", "0 mm", dimension::kLength), quantity(r, t, "y", "0 mm", dimension::kLength),
-            quantity(r, t, "radius", "", dimension::kLength), quantity(r, t, "pressure", "", dimension::kPressure)};
+    return {r.quantity("x", dimension::kLength, 0), r.quantity("y", dimension::kLength, 0),
+            above_zero(r, t, "radius", dimension::kLength), above_zero(r, t, "pressure", dimension::kPressure)};
   }
 
   /// The columns that the tables name, of a file with more perhaps; as a spreadsheet writes it too.
@@ -110,19 +109,13 @@ class SetReader {
   }
 
  private:
-  double quantity(TomlReader& r, const toml::table& t, const char* key, const char* otherwise, const Dimension& d) {
-    const bool asked = !*otherwise;
-    const std::string text = t.contains(key) || asked ? r.text(key, true) : otherwise;
-    try {
-      const double value = text.empty() ? 0 : parse_quantity(text, d);
-      if (asked && !text.empty() && !(value > 0))
-        source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": must be above 0", key, text),
-                            "an area that is not pressed needs no circle");
-      return value;
-    } catch (const UnitError& e) {
-      source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": {}", key, text, e.what()), e.remedy);
-      return 0;
-    }
+  double above_zero(TomlReader& r, const toml::table& t, const char* key, const Dimension& dimension) {
+    const double value = r.quantity(key, dimension, 1, true);
+    if (!(value > 0))
+      source_.complain_at(place_of(*t.get(key)),
+                          fmt::format("{} = \"{}\": must be above 0", key, t[key].value_or(std::string())),
+                          "an area that is not pressed needs no circle");
+    return value;
   }
   std::string column_at(TomlReader& r, const toml::table& t, const char* key) {
     const std::string name = r.text(key, true);
@@ -206,10 +199,10 @@ ValidationSet load_validation(const fs::path& folder) {
   out.from_virgin = top.flag("from_virgin");
   out.loaded = load_case(folder / top.text_or("case", "case.toml"));
   SetReader reader(source, *out.kind);
-  for (const toml::table* t : tables(document, "circle")) out.circles.push_back(reader.circle(*t));
-  for (const toml::table* t : tables(document, "vary")) out.varied.push_back(reader.varied(*t));
-  for (const toml::table* t : tables(document, "series")) out.series.push_back(reader.series(*t, folder));
-  for (const toml::table* t : tables(document, "compare")) out.compared.push_back(reader.compared(*t));
+  for (const toml::table* t : tables(source, document, "circle")) out.circles.push_back(reader.circle(*t));
+  for (const toml::table* t : tables(source, document, "vary")) out.varied.push_back(reader.varied(*t));
+  for (const toml::table* t : tables(source, document, "series")) out.series.push_back(reader.series(*t, folder));
+  for (const toml::table* t : tables(source, document, "compare")) out.compared.push_back(reader.compared(*t));
   if (out.compared.empty())
     source.complain_at({1, 1}, "nothing is compared", "add a [[compare]] with column, result and bar");
   else if (out.circles.empty() && out.kind->name == "pressure")

@@ -28,7 +28,7 @@ struct ValidationSeries {
   std::string name;
   std::vector<std::string> overrides;  ///< "key=value"
   bool judged = true;                  ///< false: shown beside the others, no part of the verdict
-  std::filesystem::path recorded;      ///< a table of answers (validate/recorded_answers.hpp); empty: they are computed
+  std::filesystem::path recorded;      ///< a table of answers (recorded_answers); empty: they are computed
   std::vector<NamedText> where;        ///< what its rows must have
 };
 

@@ -154,12 +154,12 @@ double tonnes_of(const std::vector<CollectiveRow>& rows) {
 
 }  // namespace
 
-double depth_below(const std::vector<Vec2>& unworn, Vec2 point) {
+double depth_below(const std::vector<Vec2>& unworn, Vec2 point, std::size_t from, std::size_t to) {
   double least = HUGE_VAL;
-  for (std::size_t i = 1; i < unworn.size(); ++i) {
-    const Vec2 along = unworn[i] - unworn[i - 1], to = point - unworn[i - 1];
-    const double share = std::clamp(dot(to, along) / dot(along, along), 0.0, 1.0);
-    const Vec2 away = to - share * along;
+  for (std::size_t i = from; i < std::min(to, unworn.size()); ++i) {
+    const Vec2 along = unworn[i] - unworn[i - 1], across = point - unworn[i - 1];
+    const double share = std::clamp(dot(across, along) / dot(along, along), 0.0, 1.0);
+    const Vec2 away = across - share * along;
     least = std::min(least, dot(away, away));
   }
   return std::sqrt(least);

@@ -8,8 +8,8 @@
 // that is left where it touches, and a step takes no more than what is left where the layer wears through first. The
 // rail stays in its place in the track: what wears off its gauge face widens
 // the gauge.
+#include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "collective/collective.hpp"
@@ -27,8 +27,9 @@ struct WornRail {
 
 WornRail unworn(const Placement& placement, double cell);
 
-/// m, how far a point of the worn rail lies below the unworn one, in its frame.
-double depth_below(const std::vector<Vec2>& unworn, Vec2 point);
+/// m, how far a point of the worn rail lies below the unworn one, in its frame; of the unworn one's pieces those from
+/// the point `from` - 1 up to `to` count.
+double depth_below(const std::vector<Vec2>& unworn, Vec2 point, std::size_t from = 1, std::size_t to = SIZE_MAX);
 
 /// The case on the worn rail; `original` is its placement on the unworn one.
 CaseSpec on_worn_rail(const CaseSpec& spec, const Placement& original, const WornRail& rail);

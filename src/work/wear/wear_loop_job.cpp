@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "collective/collective_files.hpp"
-#include "core/faults.hpp"
 #include "geometry/profile_texts.hpp"
-#include "jobs/profile_table.hpp"
 #include "record/output_file.hpp"
 #include "tables/load_rows.hpp"
 #include "wear/wear_loop_page.hpp"
@@ -193,8 +191,11 @@ class WearLoopJob : public CaseJob {
     for (std::size_t i = 0; i < loaded_.spec.loads.size(); ++i) history.loads.push_back(load_name(loaded_.spec, i));
     history.unworn = read_profile_table(folder() / kUnworn);
     for (const WearLoopRow& row : rows_)
-      history.profiles.push_back({static_cast<int>(row.step), row.passages, in_si(kColumns, row).area,
-                                  read_profile_table(step_folder(row.step) / kProfile)});
+      history.profiles.push_back({static_cast<int>(row.step),
+                                  row.passages,
+                                  in_si(kColumns, row).area,
+                                  read_profile_table(step_folder(row.step) / kProfile),
+                                  {}});
     history.contacts = loads_;
     write_wear_loop_page(folder() / kWearPage, history);
     control_.info("everything on one page: {}", (folder() / kWearPage).string());

@@ -17,43 +17,23 @@ namespace {
 
 constexpr const char* kPassages = "passages of the whole collective";
 constexpr double kWorn = 1e-8;            // m, less is the round-off of the files
+constexpr std::size_t kRoom = 12;         // cells beside what has worn
 constexpr std::size_t kMostProfiles = 6;  // profiles in one chart
 
-double distance_to_piece(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 along = b - a;
-  const double length2 = dot(along, along);
-  const double t = length2 > 0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
-  return norm(p - a - t * along);
-}
-
-/// From the first to the last point that has worn, with a little room on either side.
-struct Reach {
-  std::size_t from = 0, to = 0;
-};
-Reach reach_of(const std::vector<double>& depth) {
-  constexpr std::size_t kRoom = 12;
-  const auto worn = [](double d) { return d > kWorn; };
-  const auto first = std::find_if(depth.begin(), depth.end(), worn);
-  if (first == depth.end()) return {0, depth.size()};
-  const auto from = static_cast<std::size_t>(first - depth.begin());
-  const auto to = static_cast<std::size_t>(std::find_if(depth.rbegin(), depth.rend(), worn).base() - depth.begin());
-  return {from > kRoom ? from - kRoom : 0, std::min(depth.size(), to + kRoom)};
-}
-
 /// The last profile and some before it, evenly.
-std::vector<const WornProfile*> some_of(const std::vector<WornProfile>& profiles) {
-  std::vector<const WornProfile*> out;
+std::vector<const WornRail*> some_of(const std::vector<WornRail>& profiles) {
+  std::vector<const WornRail*> out;
   const std::size_t n = std::min(profiles.size(), kMostProfiles);
   for (std::size_t k = 1; k <= n; ++k) out.push_back(&profiles[(k * profiles.size()) / n - 1]);
   return out;
 }
 
-std::string after(const WornProfile& p) {
+std::string after(const WornRail& p) {
   return p.passages < 1e7 ? fmt::format("after {:.0f} passages", p.passages)
                           : fmt::format("after {:.4g} passages", p.passages);
 }
 
-ReportSeries curve(const std::string& name, const std::vector<Vec2>& points, Reach reach) {
+ReportSeries curve(const std::string& name, const std::vector<Vec2>& points, ShownCells reach) {
   ReportSeries s{.name = name, .x = {}, .y = {}, .markers = false};
   for (std::size_t i = reach.from; i < std::min(reach.to, points.size()); ++i) {
     s.x.push_back(kToMilli * points[i].y);
@@ -62,21 +42,21 @@ ReportSeries curve(const std::string& name, const std::vector<Vec2>& points, Rea
   return s;
 }
 
-ReportChart profile_chart(const WearLoopHistory& history, Reach reach) {
+ReportChart profile_chart(const WearLoopHistory& history, ShownCells reach) {
   ReportChart out{"profile", "The rail before and after", "", kAcross, "z [mm]", {}};
   out.series = {curve("unworn", history.unworn, reach),
                 curve(after(history.profiles.back()), history.profiles.back().points, reach)};
   return out;
 }
 
-ReportChart depth_chart(const WearLoopHistory& history, Reach reach) {
+ReportChart depth_chart(const WearLoopHistory& history, ShownCells reach) {
   ReportChart out{"depth",
                   "Worn off so far, over the rail",
                   "Measured along the normal of the unworn profile.",
                   kAcross,
                   "wear depth [µm]",
                   {}};
-  for (const WornProfile* p : some_of(history.profiles)) {
+  for (const WornRail* p : some_of(history.profiles)) {
     const std::vector<double> depth = worn_depth(history.unworn, p->points);
     ReportSeries s{.name = after(*p), .x = {}, .y = {}, .markers = false};
     for (std::size_t i = reach.from; i < reach.to; ++i) {
@@ -109,7 +89,7 @@ ReportChart load_chart(const WearLoopHistory& history, const std::string& id, co
 ReportChart area_chart(const WearLoopHistory& history) {
   ReportChart out{"area", "Area worn off", "", kPassages, titled("area", unit::kSquareMillimetres.shown), {}};
   ReportSeries s{.name = "area", .x = {0}, .y = {0}};
-  for (const WornProfile& p : history.profiles) {
+  for (const WornRail& p : history.profiles) {
     s.x.push_back(p.passages);
     s.y.push_back(unit::kSquareMillimetres.factor * p.area);
   }
@@ -132,12 +112,12 @@ ReportTable steps_table(const WearLoopHistory& history) {
                 .columns = {},
                 .rows = {}};
   struct Step {
-    const WornProfile& profile;
+    const WornRail& profile;
     double deepest, y;         // m
     double pressure, t_gamma;  // as wear_loads.csv has them
   };
   std::vector<Step> steps;
-  for (const WornProfile& p : history.profiles) {
+  for (const WornRail& p : history.profiles) {
     const std::vector<double> depth = worn_depth(history.unworn, p.points);
     const auto most = std::max_element(depth.begin(), depth.end());
     steps.push_back({p, *most, history.unworn[static_cast<std::size_t>(most - depth.begin())].y,
@@ -186,18 +166,14 @@ const StateColumns<WearLoad>& wear_load_columns() {
 std::vector<double> worn_depth(const std::vector<Vec2>& unworn, const std::vector<Vec2>& worn) {
   constexpr std::size_t kNear = 60;  // pieces: profiles of a loop have nearly the same points
   std::vector<double> out;
-  for (std::size_t k = 0; k < unworn.size(); ++k) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = k > kNear ? k - kNear : 1; i < std::min(worn.size(), k + kNear); ++i)
-      nearest = std::min(nearest, distance_to_piece(unworn[k], worn[i - 1], worn[i]));
-    out.push_back(nearest);
-  }
+  for (std::size_t k = 0; k < unworn.size(); ++k)
+    out.push_back(depth_below(worn, unworn[k], k > kNear ? k - kNear : 1, k + kNear));
   return out;
 }
 
 void write_wear_loop_page(const std::filesystem::path& page, const WearLoopHistory& history) {
   if (history.profiles.empty()) return;
-  const Reach reach = reach_of(worn_depth(history.unworn, history.profiles.back().points));
+  const ShownCells reach = cells_above(worn_depth(history.unworn, history.profiles.back().points), kWorn, kRoom);
   Report report;
   report.title = fmt::format("{}: wear loop", history.title);
   report.tables = {steps_table(history)};

@@ -25,19 +25,11 @@ const StateColumns<WearLoad>& wear_load_columns();
 /// loop: nearly the same points, from the same beginning; outside of what has worn it is zero to round-off.
 std::vector<double> worn_depth(const std::vector<Vec2>& unworn, const std::vector<Vec2>& worn);
 
-/// A rail after a step.
-struct WornProfile {
-  int step = 0;
-  double passages = 0;
-  double area = 0;  ///< m², worn off
-  std::vector<Vec2> points;
-};
-
 struct WearLoopHistory {
   std::string title;
-  std::vector<std::string> loads;     ///< names
-  std::vector<Vec2> unworn;           ///< m
-  std::vector<WornProfile> profiles;  ///< in order
+  std::vector<std::string> loads;  ///< names
+  std::vector<Vec2> unworn;        ///< m
+  std::vector<WornRail> profiles;  ///< after each step, in order
   std::vector<WearLoad> contacts;
 };
 void write_wear_loop_page(const std::filesystem::path& page, const WearLoopHistory& history);

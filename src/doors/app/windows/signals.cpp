@@ -4,7 +4,7 @@
 
 #include "app/control.hpp"
 #include "core/faults.hpp"
-#include "study/child_process.hpp"
+#include "study/running_case.hpp"
 
 namespace railstrata {
 namespace {
