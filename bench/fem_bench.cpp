@@ -17,12 +17,14 @@
 #include <string>
 
 #include "base_case.hpp"
+#include "body/plastic_field.hpp"
 #include "core/parallel.hpp"
 #include "core/vectorize.hpp"
 #include "fem/plastic_zone.hpp"
 #include "fem/stepper.hpp"
 #include "machine_peaks.hpp"
 #include "tests/mesh/brick_mesh.hpp"
+#include "tests/body/plastic_state.hpp"
 
 namespace railstrata {
 namespace {
@@ -300,7 +302,7 @@ HotShare hot_share(const Rolling& r) {
   for (std::size_t k = 0; k < 2; ++k) {
     const Body& body = r.system.bodies[k];
     const PlasticHistory& history = r.stepper->state().bodies[k].history;
-    out.hot += static_cast<double>(body.plastic.hot_elements(body, history));
+    out.hot += static_cast<double>(fem_checks::hot_elements(body, history));
     out.yielded += static_cast<double>(plastic_extent(body, history).yielded);
     elements += static_cast<double>(body.mesh.elements());
   }

@@ -221,7 +221,7 @@ __attribute__((flatten, noinline)) void advance_in_cache(NodeInCache& n, const N
   double first[3], end[3];
   gather_displacements<kind>({n.u[0], n.u[1], n.u[2]}, frame, kTile, rows);
   scatter_forces<kind>(rows + ScratchRows<Real>::kForces * kTile, frame, kTile, n.f, first, end);
-  NodeSums none;
+  UpdateSums none;
   const NodeStep s = step;
   RAILSTRATA_INDEPENDENT
   for (int j = 0; j < kTile; ++j)
@@ -240,7 +240,7 @@ CachedTimes cached_times(int threads) {
     for (double& t : mesh.blocks[0].stations.at) t /= 0.43;
   }
   const Body body(mesh, {elastic(210e9, 0.3, 7800)}, {ElementKind::full, Precision::single_precision});
-  const NodeStep step = node_step<kind>({}, {}, 1e-7, 0, 0);
+  const NodeStep step = node_step({}, {}, 1e-7, 0, 0);
   std::vector<ScratchRows<Real>> scratch(static_cast<std::size_t>(threads));
   std::vector<NodeInCache, CacheLineAllocator<NodeInCache>> nodes(static_cast<std::size_t>(threads));
   for (ScratchRows<Real>& s : scratch) s.fit(4);

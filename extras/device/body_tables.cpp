@@ -128,18 +128,17 @@ template <class Real>
 ElementArrays<Real> element_arrays(Device& device, const Body& body, const StationLists& at,
                                    const std::vector<Real>& eigenstress, std::ptrdiff_t rows) {
   std::vector<HexReference<Real>> references;
-  std::vector<Real> hourglass, line[7];
+  std::vector<Real> hourglass, line[5];
   for (std::size_t k = 0; k < body.elements.size(); ++k) {
     const ElementTable<Real>& t = body.elements[k].template of<Real>();
     references.insert(references.end(), t.quads.begin(), t.quads.end());
     for (const auto& entries : t.hourglass) hourglass.insert(hourglass.end(), entries.begin(), entries.end());
     const std::size_t end =
         k + 1 < body.elements.size() ? static_cast<std::size_t>(at.stations_at[k + 1]) : at.cos_q.size();
-    const typename ElementTable<Real>::Line* const from[7] = {&t.inv_sigma, &t.inv_c, &t.v1, &t.v2,
-                                                              &t.v3,        &t.sigma, &t.c};
     const auto count = static_cast<std::ptrdiff_t>(body.layout.blocks[k].elements);
-    for (int n = 0; n < 7; ++n) {
-      line[n].insert(line[n].end(), from[n]->begin(), from[n]->begin() + count);
+    for (std::size_t n = 0; n < t.kLines.size(); ++n) {
+      const auto& from = t.*t.kLines[n];
+      line[n].insert(line[n].end(), from.begin(), from.begin() + count);
       line[n].resize(end, Real{0});
     }
   }
@@ -151,24 +150,7 @@ ElementArrays<Real> element_arrays(Device& device, const Body& body, const Stati
           on_device<Real>(device, line[2]),
           on_device<Real>(device, line[3]),
           on_device<Real>(device, line[4]),
-          on_device<Real>(device, line[5]),
-          on_device<Real>(device, line[6]),
           {device, static_cast<std::size_t>(rows)}};
-}
-
-// A line's level: one more than those of the ties that carry its masters, which come before it.
-std::vector<int> tie_levels(const Ties& ties) {
-  std::map<std::pair<int, int>, int> level_of;  // of slaves, by block and node
-  std::vector<int> out;
-  for (const Ties::Line& l : ties.lines()) {
-    int level = 0;
-    for (int node : {l.node0, l.node1})
-      if (const auto known = level_of.find({l.master_block, node}); known != level_of.end())
-        level = std::max(level, known->second + 1);
-    level_of[{l.slave_block, l.slave_node}] = level;
-    out.push_back(level);
-  }
-  return out;
 }
 
 struct InterpolationStart {
@@ -184,9 +166,16 @@ std::vector<InterpolationStart> add_interpolations(Device& device, const Ties& t
     left.insert(left.end(), in.left.begin(), in.left.end());
     right.insert(right.end(), in.right.begin(), in.right.end());
     weight.insert(weight.end(), in.weight.begin(), in.weight.end());
-    for (int k : in.first) first.push_back(k + static_cast<int>(from.size()));
-    from.insert(from.end(), in.from.begin(), in.from.end());
-    share.insert(share.end(), in.share.begin(), in.share.end());
+    const std::size_t stations = in.from.size() / static_cast<std::size_t>(in.slots);
+    for (std::size_t j = 0; j < stations; ++j) {
+      first.push_back(static_cast<int>(from.size()));
+      for (std::size_t k = j; k < in.from.size(); k += stations)
+        if (in.share[k] > 0) {
+          from.push_back(in.from[k]);
+          share.push_back(in.share[k]);
+        }
+    }
+    first.push_back(static_cast<int>(from.size()));
   }
   out.left = on_device<int>(device, left);
   out.right = on_device<int>(device, right);
@@ -198,18 +187,18 @@ std::vector<InterpolationStart> add_interpolations(Device& device, const Ties& t
 }
 
 // The slaves of a level and what their masters get, in the order in which the host adds it: the last tie first.
-TieLevel tie_level(Device& device, const Body& body, const std::vector<TieRecord>& ties, const std::vector<int>& levels,
-                   int level) {
+TieLevel tie_level(Device& device, const Body& body, const std::vector<TieRecord>& ties,
+                   const std::vector<int>& lines) {
   std::vector<Piece> slaves, masters;
   std::vector<std::ptrdiff_t> order;                          // of the masters' lines
   std::map<std::ptrdiff_t, std::vector<TieShare>> shares_of;  // by line
   std::map<std::ptrdiff_t, const Ties::Line*> any_line;
-  for (std::size_t t = ties.size(); t-- > 0;) {
-    if (levels[t] != level) continue;
-    add_pieces(static_cast<int>(t), ties[t].slave_stations, slaves);
+  for (auto k = lines.rbegin(); k != lines.rend(); ++k) {
+    const int t = *k;
+    add_pieces(t, ties[t].slave_stations, slaves);
     const auto give = [&](std::ptrdiff_t line, double weight) {
       if (!shares_of.contains(line)) order.push_back(line);
-      shares_of[line].push_back({static_cast<int>(t), weight});
+      shares_of[line].push_back({t, weight});
       any_line[line] = &body.ties.lines()[t];
     };
     give(ties[t].master0, 1 - ties[t].weight1);
@@ -243,10 +232,8 @@ TieArrays tie_arrays(Device& device, const Body& body) {
   out.ties = on_device<TieRecord>(device, records);
   out.delta_x = on_device<double>(device, ties.delta_x());
   out.delta_z = on_device<double>(device, ties.delta_z());
-  const std::vector<int> levels = tie_levels(ties);
-  const int last = *std::max_element(levels.begin(), levels.end());
-  for (int level = 0; level <= last; ++level) {
-    out.levels.push_back(tie_level(device, body, records, levels, level));
+  for (const Ties::Level& level : ties.levels()) {
+    out.levels.push_back(tie_level(device, body, records, level.lines));
     out.levels.back().first_moment = out.moments;
     out.moments += static_cast<std::ptrdiff_t>(out.levels.back().slaves.size()) * kLanes;
   }

@@ -14,8 +14,7 @@ template <class Real>
 struct ElementArrays {
   DeviceArray<HexReference<Real>> references;
   DeviceArray<Real> hourglass, eigenstress;
-  DeviceArray<Real> inv_sigma, inv_c, v1, v2, v3;
-  DeviceArray<Real> sigma, c;
+  DeviceArray<Real> inv_sigma, inv_c, sigma_c, sigma, c;
   DeviceArray<Real> rows;  ///< work space: what elements leave for their corners
 };
 

@@ -15,9 +15,11 @@ namespace railstrata::device {
 /// By element: StationScale; Q of the element class.
 template <class Real>
 struct StationTables {
-  View<const Real> inv_sigma, inv_c, v1, v2, v3;
-  View<const Real> sigma, c;
+  View<const Real> inv_sigma, inv_c, sigma_c, sigma, c;
   View<const double> cos_q, sin_q;
+  RAILSTRATA_POINTWISE StationScale<Real> scale(int k) const {
+    return {inv_sigma[k], inv_c[k], sigma_c[k], sigma[k], c[k]};
+  }
 };
 
 /// Displacements at a corner's two ends as sum and difference, in the carried frame (body/scratch_rows.hpp).
@@ -67,7 +69,7 @@ struct ElementForces {
     const int lane = static_cast<int>(i % kLanes), e = piece.first + lane;
     if (lane >= piece.count) return;
     const int k = q.stations_at + e;
-    const StationScale<Real> scale{at.inv_sigma[k], at.inv_c[k], at.v1[k], at.v2[k], at.v3[k], at.sigma[k], at.c[k]};
+    const StationScale<Real> scale = at.scale(k);
     Rotation<double> frame;
     if constexpr (kind == SweepKind::revolve) frame = Rotation<double>{at.cos_q[k], at.sin_q[k]}.minus(turn);
     const int behind = e + 1 < q.stations ? e + 1 : 0;
@@ -126,7 +128,7 @@ struct ElementEnergies {
  private:
   RAILSTRATA_POINTWISE void of_element(const QuadRecord& q, int e, double& strain, double& stored) const {
     const int k = q.stations_at + e, behind = e + 1 < q.stations ? e + 1 : 0;
-    const StationScale<double> scale{at.inv_sigma[k], at.inv_c[k], at.v1[k], at.v2[k], at.v3[k], at.sigma[k], at.c[k]};
+    const StationScale<double> scale = at.scale(k);
     const Rotation<double> turn = now[0].turn_of_body<kind>();
     Rotation<double> frame;
     if constexpr (kind == SweepKind::revolve) frame = Rotation<double>{at.cos_q[k], at.sin_q[k]}.minus(turn);
@@ -138,7 +140,7 @@ struct ElementEnergies {
     const auto stress = hex_stress<kind, double>(reference, turn, kin);
     const std::ptrdiff_t table = hourglass_table(q, classes, e);
     stored = hourglass_forces([&](int n) { return hourglass[table + n]; }, kin);
-    const double volume = reference.shape.volume * scale.v2;
+    const double volume = reference.shape.volume * scale.sigma_c;
     strain = 0.5 * volume * double_contraction(stress.strain, stress.s);
     if (q.eigenstress >= 0)  // the initial stress
       strain -= volume * double_contraction(stress.strain, &eigenstress[q.eigenstress]);
@@ -159,13 +161,13 @@ struct NodeForces {
   // of an update
   View<const double> inverse_mass, cos_node, sin_node;
   View<double> u, v;
-  View<double> sums;  ///< [of NodeSums][index]
+  View<double> sums;  ///< [of UpdateSums][index]
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
     const Piece piece = pieces[i / kLanes];
     const NodeRecord& n = nodes[piece.record];
     const int lane = static_cast<int>(i % kLanes), j = piece.first + lane;
-    NodeSums added;
+    UpdateSums added;
     if (lane < piece.count) {
       double force[3];
       complete(n, j, force);
@@ -176,7 +178,7 @@ struct NodeForces {
     }
     if constexpr (measured) {
       const std::ptrdiff_t each = pieces.size() * kLanes;
-      const double all[5] = {added.twice_kinetic, added.power, added.px, added.pz, added.angular};
+      const double all[5] = {added.kinetic, added.damping, added.momentum_x, added.momentum_z, added.angular};
       for (int k = 0; k < 5; ++k) sums[k * each + i] = all[k];
     }
   }
@@ -212,7 +214,7 @@ struct NodeForces {
       force[2] += carried[2];
     }
   }
-  RAILSTRATA_POINTWISE void update(const NodeRecord& n, int j, const double (&force)[3], NodeSums& added) const {
+  RAILSTRATA_POINTWISE void update(const NodeRecord& n, int j, const double (&force)[3], UpdateSums& added) const {
     const std::ptrdiff_t x = n.x + j, y = x + n.stride, z = y + n.stride;
     advance_node<kind, measured>(now[0].nodes<kind>(), inverse_mass[x], n.radius, cos_node[n.stations_at + j],
                                  sin_node[n.stations_at + j], force[0], force[1], force[2], u[x], u[y], u[z], v[x],
@@ -233,7 +235,7 @@ struct WaitingNodes {
     const Piece piece = pieces[i / kLanes];
     const NodeRecord& n = nodes[piece.record];
     const int lane = static_cast<int>(i % kLanes), j = piece.first + lane;
-    NodeSums added;
+    UpdateSums added;
     if (lane < piece.count) {
       const std::ptrdiff_t x = n.x + j, y = x + n.stride, z = y + n.stride;
       advance_node<kind, measured>(now[0].nodes<kind>(), inverse_mass[x], n.radius, cos_node[n.stations_at + j],
@@ -242,7 +244,7 @@ struct WaitingNodes {
     }
     if constexpr (measured) {
       const std::ptrdiff_t each = pieces.size() * kLanes;
-      const double all[5] = {added.twice_kinetic, added.power, added.px, added.pz, added.angular};
+      const double all[5] = {added.kinetic, added.damping, added.momentum_x, added.momentum_z, added.angular};
       for (int k = 0; k < 5; ++k) sums[k * each + i] = all[k];
     }
   }

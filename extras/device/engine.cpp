@@ -39,13 +39,12 @@ std::vector<EndLoadRecord> end_load_records(const RollingSystem& sys) {
 }
 
 RollingLaw rolling_law(const RollingSystem& sys, const RollingBodies& bodies, double dt) {
-  const ExplicitOptions& o = sys.options;
   RollingLaw law;
   law.axle = axle_law(sys, 0);
   law.torque = sys.torque;
-  law.torque_ramp = o.torque_ramp;
-  law.run_up = o.run_up;
-  law.run_up_damping = o.run_up_damping;
+  law.torque_ramp = sys.spec().drive.torque_ramp;
+  law.run_up = sys.spec().run.run_up;
+  law.run_up_damping = sys.spec().run.run_up_damping;
   law.dt = dt;
   law.gravity = sys.gravity;
   law.free_mass = bodies[kWheel].free_mass;
@@ -210,8 +209,8 @@ template <SweepKind kind, class Real>
 void Engine::element_forces(State& s) {
   BodyTables& t = s.tables;
   ElementArrays<Real>& e = t.of<Real>();
-  const StationTables<Real> at{e.inv_sigma.view(), e.inv_c.view(), e.v1.view(),    e.v2.view(),   e.v3.view(),
-                               e.sigma.view(),     e.c.view(),     t.cos_q.view(), t.sin_q.view()};
+  const StationTables<Real> at{e.inv_sigma.view(), e.inv_c.view(), e.sigma_c.view(), e.sigma.view(),
+                               e.c.view(),         t.cos_q.view(), t.sin_q.view()};
   launch(device_, lanes(t.quad_pieces),
          ElementForces<kind, Real>{t.quad_pieces.view(), t.quads.view(), e.references.view(), e.hourglass.view(),
                                    t.classes.view(), e.eigenstress.view(), at, s.u.view(), now(), e.rows.view()});
@@ -296,8 +295,8 @@ template <SweepKind kind>
 void Engine::energies_of(State& s, int body) {
   BodyTables& t = s.tables;
   ElementArrays<double>& e = t.in_double;
-  const StationTables<double> at{e.inv_sigma.view(), e.inv_c.view(), e.v1.view(),    e.v2.view(),   e.v3.view(),
-                                 e.sigma.view(),     e.c.view(),     t.cos_q.view(), t.sin_q.view()};
+  const StationTables<double> at{e.inv_sigma.view(), e.inv_c.view(), e.sigma_c.view(), e.sigma.view(),
+                                 e.c.view(),         t.cos_q.view(), t.sin_q.view()};
   launch(device_, lanes(t.quad_pieces),
          ElementEnergies<kind>{t.quad_pieces.view(), t.quads.view(), e.references.view(), e.hourglass.view(),
                                t.classes.view(), e.eigenstress.view(), at, s.u.view(), now(), s.energies.view()});

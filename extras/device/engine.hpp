@@ -32,7 +32,7 @@ class Engine : public StepEngine {
     SurfaceChains chains() const;
     BodyTables tables;
     DeviceArray<double> u, v, f;
-    DeviceArray<double> node_sums, waiting_sums;  ///< of an update, [of NodeSums][lane]
+    DeviceArray<double> node_sums, waiting_sums;  ///< of an update, [of UpdateSums][lane]
     DeviceArray<double> energies;                 ///< of elements, [strain, hourglass][lane]
     DeviceArray<double> stretch, added_kinetic;   ///< of the added mass: differences of v, a number a lane
   };

@@ -26,7 +26,7 @@ enum Result : int {
   kEndWork = 6,
   kOfBody = 8,
   // of a body
-  kSums = 0,  ///< of NodeSums, of nodes updated at once and of those that waited
+  kSums = 0,  ///< of UpdateSums, of nodes updated at once and of those that waited
   kStrain = 10,
   kHourglass = 11,
   kHeight = 12,
@@ -44,8 +44,8 @@ RAILSTRATA_POINTWISE void make_ready(const RollingLaw& law, const ContactTables&
   ReferenceFrame rail = law.rail, wheel = law.wheel;
   rail.move_to(s.time);
   wheel.move_to(s.time);
-  s.rail = node_step<SweepKind::extrude>(rail, {}, law.dt, s.rate, law.gravity);
-  s.wheel = node_step<SweepKind::revolve>(wheel, s.mean, law.dt, s.rate, law.gravity);
+  s.rail = node_step(rail, {}, law.dt, s.rate, law.gravity);
+  s.wheel = node_step(wheel, s.mean, law.dt, s.rate, law.gravity);
   const Vec3 at = wheel.to_frame({s.axle.x - wheel.x, s.axle.y - wheel.y, s.axle.z});
   s.in_frame = {at.x, at.y, at.z, s.axle.psi - wheel.psi};
   s.turn = turn_of(s.in_frame.psi);
@@ -142,7 +142,7 @@ struct FinishStep {
     UpdateSums out;
     for (int part = 0; part < 2; ++part) {
       const int k = result_of(body, kSums + part * kSumsOfNode);
-      out += {0.5 * results[k], results[k + 1], results[k + 2], results[k + 3], results[k + 4]};
+      out += {results[k], results[k + 1], results[k + 2], results[k + 3], results[k + 4]};
     }
     return out;
   }

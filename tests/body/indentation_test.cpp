@@ -5,9 +5,11 @@
 
 #include <numbers>
 
+#include "body/plastic_field.hpp"
 #include "body/stress.hpp"
 #include "core/parabola.hpp"
 #include "material/elastic.hpp"
+#include "tests/body/plastic_state.hpp"
 #include "tests/body/relaxation.hpp"
 
 namespace railstrata {

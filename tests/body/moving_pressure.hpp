@@ -5,6 +5,7 @@
 #include "body/plastic_pass.hpp"
 #include "body/stress.hpp"
 #include "core/parallel.hpp"
+#include "tests/body/plastic_state.hpp"
 #include "tests/body/relaxation.hpp"
 
 namespace railstrata::fem_checks {

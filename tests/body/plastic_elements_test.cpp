@@ -1,6 +1,7 @@
 // Elements that may yield: bits of those that do not, threads, energy, what a body's state carries.
 #include <gtest/gtest.h>
 
+#include "body/plastic_field.hpp"
 #include "body/stress.hpp"
 #include "core/faults.hpp"
 #include "tests/body/relaxation.hpp"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rotation.hpp"
+#include "tests/body/plastic_state.hpp"
 #include "tests/body/relaxation.hpp"
 
 namespace railstrata {

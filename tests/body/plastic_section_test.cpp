@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "body/plastic_field.hpp"
 #include "core/faults.hpp"
 #include "tests/body/relaxation.hpp"
 #include "tests/body/sample_bodies.hpp"

@@ -131,4 +131,13 @@ inline Vec3 rigid_displacement(Vec3 x, Vec3 centre, double psi, Vec3 translation
   return translation + Vec3{c * r.x + s * r.z, 0, c * r.z - s * r.x};
 }
 
+/// A single evaluation of elements to which nothing has happened, with a workspace of its own.
+inline void internal_force(const Body& body, Field& u, double psi, Field& f) {
+  Traversal(body).internal_force(u, psi, f, initial_history(body));
+}
+inline void linear_force(const Body& body, Field& u, Field& f) { Traversal(body).linear_force(u, f); }
+inline StrainEnergy strain_energy(const Body& body, Field& u, double psi) {
+  return Traversal(body).energy(u, psi, initial_history(body));
+}
+
 }  // namespace railstrata::fem_checks

@@ -138,7 +138,7 @@ TEST(Ties, MomentOfTheOffsetsIsTheWorkOfTheSlavesForcesOnARotation) {
     for (std::size_t k = 0; k < ahead.size(); ++k) ahead[k] = (ahead[k] - behind[k]) / (2 * step);
     const double work = nodal_dot(solid.layout, f, ahead),
                  size = std::sqrt(nodal_dot(solid.layout, f, f) * nodal_dot(solid.layout, ahead, ahead));
-    EXPECT_NEAR(ties.apply_transpose_turned(f, psi), work, 1e-8 * size) << body.name;
+    EXPECT_NEAR(ties.apply_transpose(f, psi), work, 1e-8 * size) << body.name;
     ties.apply_transpose(plain);
     EXPECT_EQ(f, plain);
   }
@@ -153,7 +153,7 @@ TEST(Ties, SeveralBodiesInOneLoopHaveTheBitsOfEachAlone) {
   Field u_alone[] = {forces(first), forces(second)}, f_alone[] = {u_alone[0], u_alone[1]};
   first.ties.apply(u_alone[0], psi);
   second.ties.apply(u_alone[1], 0);
-  const double moment = first.ties.apply_transpose_turned(f_alone[0], psi);
+  const double moment = first.ties.apply_transpose(f_alone[0], psi);
   second.ties.apply_transpose(f_alone[1]);
   expect_same_bits_on_one_two_and_four_threads([&] {
     Field u[] = {forces(first), forces(second)}, f[] = {u[0], u[1]};

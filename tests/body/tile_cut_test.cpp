@@ -58,23 +58,19 @@ TEST(TileCut, ChainsOfACutBodyCoverItsTilesInTheirOrder) {
   EXPECT_EQ(owned[1].end_tile, 5);
   EXPECT_EQ(owned[2].owner, 1);
   EXPECT_EQ(owned[3].end_tile, 8);
-  for (const bool single : {false, true})
-    for (int wanted : {1, 2, 100}) {
-      int next = 0, own = 0;
-      for (const Chain& c : cut_chains(tiling, cut, wanted, single)) {
-        EXPECT_EQ(c.first_tile, next);
-        EXPECT_EQ(tiling.tiles[c.first_tile].block, tiling.tiles[c.end_tile - 1].block);
-        if (single && cut.is_own(c.first_tile)) {
-          EXPECT_EQ(c.end_tile, c.first_tile + 1);
-        }
-        for (int t = c.first_tile; t < c.end_tile; ++t)
-          EXPECT_EQ(cut.owner[static_cast<std::size_t>(t)], cut.owner[static_cast<std::size_t>(c.first_tile)]);
-        own += cut.is_own(c.first_tile);
-        next = c.end_tile;
-      }
-      EXPECT_EQ(next, 8);
-      EXPECT_GE(own, std::min(wanted, 3));
+  for (int wanted : {1, 2, 100}) {
+    int next = 0, own = 0;
+    for (const Chain& c : chains(tiling, wanted, cut)) {
+      EXPECT_EQ(c.first_tile, next);
+      EXPECT_EQ(tiling.tiles[c.first_tile].block, tiling.tiles[c.end_tile - 1].block);
+      for (int t = c.first_tile; t < c.end_tile; ++t)
+        EXPECT_EQ(cut.owner[static_cast<std::size_t>(t)], cut.owner[static_cast<std::size_t>(c.first_tile)]);
+      own += cut.is_own(c.first_tile);
+      next = c.end_tile;
     }
+    EXPECT_EQ(next, 8);
+    EXPECT_GE(own, std::min(wanted, 3));
+  }
 }
 
 }  // namespace railstrata

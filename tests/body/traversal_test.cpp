@@ -302,7 +302,7 @@ TEST(Body, IsConstantSoThatTwoTraversalsMayUseItAtATime) {
 TEST(BodyState, OfAnElasticBodyKeepsNoHistoryAndNamesItsArrays) {
   const Body body(distorted_body(SweepKind::extrude), {kSteel}, {});
   const BodyState state(body);
-  EXPECT_TRUE(state.history.empty());
+  EXPECT_TRUE(state.history.places.empty());
   EXPECT_TRUE(fits(body, state));
 }
 

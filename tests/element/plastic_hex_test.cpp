@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "element/element_matrix.hpp"
-#include "element/plastic_reference.hpp"
+#include "element/reference.hpp"
 
 namespace railstrata {
 namespace {
@@ -154,7 +154,7 @@ struct Mine {
         for (int i = 0; i < 6; ++i) s[side][i] = 2 * kSteel.mu * static_cast<double>(plastic(i, p + 4 * side));
       add_pair(gauss.pair[p], st.inv_sigma, st.inv_c, s[0], s[1], sums);
     }
-    return condensed(modes, reference.shape.volume * st.v2, sums);
+    return condensed(modes, reference.shape.volume * st.sigma_c, sums);
   }
 };
 
@@ -225,7 +225,7 @@ TEST_F(PlasticHex, UniformPlasticStrainTouchesOnlyTheMeanStress) {
     const double size = 2 * kSteel.mu * static_cast<double>(uniform.col(0).norm());
     for (int i = 0; i < 6; ++i)
       EXPECT_NEAR(e.mean[i], 2 * kSteel.mu * static_cast<double>(uniform(i, 0)), 1e-13 * size);
-    const double force = size * mine.reference.shape.volume * mine.st.v2 / 1e-3;
+    const double force = size * mine.reference.shape.volume * mine.st.sigma_c / 1e-3;
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(e.even[i], 0, 1e-12 * force);
       for (int m = 0; m < 3; ++m) EXPECT_NEAR(e.odd[m][i], 0, 1e-12 * force);

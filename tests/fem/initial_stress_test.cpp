@@ -1,8 +1,10 @@
 // Rolling over a rail whose layer has a stress of its own.
 #include <gtest/gtest.h>
 
+#include "body/plastic_field.hpp"
 #include "body/stress.hpp"
 #include "small_rolling.hpp"
+#include "tests/body/plastic_state.hpp"
 
 namespace railstrata {
 namespace {

@@ -3,11 +3,13 @@
 
 #include <cstring>
 
+#include "body/plastic_field.hpp"
 #include "body/stress.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "fem/plastic_zone.hpp"
 #include "small_rolling.hpp"
+#include "tests/body/plastic_state.hpp"
 
 namespace railstrata {
 namespace {
@@ -60,7 +62,7 @@ TEST(SlowPlasticRolling, WithoutYieldHasTheBitsOfTheElasticRun) {
     elastic.run.precision = spec.run.precision = precision;
     const RollingSystem plain = small_system(elastic), system = hot_system(spec);
     for (const BodyId id : kBodies)
-      ASSERT_GT(system.body(id).plastic.hot_elements(system.body(id), initial_history(system.body(id))), 500);
+      ASSERT_GT(hot_elements(system.body(id), initial_history(system.body(id))), 500);
     Stepper a(plain, solve_preload(plain, 1e-4)), b(system, solve_preload(system, 1e-4));
     expect_same_motion(rolled(a, 40), rolled(b, 40));
     EXPECT_EQ(plastic_extent(system.rail(), b.state().bodies[kRail].history).yielded, 0);
@@ -135,8 +137,7 @@ TEST(SlowPlasticRolling, PreloadBeyondYieldFindsOneEquilibriumHoweverCloselyItIs
 }
 
 std::array<long, 2> hot_elements(const RollingSystem& sys, const std::array<PlasticHistory, 2>& history) {
-  return {sys.rail().plastic.hot_elements(sys.rail(), history[kRail]),
-          sys.wheel().plastic.hot_elements(sys.wheel(), history[kWheel])};
+  return {fem_checks::hot_elements(sys.rail(), history[kRail]), fem_checks::hot_elements(sys.wheel(), history[kWheel])};
 }
 
 // A box around all that yields and none at all: which elements are hot must not be seen.

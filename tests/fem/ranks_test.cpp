@@ -71,7 +71,7 @@ void expect_preload_of_one_rank(const CaseSpec& spec, const std::vector<RanksAnd
   const PreloadResult expected = solve_preload(system, kTolerance);
   for (const auto& [ranks, threads] : counts)
     ThreadRanks(ranks).run(threads, [&, of = ranks](const Ranks& mine) {
-      const PreloadResult found = solve_preload(system, kTolerance, {}, {}, nullptr, mine);
+      const PreloadResult found = solve_preload(system, kTolerance, {}, nullptr, mine);
       expect_same_preload(found, expected, std::to_string(mine.rank) + " of " + std::to_string(of) + " ranks");
     });
 }
@@ -175,7 +175,7 @@ TEST(SlowRanks, StopTogetherInThePreload) {
       ended[static_cast<std::size_t>(mine.rank)] = ++steps;
       return !(steps == 2 && mine.rank == 1);
     };
-    EXPECT_THROW(solve_preload(system, 1e-9, progress, {}, nullptr, mine), Interrupted);
+    EXPECT_THROW(solve_preload(system, 1e-9, progress, nullptr, mine), Interrupted);
   });
   EXPECT_EQ(ended, (std::array<int, 2>{2, 2}));
 }

@@ -1,10 +1,10 @@
-#include "fem/suspension.hpp"
-#include "spec/case_spec.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "fem/axle_step.hpp"
+#include "spec/case_spec.hpp"
 
 namespace railstrata {
 namespace {
@@ -22,7 +22,7 @@ Vibration free_vibration(const VehicleSpec& vehicle, std::size_t count, double d
   for (long s = 0; crossings < 9 && s < 10'000'000;
        ++s) {  // zeros from above and below alternate; between two of them stands one extreme
     before = groups[0].z;
-    step_suspension(vehicle, 0, 0, dt, groups);
+    step_suspension(suspension_law(vehicle), 0, 0, dt, groups);
     peak = std::max(peak, std::abs(groups[0].z));
     if ((groups[0].z < 0) == (before < 0)) continue;
     crossing = (static_cast<double>(s) + before / (before - groups[0].z)) * dt;
@@ -55,7 +55,7 @@ TEST(Suspension, PeriodAndDampingAreThoseOfTheDampedOscillatorWithinHalfAPercent
 TEST(Suspension, ForceIsSpringPlusDashpotAndDissipatesItsSquareOverTheDashpot) {
   const VehicleSpec v;
   std::vector<MassGroup> groups(8);
-  const SuspensionForce f = step_suspension(v, -2e-3, 0.1, 1e-6, groups);
+  const SuspensionForce f = step_suspension(suspension_law(v), -2e-3, 0.1, 1e-6, groups);
   EXPECT_NEAR(f.on_masses, v.suspension_stiffness * -2e-3 + v.suspension_damping * 0.1, 1e-9 * v.suspension_stiffness);
   EXPECT_NEAR(f.dashpot_power, v.suspension_damping * 0.01, 1e-9);
 }
@@ -65,7 +65,8 @@ TEST(Suspension, GroupsActAsOneMassWhateverTheirNumber) {
   std::vector<MassGroup> one(1), eight(8);
   for (int s = 0; s < 1000; ++s) {
     const double t = 1e-4 * s, z = 1e-3 * std::sin(30 * t), vz = 0.03 * std::cos(30 * t);
-    EXPECT_NEAR(step_suspension(v, z, vz, 1e-4, one).on_masses, step_suspension(v, z, vz, 1e-4, eight).on_masses, 1e-9);
+    EXPECT_NEAR(step_suspension(suspension_law(v), z, vz, 1e-4, one).on_masses,
+                step_suspension(suspension_law(v), z, vz, 1e-4, eight).on_masses, 1e-9);
   }
   for (const MassGroup& m : eight) EXPECT_NEAR(m.z, one[0].z, 1e-15);
 }

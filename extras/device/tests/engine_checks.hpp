@@ -75,7 +75,7 @@ inline void expect_same_forces(Device& device, ArithmeticPrecision precision, do
     const Body& body = system.bodies[k];
     Field u = shaken(body, 4e-6), expected = body.layout.field(), found = body.layout.field();
     const double psi = k == kWheel ? 1e-3 : 0.0;
-    Traversal(body).internal_force(u, psi, expected);
+    Traversal(body).internal_force(u, psi, expected, {});
     engine->internal_force(k, u, psi, found);
     EXPECT_LT(largest_difference(body, expected, found), tolerance * largest(body, expected)) << body.mesh.name;
     EXPECT_GT(largest(body, expected), 1.0);

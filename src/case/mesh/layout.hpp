@@ -27,6 +27,11 @@ struct BodyLayout {
 
 /// x, y and z of a node, from the index of its component x; stride: BlockLayout::stride.
 inline Vec3 vector_at(const Field& f, std::ptrdiff_t x, int stride) { return {f[x], f[x + stride], f[x + 2 * stride]}; }
+inline void add_vector(Field& f, std::ptrdiff_t x, int stride, Vec3 v) {
+  f[x] += v.x;
+  f[x + stride] += v.y;
+  f[x + 2 * stride] += v.z;
+}
 
 BodyLayout layout_of(const SweptBody& body);
 

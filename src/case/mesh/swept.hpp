@@ -45,11 +45,9 @@ inline double quad_area(const Section& s, const std::array<int, 4>& quad) {
 struct Stations {
   std::vector<double> at;
   bool closed = false;
-  /// Middle of an element.
-  double centre(int element) const {
-    const bool last = element + 1 == nodes();
-    return 0.5 * (at[element] + (last ? at.front() + 2 * std::numbers::pi : at[element + 1]));
-  }
+  /// Of an element: it begins at at[element].
+  double end(int element) const { return element + 1 == nodes() ? at.front() + 2 * std::numbers::pi : at[element + 1]; }
+  double centre(int element) const { return 0.5 * (at[element] + end(element)); }
   /// The element around a place along the sweep, the nearest one beyond the ends.
   int element_at(double x) const {
     const auto above = std::upper_bound(at.begin(), at.end(), x);

@@ -109,11 +109,14 @@ void print_estimate(const Model& m, const RunEstimate& e) {
              m.rail.nodes() + m.wheel.nodes());
   fmt::print("stable step    {:.2f} ns (single elements {:.2f} ns, limited by {}); steps of {:.2f} ns\n",
              1e9 * e.limits.lanczos, 1e9 * e.limits.element, e.limits.where, 1e9 * e.limits.chosen);
-  if (e.limits.added_mass > 0)
+  if (e.limits.added_mass > 0) {
+    std::vector<std::string> blocks;
+    for (const ScaledBlock& b : e.limits.scaled_blocks) blocks.push_back(b.name);
     fmt::print(
         "mass scaling   {:.3f} kg against stretching across thin rows, on {:.3f} kg of {}; the step without it {:.2f} "
         "ns\n",
-        e.limits.added_mass, e.limits.scaled_mass, e.limits.scaled_where, 1e9 * e.limits.unscaled);
+        e.limits.added_mass, e.limits.scaled_mass, fmt::join(blocks, ", "), 1e9 * e.limits.unscaled);
+  }
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
   print_ranks(e);

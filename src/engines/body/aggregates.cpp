@@ -12,14 +12,16 @@
 namespace railstrata {
 namespace {
 
-constexpr double kDependent = 1e-6;  // of the largest eigenvalue of a cluster's Gram matrix
-constexpr double kOnePoint = 1e-12;  // m²
+constexpr double kAtContact = 24e-3;  // m, largest edge of a cluster at the contact point
+constexpr double kGrowth = 0.2;       // added per metre of distance from it
+constexpr double kDependent = 1e-6;   // of the largest eigenvalue of a cluster's Gram matrix
+constexpr double kOnePoint = 1e-12;   // m²
 
 using Modes = Eigen::Matrix<double, 3, 6>;
 
 }  // namespace
 
-Aggregates::Aggregates(const Body& body, Vec2 contact, const ClusterSizes& sizes)
+Aggregates::Aggregates(const Body& body, Vec2 contact)
     : body_(body), cut_(body.mesh.blocks.size()), arm_(body.layout.field()) {
   const SweptBody& mesh = body.mesh;
   std::vector<std::vector<int>> free(cut_.size());
@@ -28,20 +30,28 @@ Aggregates::Aggregates(const Body& body, Vec2 contact, const ClusterSizes& sizes
   const double radius = mesh.kind == SweepKind::revolve ? std::abs(contact.z) : 1.0;
   for (int b = 0; b < static_cast<int>(cut_.size()); ++b) {
     cut_[b].section_of.assign(mesh.blocks[b].section.nodes.size(), -1);
-    cut_section(b, free[b], contact, sizes);
-    cut_stations(b, radius, sizes);
+    cut_section(b, free[b], contact);
+    cut_stations(b, radius);
     cut_[b].first_cluster = clusters();
     for (int s = 0; s < static_cast<int>(cut_[b].section.size()); ++s)
       for (int g = 0; g + 1 < static_cast<int>(cut_[b].group_first.size()); ++g) add_cluster(b, s, g);
   }
-  cut_into_parts();
-  std::vector<std::vector<char>> no_lines;
-  for (const BlockLayout& l : body.layout.blocks) no_lines.emplace_back(l.nodes, 0);
-  all_ = kept_values(body, {}, std::move(no_lines));
+  parts_of_.resize(cluster_.size());
+  for (int t = 0; t < static_cast<int>(body_.tiling.tiles.size()); ++t) {
+    const int block = body_.tiling.tiles[t].block;
+    const StationRange own = own_stations(body_, t);
+    for (int i = 0; i < clusters(); ++i) {
+      const Cluster& c = cluster_[i];
+      const int first = std::max(own.begin, c.first_station), end = std::min(own.end, c.first_station + c.stations);
+      if (c.block != block || first >= end) continue;
+      parts_of_[i].push_back(parts());
+      part_.push_back({i, t, first, end});
+    }
+  }
 }
 
 // Halves the nodes along the longer side until they fit.
-void Aggregates::cut_section(int block, std::vector<int> nodes, Vec2 contact, const ClusterSizes& sizes) {
+void Aggregates::cut_section(int block, std::vector<int> nodes, Vec2 contact) {
   if (nodes.empty()) return;
   const auto& at = body_.mesh.blocks[block].section.nodes;
   Vec2 low = at[nodes[0]], high = low;
@@ -52,7 +62,7 @@ void Aggregates::cut_section(int block, std::vector<int> nodes, Vec2 contact, co
     distance = std::min(distance, norm(at[n] - contact));
   }
   const Vec2 extent = high - low;
-  if (std::max(extent.y, extent.z) <= sizes.at_contact + sizes.growth * distance) {
+  if (std::max(extent.y, extent.z) <= kAtContact + kGrowth * distance) {
     for (int n : nodes) cut_[block].section_of[n] = static_cast<int>(cut_[block].section.size());
     cut_[block].section.push_back(std::move(nodes));
     return;
@@ -61,11 +71,11 @@ void Aggregates::cut_section(int block, std::vector<int> nodes, Vec2 contact, co
   const double middle = lateral ? 0.5 * (low.y + high.y) : 0.5 * (low.z + high.z);
   const auto upper =
       std::stable_partition(nodes.begin(), nodes.end(), [&](int n) { return (lateral ? at[n].y : at[n].z) < middle; });
-  cut_section(block, {nodes.begin(), upper}, contact, sizes);
-  cut_section(block, {upper, nodes.end()}, contact, sizes);
+  cut_section(block, {nodes.begin(), upper}, contact);
+  cut_section(block, {upper, nodes.end()}, contact);
 }
 
-void Aggregates::cut_stations(int block, double radius, const ClusterSizes& sizes) {
+void Aggregates::cut_stations(int block, double radius) {
   const std::vector<double>& at = body_.mesh.blocks[block].stations.at;
   BlockCut& cut = cut_[block];
   // from the station under the contact to both ends
@@ -80,7 +90,7 @@ void Aggregates::cut_stations(int block, double radius, const ClusterSizes& size
   double nearest = distance(0);
   for (int j = 0; j < n; ++j) {
     const double near = std::min(nearest, distance(j));
-    if (j == first || radius * (at[j] - at[first]) > sizes.at_contact + sizes.growth * near) {
+    if (j == first || radius * (at[j] - at[first]) > kAtContact + kGrowth * near) {
       first = j;
       nearest = distance(j);
       cut.group_first.push_back(j);
@@ -144,21 +154,6 @@ int Aggregates::cluster_of(int block, int node, int station) const {
              : cut.first_cluster + section * (static_cast<int>(cut.group_first.size()) - 1) + cut.group_of[station];
 }
 
-void Aggregates::cut_into_parts() {
-  parts_of_.resize(cluster_.size());
-  for (int t = 0; t < static_cast<int>(body_.tiling.tiles.size()); ++t) {
-    const int block = body_.tiling.tiles[t].block;
-    const StationRun own = own_stations(body_, t);
-    for (int i = 0; i < clusters(); ++i) {
-      const Cluster& c = cluster_[i];
-      const int first = std::max(own.begin, c.first_station), end = std::min(own.end, c.first_station + c.stations);
-      if (c.block != block || first >= end) continue;
-      parts_of_[i].push_back(parts());
-      part_.push_back({i, t, first, end});
-    }
-  }
-}
-
 void Aggregates::restrict_parts(const Field& f, int begin, int end, double* forces) const {
   assert(0 <= begin && begin <= end && end <= parts() && f.size() >= static_cast<std::size_t>(body_.layout.size));
   for_each(
@@ -193,12 +188,6 @@ void Aggregates::gather_parts(const double* forces, double* out) const {
   });
 }
 
-void Aggregates::restrict_to(const Field& f, double* out) const {
-  std::vector<double> forces(static_cast<std::size_t>(kPartNumbers) * part_.size());
-  restrict_parts(f, 0, parts(), forces.data());
-  gather_parts(forces.data(), out);
-}
-
 void Aggregates::prolong(const double* coefficients, Field& u, const KeptValues& kept) const {
   assert(u.size() >= static_cast<std::size_t>(body_.layout.size));
   const BodyLayout& lay = body_.layout;
@@ -225,7 +214,8 @@ void Aggregates::prolong(const double* coefficients, Field& u, const KeptValues&
             move(n, first, last);
             continue;
           }
-          for (const StationRun& run : kept.runs[c.block]) move(n, std::max(first, run.begin), std::min(last, run.end));
+          for (const StationRange& run : kept.runs[c.block])
+            move(n, std::max(first, run.begin), std::min(last, run.end));
         }
       },
       true);
@@ -236,7 +226,7 @@ Eigen::Matrix<double, 6, 1> Aggregates::modes_at(int block, int node, int statio
   return (rigid_modes(c, node, station).row(component) * c.basis).transpose();
 }
 
-Aggregates::Neighbours Aggregates::neighbours() const {
+std::vector<std::vector<int>> Aggregates::neighbours() const {
   const SweptBody& mesh = body_.mesh;
   std::map<std::pair<int, int>, const Tie*> tie_of;
   for (const Tie& t : mesh.ties) tie_of[{t.slave_block, t.slave_node}] = &t;
@@ -264,10 +254,8 @@ Aggregates::Neighbours Aggregates::neighbours() const {
       carriers(t.master_block, t.master_node1, j, out);
     }
   };
-  Neighbours result;
-  result.of.resize(clusters());
-  std::vector<char> prescribed(clusters(), 0);
-  std::vector<int> touched, more;
+  std::vector<std::vector<int>> out(clusters());
+  std::vector<int> touched;
   for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b) {
     const Block& block = mesh.blocks[b];
     for (const auto& quad : block.section.quads)
@@ -277,22 +265,15 @@ Aggregates::Neighbours Aggregates::neighbours() const {
           for (int n : quad) carriers(b, n, j, touched);
         std::sort(touched.begin(), touched.end());
         touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-        const bool at_prescribed = touched.front() == kHeld;
-        for (int a : touched) {
-          if (a == kHeld) continue;
-          prescribed[a] |= at_prescribed;
-          for (int other : touched)
-            if (other != kHeld) {
-              auto& list = result.of[a];
-              const auto place = std::lower_bound(list.begin(), list.end(), other);
-              if (place == list.end() || *place != other) list.insert(place, other);
-            }
-        }
+        std::erase(touched, kHeld);
+        for (int a : touched)
+          for (int other : touched) {
+            const auto place = std::lower_bound(out[a].begin(), out[a].end(), other);
+            if (place == out[a].end() || *place != other) out[a].insert(place, other);
+          }
       }
   }
-  for (int a = 0; a < clusters(); ++a)
-    if (prescribed[a]) result.prescribed.push_back(a);
-  return result;
+  return out;
 }
 
 }  // namespace railstrata

@@ -53,6 +53,25 @@ void find_free_nodes(Body& body) {
       }
 }
 
+// Diagonal blocks of an element's stiffness in its own frame: xx, yy, zz, xz of each corner. Both stations have the
+// same values but for the sign of xz.
+using CornerBlocks = std::array<double, 32>;
+
+CornerBlocks corner_blocks(SweepKind kind, const BlockElements& elements, int cls, int quad) {
+  const SpacingClass& mine = elements.classes[cls];
+  const Matrix24 k =
+      linear_stiffness(elements.table.quads[elements.reference(mine.set, quad)], sweep_scale(kind, mine.spacing),
+                       elements.table.hourglass[elements.hourglass(mine, quad)]);
+  CornerBlocks out;
+  for (int a = 0; a < 8; ++a) {
+    out[4 * a] = k(3 * a, 3 * a);
+    out[4 * a + 1] = k(3 * a + 1, 3 * a + 1);
+    out[4 * a + 2] = k(3 * a + 2, 3 * a + 2);
+    out[4 * a + 3] = k(3 * a, 3 * a + 2);
+  }
+  return out;
+}
+
 }  // namespace
 
 Body::Body(const SweptBody& swept, const std::vector<Elastic>& materials_, const ElementOptions& options_)
@@ -85,29 +104,6 @@ Vec3 reference_position(const Body& body, int block, int node, int station) {
   return swept_point(body.mesh.kind, body.mesh.origin, b.section.nodes[node], b.stations.at[station]);
 }
 
-namespace {
-
-// Diagonal blocks of an element's stiffness in its own frame: xx, yy, zz, xz of each corner. Both stations have the
-// same values but for the sign of xz.
-using CornerBlocks = std::array<double, 32>;
-
-CornerBlocks corner_blocks(SweepKind kind, const BlockElements& elements, int cls, int quad) {
-  const SpacingClass& mine = elements.classes[cls];
-  const Matrix24 k =
-      linear_stiffness(elements.table.quads[elements.reference(mine.set, quad)], sweep_scale(kind, mine.spacing),
-                       elements.table.hourglass[elements.hourglass(mine, quad)]);
-  CornerBlocks out;
-  for (int a = 0; a < 8; ++a) {
-    out[4 * a] = k(3 * a, 3 * a);
-    out[4 * a + 1] = k(3 * a + 1, 3 * a + 1);
-    out[4 * a + 2] = k(3 * a + 2, 3 * a + 2);
-    out[4 * a + 3] = k(3 * a, 3 * a + 2);
-  }
-  return out;
-}
-
-}  // namespace
-
 void stiffness_diagonal(const Body& body, Field& diagonal) {
   assert(diagonal.size() == static_cast<std::size_t>(body.layout.size));
   std::fill(diagonal.begin(), diagonal.end(), 0.0);
@@ -135,7 +131,7 @@ void stiffness_diagonal(const Body& body, Field& diagonal) {
 }
 
 StepBound element_step_bound(const Body& body) {
-  StepBound best{std::numeric_limits<double>::infinity(), 0, 0, 0};
+  StepBound best{std::numeric_limits<double>::infinity(), 0};
   for (int b = 0; b < static_cast<int>(body.elements.size()); ++b) {
     const BlockElements& d = body.elements[b];
     const Block& block = body.mesh.blocks[b];
@@ -149,11 +145,8 @@ StepBound element_step_bound(const Body& body) {
                                     body.materials[block.material_of_set(mine.set, q)],
                                     d.table.hourglass[d.hourglass(mine, q)]);
     });
-    const auto smallest = std::min_element(step.begin(), step.end()) - step.begin();
-    if (step[smallest] >= best.step) continue;
-    const int cls = static_cast<int>(smallest / quads);
-    const auto at = std::find(d.element_class.begin(), d.element_class.end(), cls);
-    best = {step[smallest], b, static_cast<int>(smallest % quads), static_cast<int>(at - d.element_class.begin())};
+    const double smallest = *std::min_element(step.begin(), step.end());
+    if (smallest < best.step) best = {smallest, b};
   }
   return best;
 }

@@ -53,10 +53,10 @@ inline double line_radius(const Body& body, int block, int node) {
 /// d = the diagonal of the stiffness K of the undeformed body.
 void stiffness_diagonal(const Body& body, Field& d);
 
-/// The smallest stable step of the free elements [s] and where it is.
+/// The smallest stable step of the free elements [s] and the block that has it.
 struct StepBound {
   double step = 0;
-  int block = 0, quad = 0, station = 0;
+  int block = 0;
 };
 StepBound element_step_bound(const Body& body);
 

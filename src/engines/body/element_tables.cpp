@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "core/parallel.hpp"
 
@@ -25,24 +24,18 @@ int class_of(std::vector<T>& known, const T& value, Same&& same) {
 
 std::vector<double> spacings(const Block& block, const BlockLayout& lay) {
   std::vector<double> out(lay.elements);
-  for (int e = 0; e < lay.elements; ++e) {
-    const double t1 = e + 1 < lay.stations ? block.stations.at[e + 1] : block.stations.at[0] + 2 * std::numbers::pi;
-    out[e] = t1 - block.stations.at[e];
-  }
+  for (int e = 0; e < lay.elements; ++e) out[e] = block.stations.end(e) - block.stations.at[e];
   return out;
 }
 
 void fill_station_lines(SweepKind kind, const std::vector<double>& spacing, int padded, ElementTable<double>& table) {
   assert(padded >= static_cast<int>(spacing.size()));
-  for (auto* line : {&table.inv_sigma, &table.inv_c, &table.v1, &table.v2, &table.v3, &table.sigma, &table.c})
-    line->assign(padded, 0.0);
+  for (auto line : table.kLines) (table.*line).assign(padded, 0.0);
   for (std::size_t e = 0; e < spacing.size(); ++e) {
     const StationScale<double> scale = station_scale(sweep_scale(kind, spacing[e]));
     table.inv_sigma[e] = scale.inv_sigma;
     table.inv_c[e] = scale.inv_c;
-    table.v1[e] = scale.v1;
-    table.v2[e] = scale.v2;
-    table.v3[e] = scale.v3;
+    table.sigma_c[e] = scale.sigma_c;
     table.sigma[e] = scale.sigma;
     table.c[e] = scale.c;
   }
@@ -51,9 +44,7 @@ void fill_station_lines(SweepKind kind, const std::vector<double>& spacing, int 
 void fill_frames(SweepKind kind, const Block& block, const BlockLayout& lay, BlockElements& out) {
   for (Field* line : {&out.theta, &out.cos_q, &out.sin_q}) line->assign(lay.elements, 0.0);
   for (int e = 0; e < lay.elements; ++e) {
-    const double t0 = block.stations.at[e];
-    const double t1 = e + 1 < lay.stations ? block.stations.at[e + 1] : block.stations.at[0] + 2 * std::numbers::pi;
-    out.theta[e] = kind == SweepKind::revolve ? 0.5 * (t0 + t1) : 0.0;
+    out.theta[e] = kind == SweepKind::revolve ? block.stations.centre(e) : 0.0;
     out.cos_q[e] = std::cos(out.theta[e]);
     out.sin_q[e] = std::sin(out.theta[e]);
   }
@@ -97,16 +88,10 @@ ElementTable<float> rounded(const ElementTable<double>& from) {
     to.hourglass.emplace_back();
     std::transform(h.begin(), h.end(), to.hourglass.back().begin(), [](double x) { return static_cast<float>(x); });
   }
-  const auto round_line = [](const ElementTable<double>::Line& line, ElementTable<float>::Line& out) {
-    out.assign(line.begin(), line.end());
-  };
-  round_line(from.inv_sigma, to.inv_sigma);
-  round_line(from.inv_c, to.inv_c);
-  round_line(from.v1, to.v1);
-  round_line(from.v2, to.v2);
-  round_line(from.v3, to.v3);
-  round_line(from.sigma, to.sigma);
-  round_line(from.c, to.c);
+  for (std::size_t k = 0; k < from.kLines.size(); ++k) {
+    const ElementTable<double>::Line& line = from.*from.kLines[k];
+    (to.*to.kLines[k]).assign(line.begin(), line.end());
+  }
   return to;
 }
 

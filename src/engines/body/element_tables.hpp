@@ -34,14 +34,14 @@ struct ElementTable {
   using Line = std::vector<Real, CacheLineAllocator<Real>>;
   std::vector<HexReference<Real>> quads;                       ///< [set * quads + quad]
   std::vector<std::array<Real, kHourglassEntries>> hourglass;  ///< [(set * classes + class) * quads + quad]
-  Line inv_sigma, inv_c, v1, v2, v3;                           ///< StationScale by element
-  Line sigma, c;                                               ///< the same
+  Line inv_sigma, inv_c, sigma_c, sigma, c;                    ///< StationScale by element
+  static constexpr std::array<Line ElementTable::*, 5> kLines{
+      &ElementTable::inv_sigma, &ElementTable::inv_c, &ElementTable::sigma_c, &ElementTable::sigma, &ElementTable::c};
 
   /// read(pointer): a number or a pack.
   template <class T, class Read>
   StationScale<T> scale(int e, Read&& read) const {
-    return {read(&inv_sigma[e]), read(&inv_c[e]), read(&v1[e]), read(&v2[e]),
-            read(&v3[e]),        read(&sigma[e]), read(&c[e])};
+    return {read(&inv_sigma[e]), read(&inv_c[e]), read(&sigma_c[e]), read(&sigma[e]), read(&c[e])};
   }
 };
 
@@ -49,7 +49,6 @@ struct SpacingClass {
   double spacing;
   int hourglass;
   int set = 0;  ///< of materials
-  friend bool operator==(const SpacingClass&, const SpacingClass&) = default;
 };
 
 struct BlockElements {

@@ -30,11 +30,4 @@ InitialStress::InitialStress(const SweptBody& mesh, const StressOf& stress_of) {
   if (!rows_.empty()) kind_ = std::move(kind);
 }
 
-InitialStress::Stress InitialStress::at(int block, int quad) const {
-  Stress out{};
-  if (const double* const taken_off = rows(block, quad))
-    for (int i = 0; i < 6; ++i) out[i] = -taken_off[i * kTile];
-  return out;
-}
-
 }  // namespace railstrata

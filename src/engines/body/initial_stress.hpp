@@ -31,7 +31,6 @@ class InitialStress {
     if (kind_.empty() || kind_[block][quad] < 0) return nullptr;
     return rows_[kind_[block][quad]].data();
   }
-  Stress at(int block, int quad) const;
 
  private:
   std::vector<std::vector<int>> kind_;  ///< by block and quadrilateral, into rows_; -1: none

@@ -1,10 +1,9 @@
 #include "body/mass_scaling.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "core/parallel.hpp"
 
@@ -37,14 +36,13 @@ MassScaling::Edges MassScaling::thin_edges(const SweptBody& body, int block, con
           0.5 * (edge_length(s, k[side + 1], k[(side + 2) % 4]) + edge_length(s, k[(side + 3) % 4], k[side]));
       const double height = area / width;
       if (height > kThin * width) continue;
-      const std::array<Vec2, 4> corners{s.nodes[k[0]], s.nodes[k[1]], s.nodes[k[2]], s.nodes[k[3]]};
+      const std::array<Vec2, 4> corners = quad_corners(s, static_cast<int>(q));
       for (int e = 0; e < elements; ++e) {
         const Elastic& m = materials[b.material(static_cast<int>(q), e)];
         const double excess = std::pow(wanted_step / height, 2) * m.p_wave_modulus() / m.density - 1;
         if (excess < kMassSlack * kMassSlack - 1) continue;
-        const double t0 = b.stations.at[e],
-                     t1 = e + 1 < stations ? b.stations.at[e + 1] : b.stations.at[0] + 2 * std::numbers::pi;
-        const auto mass = corner_masses(body.kind, corners, sweep_scale(body.kind, t1 - t0), m.density);
+        const double spacing = b.stations.end(e) - b.stations.at[e];
+        const auto mass = corner_masses(body.kind, corners, sweep_scale(body.kind, spacing), m.density);
         for (const auto& [i, j] : {std::pair{side, side + 1}, std::pair{side + 2, (side + 3) % 4}}) {
           Edge& edge = edges[std::minmax(k[i], k[j])];
           edge.added.resize(stations, 0.0);
@@ -66,7 +64,7 @@ std::vector<std::vector<int>> MassScaling::paths(const Edges& edges, int nodes) 
   std::stable_sort(order.begin(), order.end(), [&](auto& a, auto& b) { return edges.at(a).total > edges.at(b).total; });
   std::vector<std::vector<int>> next(nodes);
   std::vector<int> root(nodes);
-  for (int n = 0; n < nodes; ++n) root[n] = n;
+  std::iota(root.begin(), root.end(), 0);
   auto find = [&](int n) {
     while (root[n] != n) n = root[n];
     return n;
@@ -110,10 +108,7 @@ MassScaling::MassScaling(const Body& body, double wanted_step) : layout_(body.la
         };
         edge.added[j] *= std::max(share(ends.first), share(ends.second));
       }
-    const std::vector<std::vector<int>> found = paths(edges, lay.nodes);
-    for (const std::vector<int>& path : found) add_chain(b, path, edges, body.mass);
-    if (!found.empty())
-      report_.where += fmt::format("{}{} {}", report_.where.empty() ? "" : ", ", mesh.name, mesh.blocks[b].name);
+    for (const std::vector<int>& path : paths(edges, lay.nodes)) add_chain(b, path, edges, body.mass);
   }
 }
 
@@ -154,8 +149,6 @@ void MassScaling::add_chain(int block, const std::vector<int>& nodes, const Edge
   for (int node : nodes) chain_of_[block][node] = kInside;
   chain_of_[block][nodes.front()] = static_cast<int>(chains_.size());
   chains_.push_back(chain);
-  report_.chains = static_cast<int>(chains_.size());
-  report_.longest = std::max(report_.longest, static_cast<int>(n) - 1);
 }
 
 bool MassScaling::acts_on(int block, int node) const { return !empty() && chain_of_[block][node] != kNone; }
@@ -250,9 +243,7 @@ double MassScaling::kinetic(const Field& differences_of_v, const Field& w) {
     const double* d = differences_of_v.data() + 3 * factor + task % 3 * stations;
     for (int j = 0; j < stations; ++j) part[task] += 0.5 * added_[factor + j] * d[j] * (w[here + j] - w[below + j]);
   });
-  double sum = 0;
-  for (double p : part) sum += p;
-  return sum;
+  return std::accumulate(part.begin(), part.end(), 0.0);
 }
 
 }  // namespace railstrata

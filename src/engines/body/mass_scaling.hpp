@@ -14,7 +14,6 @@
 // The in-plane wave speed of the layer is unchanged, since inertia across it does not affect it. So the step comes from
 // the scaled model (lanczos_stable_step).
 #include <map>
-#include <string>
 #include <vector>
 
 #include "body/body.hpp"
@@ -51,8 +50,6 @@ class MassScaling {
   struct Report {
     double added_mass = 0;                 ///< kg, sum of a
     double scaled_mass = 0;                ///< kg, of the nodes it acts on
-    int chains = 0, longest = 0;           ///< longest: rows in a chain
-    std::string where;                     ///< "rail cap, rail gauge shell"
     std::map<int, double> added_in_block;  ///< kg, by block
   };
   const Report& report() const { return report_; }

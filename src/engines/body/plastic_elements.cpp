@@ -40,7 +40,13 @@ PlasticElements::PlasticElements(const Body& body, const MaterialOf& material_of
                     "mesh.element = \"full\"");
   for (const Quad& q : quads_) terms_ = std::max(terms_, terms_of(q.material.law));
   for (const BlockElements& elements : body.elements) scales_.push_back(class_scales(body.mesh.kind, elements));
-  make_modes(body);
+  for_each(static_cast<std::ptrdiff_t>(quads_.size()), [&](std::ptrdiff_t k) {
+    Quad& q = quads_[k];
+    const std::array<Vec2, 4> corners = quad_corners(body.mesh.blocks[q.block].section, q.quad);
+    q.gauss = gauss_shape(body.mesh.kind, corners);
+    for (const SweepScale& scale : scales_[q.block])
+      q.modes.push_back(incompatible_modes(body.mesh.kind, corners, scale, body.materials[q.of_body]));
+  });
   add_candidates(body, wanted);
 }
 
@@ -56,10 +62,7 @@ void PlasticElements::add_quads(const Body& body, const MaterialOf& material_of)
         if (!known.count(material)) {
           const std::optional<YieldingMaterial> yields = material_of(b, q, material);
           known[material] = yields ? static_cast<int>(quads_.size()) : kElastic;
-          if (yields) {
-            quads_.push_back({{}, *yields, {}});
-            origin_.push_back({b, q, material});
-          }
+          if (yields) quads_.push_back({{}, *yields, {}, b, q, material});
         }
         kinds[static_cast<std::size_t>(set) * quads + q] = known[material];
       }
@@ -98,30 +101,12 @@ void PlasticElements::add_candidates(const Body& body, const Wanted& wanted) {
   }
 }
 
-void PlasticElements::make_modes(const Body& body) {
-  for_each(static_cast<std::ptrdiff_t>(quads_.size()), [&](std::ptrdiff_t k) {
-    const Origin& origin = origin_[k];
-    const std::array<Vec2, 4> corners = quad_corners(body.mesh.blocks[origin.block].section, origin.quad);
-    quads_[k].gauss = gauss_shape(body.mesh.kind, corners);
-    for (const SweepScale& scale : scales_[origin.block])
-      quads_[k].modes.push_back(incompatible_modes(body.mesh.kind, corners, scale, body.materials[origin.material]));
-  });
-}
-
-long PlasticElements::hot_elements(const Body& body, const PlasticHistory& history) const {
-  long count = 0;
-  for (int k = 0; k < hot_places(history); ++k) {
-    const Tile& tile = body.tiling.tiles[hot(history, k).tile];
-    count += tile.end - tile.first;
-  }
-  return count;
-}
-
-void PlasticElements::initialise(PlasticHistory& history) const {
-  history = {};
-  history.slot_of.assign(candidates_.size(), PlasticHistory::kCold);
-  history.numbers.reserve(hot_at_start_.size() * static_cast<std::size_t>(slot_numbers()));
-  for (int candidate : hot_at_start_) add(history, candidate);
+PlasticHistory PlasticElements::initial_history() const {
+  PlasticHistory out;
+  index(out);
+  out.numbers.reserve(hot_at_start_.size() * static_cast<std::size_t>(slot_numbers()));
+  for (int candidate : hot_at_start_) add(out, candidate);
+  return out;
 }
 
 void PlasticElements::add(PlasticHistory& history, int candidate) const {

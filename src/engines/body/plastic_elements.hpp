@@ -8,7 +8,7 @@
 // A *place* is what one tile has of the elements of one quadrilateral. All places of a material that yields are
 // candidates; those that are *hot* keep numbers in the body's history, the others cost nothing and are elastic. Places
 // become hot while a run goes on (extend_plastic_elements, body/plastic_pass.hpp) and stay hot. Which are is part of
-// the history (body/plastic_history.hpp), so that whatever carries a state carries it. Within hot places groups of
+// the history, so that whatever carries a state carries it. Within hot places groups of
 // eight elements sleep while they are far from yielding.
 #include <array>
 #include <functional>
@@ -16,14 +16,25 @@
 #include <vector>
 
 #include "body/element_tables.hpp"
-#include "body/plastic_history.hpp"
 #include "body/tiling.hpp"
-#include "element/plastic_reference.hpp"
+#include "element/reference.hpp"
 #include "material/plastic.hpp"
 
 namespace railstrata {
 
 struct Body;
+
+/// History of the elements of a body that may yield: a slot of numbers for each place that is hot, in the order in
+/// which the places became hot.
+struct PlasticHistory {
+  static constexpr int kCold = -1;
+
+  std::vector<int> places;   ///< candidate of each slot
+  std::vector<int> slot_of;  ///< of each candidate, or kCold; follows from `places`
+  Field numbers;             ///< slot by slot: entry k of a place's elements at + k * kTile
+
+  friend bool operator==(const PlasticHistory&, const PlasticHistory&) = default;
+};
 
 /// How elements yield; stress that is in it from the start, in the element's frame (11 along the sweep,
 /// 22 lateral, 33 up, 12, 23, 13).
@@ -91,13 +102,12 @@ class PlasticElements {
   }
   double* rows(PlasticHistory& history, int slot) const { return history.numbers.data() + slot * slot_numbers(); }
   std::ptrdiff_t slot_numbers() const { return static_cast<std::ptrdiff_t>(entries()) * kTile; }
-  /// Elements that are hot.
-  long hot_elements(const Body& body, const PlasticHistory& history) const;
 
   struct Quad {
     GaussShape<double> gauss;
     YieldingMaterial material;
     std::vector<IncompatibleModes<double>> modes;  ///< by hourglass class; those that occur
+    int block, quad, of_body;                      ///< of_body: the material's index in the body
   };
   static constexpr int kElastic = -1, kMixed = -2;
   /// For the element at a place: index into quads, or kElastic.
@@ -112,8 +122,8 @@ class PlasticElements {
   /// Scale of the elements that the hourglass stiffness of a class was made for.
   const SweepScale& scale(int block, int hourglass_class) const { return scales_[block][hourglass_class]; }
 
-  /// Makes it that of elements to which nothing has happened.
-  void initialise(PlasticHistory& history) const;
+  /// That of elements to which nothing has happened.
+  PlasticHistory initial_history() const;
   /// A place becomes hot, its elements virgin.
   void add(PlasticHistory& history, int candidate) const;
   /// Whether places and numbers are those of a history of these elements.
@@ -125,16 +135,11 @@ class PlasticElements {
   void add_quads(const Body& body, const MaterialOf& material_of);
   void add_candidates(const Body& body, const Wanted& wanted);
   Place place_of(const Body& body, int tile, int quad) const;
-  void make_modes(const Body& body);
 
   int terms_ = 0;
   std::vector<Place> candidates_;
   std::vector<int> hot_at_start_;
   std::vector<Quad> quads_;
-  struct Origin {
-    int block, quad, material;
-  };
-  std::vector<Origin> origin_;                ///< of quads_
   std::vector<std::vector<int>> kinds_;       ///< by block; [set * quads + quad]
   std::vector<std::vector<int>> tile_quads_;  ///< candidates
   std::vector<std::vector<SweepScale>> scales_;

@@ -1,6 +1,7 @@
 #include "body/plastic_field.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/rotation.hpp"
 
@@ -73,6 +74,24 @@ PlasticPeak plastic_peak(const Body& body, const PlasticHistory& history) {
   return out;
 }
 
+PlasticExtent plastic_extent(const Body& body, const PlasticHistory& history) {
+  PlasticExtent out;
+  each_element(body, history, [&](const PlasticElements::Place&, int, int, const double* rows) {
+    bool yielded = false;
+    for (int point = 0; point < kPoints; ++point) {
+      const double* at = point_of(body, rows, point);
+      if (at[6 * kTile] == 0) continue;
+      yielded = true;
+      double plastic[6];
+      for (int i = 0; i < 6; ++i) plastic[i] = at[i * kTile];
+      out.accumulated = std::max(out.accumulated, at[6 * kTile]);
+      out.strain = std::max(out.strain, std::sqrt(2.0 / 3 * double_contraction(plastic, plastic)));
+    }
+    out.yielded += yielded;
+  });
+  return out;
+}
+
 double backstress_energy(const Body& body, const PlasticHistory& history) {
   double sum = 0;
   each_element(body, history, [&](const PlasticElements::Place& place, int block, int element, const double* rows) {
@@ -80,7 +99,7 @@ double backstress_energy(const Body& body, const PlasticHistory& history) {
     if (kind == PlasticElements::kElastic) return;
     const PlasticElements::Quad& quad = body.plastic.quad(kind);
     const ElementTable<double>& table = body.elements[block].table;
-    const double volume = table.quads[place.quad].shape.volume * table.v2[element];
+    const double volume = table.quads[place.quad].shape.volume * table.sigma_c[element];
     for (int point = 0; point < kPoints; ++point)
       for (int k = 0; k < body.plastic.terms(); ++k) {
         const double modulus = quad.material.law.modulus[k];

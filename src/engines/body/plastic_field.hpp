@@ -17,6 +17,13 @@ struct PlasticPeak {
 };
 PlasticPeak plastic_peak(const Body& body, const PlasticHistory& history);
 
+/// Largest accumulated plastic strain and largest norm sqrt(2/3 Ep:Ep) of any point.
+struct PlasticExtent {
+  double accumulated = 0, strain = 0;
+  long yielded = 0;  ///< elements with plastic strain
+};
+PlasticExtent plastic_extent(const Body& body, const PlasticHistory& history);
+
 /// Energy that the backstresses hold, the integral of sum_i 3/(4 C_i) alpha_i:alpha_i [J]: part of plastic_work
 /// (body/plastic_pass.hpp), the rest of which has become heat. [Chaboche1989]
 double backstress_energy(const Body& body, const PlasticHistory& history);

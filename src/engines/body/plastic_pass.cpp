@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include "body/traversal_kernel.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {
@@ -27,39 +29,17 @@ struct PackStrain {
 };
 
 Rotation<double> turn_by(const Body& body, double psi) {
-  if (body.mesh.kind == SweepKind::extrude) return {};
-  return {std::cos(psi), std::sin(psi)};
+  return body.mesh.kind == SweepKind::extrude ? Rotation<double>{} : rotation_by(psi);
 }
 
-// `first`: element of the block in lane 0; lanes past the end of the block have no strain.
 PackStrain pack_strain(const Body& body, int block, int quad, int first, const Rotation<double>& turn, const Field& u) {
-  const BlockElements& elements = body.elements[block];
-  const BlockLayout& lay = body.layout.blocks[block];
-  const std::array<int, 4>& nodes = body.mesh.blocks[block].section.quads[quad];
-  Pack cosine{}, sine{}, real{};
-  for (int l = 0; l < std::min(kLanes, lay.elements - first); ++l) {
-    const Rotation<double> frame = Rotation<double>{elements.cos_q[first + l], elements.sin_q[first + l]}.minus(turn);
-    cosine[l] = frame.c;
-    sine[l] = frame.s;
-    real[l] = 1;
-  }
-  const StationScale<Pack> scale = elements.table.scale<Pack>(first, [](const double* x) { return load(x); });
-  const auto corner = [&](int c, int i, Pack& sum, Pack& difference) {
-    const auto carried = [&](int station) -> Pack {
-      if (i == 1) return real * load(&u[lay.line(nodes[c], 1) + station]);
-      const Pack x = load(&u[lay.line(nodes[c], 0) + station]), z = load(&u[lay.line(nodes[c], 2) + station]);
-      const PlaneVector<Pack> at = Rotation<Pack>{cosine, sine}.forward(x, z);
-      return i == 0 ? at.x : at.z;
-    };
-    const Pack left = carried(first), right = carried(first + 1);
-    sum = right + left;
-    difference = right - left;
-  };
   PackStrain out;
-  out.kin = element_kinematics<SweepKind::revolve, Pack>(elements.table.quads[quad].shape, scale, corner);
+  out.kin = traversal::pack_kinematics(body, block, quad, first, turn, u);
   const auto stress = finite_stress<SweepKind::revolve>(turn, out.kin, [](const Pack(&)[6], Pack(&s)[6]) {
     for (Pack& x : s) x = Pack{};
   });
+  Pack real{};
+  for (int l = 0; l < std::min(kLanes, body.layout.blocks[block].elements - first); ++l) real[l] = 1;
   for (int i = 0; i < 6; ++i) out.mean[i] = real * stress.strain[i];
   return out;
 }
@@ -79,6 +59,12 @@ double largest(const Pack& x) {
   double out = x[0];
   for (int l = 1; l < kLanes; ++l) out = std::max(out, x[l]);
   return out;
+}
+
+double lane_sum(const Pack& x) {
+  double sum = 0;
+  for (int l = 0; l < kLanes; ++l) sum += x[l];
+  return sum;
 }
 
 struct PassScope {
@@ -243,12 +229,8 @@ void advance_place(const PassScope& scope, const Place& place, double* rows) {
   }
 }
 
-using AdvancePlace = void (*)(const PassScope&, const Place&, double* rows);
-AdvancePlace advance_with(int terms) {
-  constexpr AdvancePlace kByTerms[kMostBackstresses + 1] = {advance_place<0>, advance_place<1>, advance_place<2>,
-                                                            advance_place<3>, advance_place<4>};
-  return kByTerms[terms];
-}
+constexpr void (*kAdvanceByTerms[kMostBackstresses + 1])(const PassScope&, const Place&, double* rows) = {
+    advance_place<0>, advance_place<1>, advance_place<2>, advance_place<3>, advance_place<4>};
 
 // Sum of of_place(place, its numbers) over the hot places that have any eigenstress, in their order.
 template <class OfPlace>
@@ -258,9 +240,7 @@ double sum_of_places(const PlasticElements& plastic, const PlasticHistory& histo
     const double* rows = plastic.rows(history, static_cast<int>(k));
     if (plastic.has_eigenstress(rows)) part[k] = of_place(plastic.hot(history, static_cast<int>(k)), rows);
   });
-  double sum = 0;
-  for (double p : part) sum += p;
-  return sum;
+  return std::accumulate(part.begin(), part.end(), 0.0);
 }
 
 // -V E:eigenstress - q.eigenforces - P_a.alpha_p/2 + V mu sum_g w_g Ep_g:Ep_g of a pack. With P_a = K_aa alpha_p and
@@ -297,7 +277,7 @@ Pack pack_energy(const PackWork& work, const PackStrain& at, const Pack& volume,
 
 Pack volumes(const Body& body, int block, int quad, int element) {
   const ElementTable<double>& table = body.elements[block].table;
-  return table.quads[quad].shape.volume * load(&table.v2[element]);
+  return table.quads[quad].shape.volume * load(&table.sigma_c[element]);
 }
 
 }  // namespace
@@ -306,7 +286,7 @@ void advance_plastic_elements(const Body& body, const Field& u, double psi, Plas
                               const TileCut* cut) {
   if (body.plastic.empty()) return;
   const PassScope scope{body, u, turn_by(body, psi), look};
-  const AdvancePlace advance = advance_with(body.plastic.terms());
+  const auto advance = kAdvanceByTerms[body.plastic.terms()];
   for_each(
       body.plastic.hot_places(history),
       [&](std::ptrdiff_t k) {
@@ -362,9 +342,7 @@ double plastic_strain_energy(const Body& body, const Field& u, double psi, const
                                         volumes(body, tile.block, place.quad, e), body.plastic.point_entries());
         sum += own ? *own * energy : energy;
       });
-    double total = 0;
-    for (int l = 0; l < kLanes; ++l) total += sum[l];
-    return total;
+    return lane_sum(sum);
   });
 }
 
@@ -375,19 +353,17 @@ double initial_stress_energy(const Body& body, const Field& u, double psi, const
     const Tile& tile = body.tiling.tiles[t];
     const int quads = static_cast<int>(body.mesh.blocks[tile.block].section.quads.size());
     for (int q = 0; q < quads; ++q) {
-      if (!body.initial_stress.rows(tile.block, q) || body.plastic.rows(history, static_cast<int>(t), q)) continue;
-      const InitialStress::Stress stress = body.initial_stress.at(tile.block, q);
+      const double* const taken_off = body.initial_stress.rows(tile.block, q);
+      if (!taken_off || body.plastic.rows(history, static_cast<int>(t), q)) continue;
       Pack given[6], sum{};
-      for (int i = 0; i < 6; ++i) given[i] = Pack{} + stress[i];
+      for (int i = 0; i < 6; ++i) given[i] = Pack{} - taken_off[i * kTile];
       for (int e = tile.first; e < tile.end; e += kLanes)
         sum += volumes(body, tile.block, q, e) *
                double_contraction(pack_strain(body, tile.block, q, e, turn, u).mean, given);
       for (int l = 0; l < kLanes; ++l) part[t] += sum[l];
     }
   });
-  double sum = 0;
-  for (double p : part) sum += p;
-  return sum;
+  return std::accumulate(part.begin(), part.end(), 0.0);
 }
 
 double plastic_work(const Body& body, const PlasticHistory& history) {
@@ -396,51 +372,8 @@ double plastic_work(const Body& body, const PlasticHistory& history) {
     Pack sum{};
     for (int e = tile.first; e < tile.end; e += kLanes)
       sum += volumes(body, tile.block, place.quad, e) * load(rows + Entries::kWork * kTile + e - tile.first);
-    double total = 0;
-    for (int l = 0; l < kLanes; ++l) total += sum[l];
-    return total;
+    return lane_sum(sum);
   });
-}
-
-std::optional<PlasticState> plastic_state(const Body& body, const PlasticHistory& history, int block, int quad,
-                                          int station) {
-  const int tile = body.tiling.first_tile[block] + station / kTile;
-  const double* rows = body.plastic.rows(history, tile, quad);
-  if (!rows) return std::nullopt;
-  rows += station % kTile;
-  const GaussShape<double>& gauss = body.plastic.gauss_at(tile, quad);
-  PlasticState out;
-  for (int point = 0; point < 2 * kGaussPairs; ++point) {
-    const double* at = rows + (Entries::kPoints + point * body.plastic.point_entries()) * kTile;
-    const double weight = gauss.pair[point / 2].weight;
-    for (int i = 0; i < 6; ++i) out.mean[i] += weight * at[i * kTile];
-    out.accumulated += weight * at[6 * kTile];
-    out.most = std::max(out.most, at[6 * kTile]);
-  }
-  return out;
-}
-
-PlasticExtent plastic_extent(const Body& body, const PlasticHistory& history) {
-  PlasticExtent out;
-  for (int k = 0; k < body.plastic.hot_places(history); ++k) {
-    const Tile& tile = body.tiling.tiles[body.plastic.hot(history, k).tile];
-    const double* rows = body.plastic.rows(history, k);
-    if (!body.plastic.has_eigenstress(rows)) continue;
-    for (int e = 0; e < tile.end - tile.first; ++e) {
-      bool yielded = false;
-      for (int point = 0; point < 2 * kGaussPairs; ++point) {
-        const double* at = rows + (Entries::kPoints + point * body.plastic.point_entries()) * kTile + e;
-        if (at[6 * kTile] == 0) continue;
-        yielded = true;
-        double plastic[6];
-        for (int i = 0; i < 6; ++i) plastic[i] = at[i * kTile];
-        out.accumulated = std::max(out.accumulated, at[6 * kTile]);
-        out.strain = std::max(out.strain, std::sqrt(2.0 / 3 * double_contraction(plastic, plastic)));
-      }
-      out.yielded += yielded;
-    }
-  }
-  return out;
 }
 
 }  // namespace railstrata

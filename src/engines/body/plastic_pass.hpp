@@ -46,21 +46,4 @@ double initial_stress_energy(const Body& body, const Field& u, double psi, const
 /// Work done on the plastic strains so far: dissipated and stored by hardening [J].
 double plastic_work(const Body& body, const PlasticHistory& history);
 
-/// Plastic strain of one element.
-struct PlasticState {
-  std::array<double, 6> mean{};      ///< plastic strain, mean of the points; element's frame
-  double accumulated = 0, most = 0;  ///< p, mean of the points and the largest
-};
-
-/// Nothing for elements that stay elastic.
-std::optional<PlasticState> plastic_state(const Body& body, const PlasticHistory& history, int block, int quad,
-                                          int station);
-
-/// Largest accumulated plastic strain and largest norm sqrt(2/3 Ep:Ep) of any point.
-struct PlasticExtent {
-  double accumulated = 0, strain = 0;
-  long yielded = 0;  ///< elements with plastic strain
-};
-PlasticExtent plastic_extent(const Body& body, const PlasticHistory& history);
-
 }  // namespace railstrata

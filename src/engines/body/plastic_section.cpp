@@ -1,7 +1,6 @@
 #include "body/plastic_section.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "body/body_state.hpp"
@@ -21,10 +20,7 @@ std::vector<PlasticSection::Quad> quads_of(const Body& body, const PlasticHistor
     const HotPlace p = body.plastic.hot(history, slot);
     out.push_back({body.tiling.tiles[p.tile].block, p.quad});
   }
-  const auto before = [](const PlasticSection::Quad& a, const PlasticSection::Quad& b) {
-    return a.block != b.block ? a.block < b.block : a.quad < b.quad;
-  };
-  std::sort(out.begin(), out.end(), before);
+  std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
@@ -35,12 +31,10 @@ struct Range {
 };
 Range between(const Stations& stations, double from, double to) {
   Range out{0, stations.elements()};
-  const auto centre = [&](int e) { return 0.5 * (stations.at[e] + stations.at[e + 1]); };
-  while (out.first < out.end && centre(out.first) < from) ++out.first;
-  while (out.end > out.first && centre(out.end - 1) > to) --out.end;
+  while (out.first < out.end && stations.centre(out.first) < from) ++out.first;
+  while (out.end > out.first && stations.centre(out.end - 1) > to) --out.end;
   if (out.first < out.end) return out;
-  const auto above = std::upper_bound(stations.at.begin(), stations.at.end(), 0.5 * (from + to));
-  const int e = std::clamp(static_cast<int>(above - stations.at.begin()) - 1, 0, stations.elements() - 1);
+  const int e = stations.element_at(0.5 * (from + to));
   return {e, e + 1};
 }
 
@@ -94,11 +88,9 @@ void put_place(const Body& body, const HotPlace& place, const double* points, do
   }
 }
 
-using QuadKey = std::pair<int, int>;
-
-std::map<QuadKey, std::size_t> places_of(const PlasticSection& section) {
-  std::map<QuadKey, std::size_t> at;
-  for (std::size_t n = 0; n < section.quads.size(); ++n) at[{section.quads[n].block, section.quads[n].quad}] = n;
+std::map<PlasticSection::Quad, std::size_t> places_of(const PlasticSection& section) {
+  std::map<PlasticSection::Quad, std::size_t> at;
+  for (std::size_t n = 0; n < section.quads.size(); ++n) at[section.quads[n]] = n;
   return at;
 }
 
@@ -126,11 +118,11 @@ PlasticSection plastic_section(const Body& body, const PlasticHistory& history, 
 }
 
 PlasticSection on_quads(const PlasticSection& section, const PlasticSection& like) {
-  const std::map<QuadKey, std::size_t> at = places_of(section);
+  const auto at = places_of(section);
   const std::size_t each = static_cast<std::size_t>(kGaussPairs) * like.point_entries;
   PlasticSection out = like;
   for (std::size_t n = 0; n < like.quads.size(); ++n) {
-    const auto found = at.find({like.quads[n].block, like.quads[n].quad});
+    const auto found = at.find(like.quads[n]);
     double* own = out.history.data() + n * each;
     if (found == at.end())
       std::fill_n(own, each, 0.0);
@@ -141,7 +133,7 @@ PlasticSection on_quads(const PlasticSection& section, const PlasticSection& lik
 }
 
 PlasticHistory history_of_section(const Body& body, const PlasticSection& section) {
-  const std::map<QuadKey, std::size_t> at = places_of(section);
+  const auto at = places_of(section);
   PlasticHistory out = initial_history(body);
   std::vector<char> placed(section.quads.size(), 0);
   for (std::size_t c = 0; c < body.plastic.candidates().size(); ++c) {

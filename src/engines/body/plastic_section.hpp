@@ -12,7 +12,7 @@ namespace railstrata {
 struct PlasticSection {
   struct Quad {
     int block, quad;
-    friend bool operator==(const Quad&, const Quad&) = default;
+    friend auto operator<=>(const Quad&, const Quad&) = default;
   };
   int point_entries = 0;        ///< numbers of a point, as PlasticElements has them
   std::vector<Quad> quads;      ///< of the mesh

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -30,42 +31,93 @@ Vec3 mix(double w, Vec3 a, Vec3 b) {
 }
 
 // Ties such that a master that is itself tied comes before those that it carries.
-class MastersFirst {
- public:
-  explicit MastersFirst(const SweptBody& body) : body_(body), state_(body.ties.size(), State::unseen) {
-    for (int t = 0; t < static_cast<int>(body.ties.size()); ++t) {
-      const Tie& tie = body.ties[t];
-      if (!tie_of_.emplace(std::pair{tie.slave_block, tie.slave_node}, t).second)
-        throw std::logic_error("a section node is tied twice");
-    }
-    for (int t = 0; t < static_cast<int>(body.ties.size()); ++t) visit(t);
-  }
-  const std::vector<int>& order() const { return order_; }
+std::vector<int> masters_first(const std::vector<Tie>& ties) {
+  std::map<std::pair<int, int>, int> tie_of;  // (block, node) -> tie
+  for (int t = 0; t < static_cast<int>(ties.size()); ++t)
+    if (!tie_of.emplace(std::pair{ties[t].slave_block, ties[t].slave_node}, t).second)
+      throw std::logic_error("a section node is tied twice");
+  std::vector<char> open(ties.size(), 0), done(ties.size(), 0);
+  std::vector<int> order;
+  const std::function<void(int)> visit = [&](int t) {
+    if (done[t]) return;
+    if (open[t]) throw std::logic_error("ties form a cycle");
+    open[t] = 1;
+    for (int node : {ties[t].master_node0, ties[t].master_node1})
+      if (const auto known = tie_of.find({ties[t].master_block, node}); known != tie_of.end()) visit(known->second);
+    order.push_back(t);
+    done[t] = 1;
+  };
+  for (int t = 0; t < static_cast<int>(ties.size()); ++t) visit(t);
+  return order;
+}
 
- private:
-  enum class State { unseen, open, done };
-  void visit(int t) {
-    if (state_[t] == State::done) return;
-    if (state_[t] == State::open) throw std::logic_error("ties form a cycle");
-    state_[t] = State::open;
-    const Tie& tie = body_.ties[t];
-    for (int node : {tie.master_node0, tie.master_node1})
-      if (const auto known = tie_of_.find({tie.master_block, node}); known != tie_of_.end()) visit(known->second);
-    order_.push_back(t);
-    state_[t] = State::done;
+// Linear between the master block's stations around each of the slave's.
+Ties::Interpolation interpolation(const SweptBody& body, int slave, int master) {
+  Ties::Interpolation in;
+  in.slave_block = slave;
+  in.master_block = master;
+  const Stations& stations = body.blocks[master].stations;
+  for (double t : body.blocks[slave].stations.at) {
+    const StationWeights at = station_weights(stations, t);
+    in.left.push_back(at.left);
+    in.right.push_back(at.right);
+    in.weight.push_back(at.weight);
   }
-  const SweptBody& body_;
-  std::map<std::pair<int, int>, int> tie_of_;  // (block, node) -> tie
-  std::vector<State> state_;
-  std::vector<int> order_;
-};
+  const auto each_share = [&](auto&& visit) {
+    for (std::size_t j = 0; j < in.left.size(); ++j) {
+      if (in.weight[j] < 1) visit(in.left[j], static_cast<int>(j), 1 - in.weight[j]);
+      if (in.weight[j] > 0) visit(in.right[j], static_cast<int>(j), in.weight[j]);
+    }
+  };
+  std::vector<int> held(static_cast<std::size_t>(stations.nodes()), 0);
+  each_share([&](int i, int, double) { ++held[i]; });
+  in.slots = *std::max_element(held.begin(), held.end());
+  in.from.assign(in.slots * held.size(), 0);
+  in.share.assign(in.from.size(), 0.0);
+  std::fill(held.begin(), held.end(), 0);
+  each_share([&](int i, int j, double share) {
+    const std::size_t k = held[i]++ * held.size() + static_cast<std::size_t>(i);
+    in.from[k] = j;
+    in.share[k] = share;
+  });
+  return in;
+}
+
+constexpr int kComponents = 3;
+
+// visit(field, stage, item) for all items(field, stage) of the fields in a stage, as one range, then the next stage.
+template <class Items, class Visit>
+void each_item(std::span<const TiedField> fields, int stages, Items&& items, Visit&& visit) {
+  const auto count = [&](int stage) {
+    std::ptrdiff_t sum = 0;
+    for (std::size_t f = 0; f < fields.size(); ++f) sum += items(f, stage);
+    return sum;
+  };
+  for_each_in_stages(stages, count, [&](int stage, std::ptrdiff_t k) {
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      const std::ptrdiff_t n = items(f, stage);
+      if (k < n) return visit(f, stage, k);
+      k -= n;
+    }
+  });
+}
+
+int most_levels(std::span<const TiedField> fields) {
+  std::size_t most = 0;
+  for (const TiedField& f : fields) most = std::max(most, f.ties.levels().size());
+  return static_cast<int>(most);
+}
+
+const Ties::Level* level_of(const TiedField& field, int level) {
+  const auto k = static_cast<std::size_t>(level);
+  return k < field.ties.levels().size() ? &field.ties.levels()[k] : nullptr;
+}
 
 }  // namespace
 
 Ties::Ties(const SweptBody& body, const BodyLayout& layout) : layout_(layout), kind_(body.kind) {
   for (const Block& b : body.blocks) slave_.emplace_back(b.section.nodes.size(), false);
-  const MastersFirst sorted(body);
-  for (int t : sorted.order()) add_line(body, body.ties[t]);
+  for (int t : masters_first(body.ties)) add_line(body, body.ties[t]);
   add_levels();
   first_piece_.push_back(0);
   for (const Line& line : lines_) first_piece_.push_back(first_piece_.back() + moment_pieces(line));
@@ -78,62 +130,13 @@ Ties::Ties(const SweptBody& body, const BodyLayout& layout) : layout_(layout), k
   station_values(longest);
 }
 
-// Linear between the master block's stations around each of the slave's.
-Ties::Interpolation Ties::interpolation(const SweptBody& body, int slave, int master) {
-  Interpolation in;
-  in.slave_block = slave;
-  in.master_block = master;
-  const Stations& from = body.blocks[master].stations;
-  for (double t : body.blocks[slave].stations.at) {
-    const StationWeights at = station_weights(from, t);
-    in.left.push_back(at.left);
-    in.right.push_back(at.right);
-    in.weight.push_back(at.weight);
-  }
-  transpose(from.nodes(), in);
-  return in;
-}
-
-void Ties::transpose(int master_stations, Interpolation& in) {
-  const auto each_share = [&](auto&& visit) {
-    for (std::size_t j = 0; j < in.left.size(); ++j) {
-      if (in.weight[j] < 1) visit(in.left[j], static_cast<int>(j), 1 - in.weight[j]);
-      if (in.weight[j] > 0) visit(in.right[j], static_cast<int>(j), in.weight[j]);
-    }
-  };
-  in.first.assign(master_stations + 1, 0);
-  each_share([&](int i, int, double) { ++in.first[i + 1]; });
-  for (int i = 0; i < master_stations; ++i) in.first[i + 1] += in.first[i];
-  in.from.resize(in.first[master_stations]);
-  in.share.resize(in.first[master_stations]);
-  std::vector<int> next(in.first.begin(), in.first.end() - 1);
-  each_share([&](int i, int j, double share) {
-    const int k = next[i]++;
-    in.from[k] = j;
-    in.share[k] = share;
-  });
-  for (int i = 0; i < master_stations; ++i) in.slots = std::max(in.slots, in.first[i + 1] - in.first[i]);
-  for (int slot = 0; slot < in.slots; ++slot)
-    for (int i = 0; i < master_stations; ++i) {
-      const int k = in.first[i] + slot;
-      const bool held = k < in.first[i + 1];
-      in.slot_from.push_back(held ? in.from[k] : 0);
-      in.slot_share.push_back(held ? in.share[k] : 0.0);
-    }
-}
-
-int Ties::interpolation_index(const SweptBody& body, int slave_block, int master_block) {
-  const auto known = std::find_if(interpolations_.begin(), interpolations_.end(), [&](const Interpolation& in) {
-    return in.slave_block == slave_block && in.master_block == master_block;
-  });
-  if (known != interpolations_.end()) return static_cast<int>(known - interpolations_.begin());
-  interpolations_.push_back(interpolation(body, slave_block, master_block));
-  return static_cast<int>(interpolations_.size()) - 1;
-}
-
 void Ties::add_line(const SweptBody& body, const Tie& tie) {
   slave_[tie.slave_block][tie.slave_node] = true;
-  const int index = interpolation_index(body, tie.slave_block, tie.master_block);
+  const auto known = std::find_if(interpolations_.begin(), interpolations_.end(), [&](const Interpolation& in) {
+    return in.slave_block == tie.slave_block && in.master_block == tie.master_block;
+  });
+  const int index = static_cast<int>(known - interpolations_.begin());
+  if (known == interpolations_.end()) interpolations_.push_back(interpolation(body, tie.slave_block, tie.master_block));
   const Interpolation& in = interpolations_[index];
   lines_.push_back({tie.slave_block, tie.slave_node, tie.master_block, tie.master_node0, tie.master_node1, tie.weight1,
                     index, static_cast<std::ptrdiff_t>(delta_x_.size())});
@@ -151,7 +154,7 @@ void Ties::add_line(const SweptBody& body, const Tie& tie) {
   }
 }
 
-// Sets the level of every line: one above the levels of its masters' own ties.
+// Sets the level of every line, one above the levels of its masters' own ties, and what the masters get.
 void Ties::add_levels() {
   std::map<std::pair<int, int>, std::size_t> level_of;  // of slaves, by block and node
   for (std::size_t k = 0; k < lines_.size(); ++k) {
@@ -164,20 +167,18 @@ void Ties::add_levels() {
     if (levels_.size() <= level) levels_.resize(level + 1);
     levels_[level].lines.push_back(static_cast<int>(k));
   }
-  for (Level& level : levels_) add_masters(level);
-}
-
-void Ties::add_masters(Level& level) const {
-  std::map<std::pair<int, int>, std::vector<Share>> shares_of;  // by block and node
-  for (auto k = level.lines.rbegin(); k != level.lines.rend(); ++k) {
-    const Line& line = lines_[*k];
-    if (line.weight1 < 1) shares_of[{line.master_block, line.node0}].push_back({*k, 1 - line.weight1});
-    if (line.weight1 > 0) shares_of[{line.master_block, line.node1}].push_back({*k, line.weight1});
-  }
-  for (const auto& [master, shares] : shares_of) {
-    level.masters.push_back(
-        {master.first, master.second, static_cast<int>(level.shares.size()), static_cast<int>(shares.size())});
-    level.shares.insert(level.shares.end(), shares.begin(), shares.end());
+  for (Level& level : levels_) {
+    std::map<std::pair<int, int>, std::vector<Share>> shares_of;  // by block and node
+    for (auto k = level.lines.rbegin(); k != level.lines.rend(); ++k) {
+      const Line& line = lines_[*k];
+      if (line.weight1 < 1) shares_of[{line.master_block, line.node0}].push_back({*k, 1 - line.weight1});
+      if (line.weight1 > 0) shares_of[{line.master_block, line.node1}].push_back({*k, line.weight1});
+    }
+    for (const auto& [master, shares] : shares_of) {
+      level.masters.push_back(
+          {master.first, master.second, static_cast<int>(level.shares.size()), static_cast<int>(shares.size())});
+      level.shares.insert(level.shares.end(), shares.begin(), shares.end());
+    }
   }
 }
 
@@ -234,8 +235,8 @@ void Ties::gather(int index, const TiedField& field, double* room) const {
     double *const gx = gathered, *const gy = gx + stations, *const gz = gy + stations;
     for (double* const g : {gx, gy, gz}) std::fill(g + range.begin, g + range.end, 0.0);
     for (int slot = 0; slot < in.slots; ++slot) {
-      const int* at = in.slot_from.data() + static_cast<std::ptrdiff_t>(slot) * stations;
-      const double* share = in.slot_share.data() + static_cast<std::ptrdiff_t>(slot) * stations;
+      const int* at = in.from.data() + static_cast<std::ptrdiff_t>(slot) * stations;
+      const double* share = in.share.data() + static_cast<std::ptrdiff_t>(slot) * stations;
       RAILSTRATA_INDEPENDENT
       for (int j = range.begin; j < range.end; ++j) {
         gx[j] += share[j] * x[at[j]];
@@ -330,97 +331,55 @@ void Ties::clear(const Line& line, const TiedField& field) const {
   }
 }
 
-namespace {
-
-constexpr int kComponents = 3;
-
-// Items of several fields as one range: visit(field, item) of the k-th; items(field): how many each has.
-template <class Items, class Visit>
-void visit_item(std::span<const TiedField> fields, std::ptrdiff_t k, Items&& items, Visit&& visit) {
-  for (std::size_t f = 0; f < fields.size(); ++f) {
-    const std::ptrdiff_t n = items(f);
-    if (k < n) return visit(f, k);
-    k -= n;
-  }
-}
-
-template <class Items>
-std::ptrdiff_t all_items(std::span<const TiedField> fields, Items&& items) {
-  std::ptrdiff_t sum = 0;
-  for (std::size_t f = 0; f < fields.size(); ++f) sum += items(f);
-  return sum;
-}
-
-int most_levels(std::span<const TiedField> fields) {
-  std::size_t most = 0;
-  for (const TiedField& f : fields) most = std::max(most, f.ties.levels().size());
-  return static_cast<int>(most);
-}
-
-}  // namespace
-
 void spread_ties(std::span<const TiedField> fields) {
-  const auto items_at = [&](int stage) {
-    return [&fields, stage](std::size_t f) {
-      const auto& levels = fields[f].ties.levels();
-      const auto level = static_cast<std::size_t>(stage);
-      return level < levels.size() ? kComponents * static_cast<std::ptrdiff_t>(levels[level].lines.size()) : 0;
-    };
+  const auto items = [&](std::size_t f, int stage) -> std::ptrdiff_t {
+    const Ties::Level* const level = level_of(fields[f], stage);
+    return level ? static_cast<std::ptrdiff_t>(kComponents * level->lines.size()) : 0;
   };
-  for_each_in_stages(
-      most_levels(fields), [&](int stage) { return all_items(fields, items_at(stage)); },
-      [&](int stage, std::ptrdiff_t k) {
-        visit_item(fields, k, items_at(stage), [&](std::size_t f, std::ptrdiff_t item) {
-          const Ties& ties = fields[f].ties;
-          const int line = ties.levels_[static_cast<std::size_t>(stage)].lines[item / kComponents];
-          ties.spread_line(ties.lines_[line], static_cast<int>(item % kComponents), fields[f]);
-        });
-      });
+  each_item(fields, most_levels(fields), items, [&](std::size_t f, int stage, std::ptrdiff_t item) {
+    const Ties& ties = fields[f].ties;
+    const int line = level_of(fields[f], stage)->lines[item / kComponents];
+    ties.spread_line(ties.lines_[line], static_cast<int>(item % kComponents), fields[f]);
+  });
 }
 
 // Level by level, the highest first: forces of slaves at their masters' stations, then these to the masters. At the end
 // the slaves give their moments and are cleared, all at once.
 double collect_ties(std::span<const TiedField> fields) {
   thread_local std::vector<double> moments, gathered;
-  const int levels = most_levels(fields);
-  const auto lines = [&](std::size_t f) { return static_cast<std::ptrdiff_t>(fields[f].ties.lines().size()); };
-  const auto room = [&](std::size_t f) { return fields[f].ties.gathered_.back(); };
-  moments.assign(static_cast<std::size_t>(all_items(fields, lines)), 0.0);
-  if (const auto wanted = static_cast<std::size_t>(all_items(fields, room)); gathered.size() < wanted)
+  thread_local std::vector<std::ptrdiff_t> first_line, first_room;  // of each field in these, and their ends
+  first_line.assign(1, 0);
+  first_room.assign(1, 0);
+  for (const TiedField& f : fields) {
+    first_line.push_back(first_line.back() + static_cast<std::ptrdiff_t>(f.ties.lines_.size()));
+    first_room.push_back(first_room.back() + f.ties.gathered_.back());
+  }
+  moments.assign(static_cast<std::size_t>(first_line.back()), 0.0);
+  if (const auto wanted = static_cast<std::size_t>(first_room.back()); gathered.size() < wanted)
     gathered.resize(wanted);
-  double *const moment = moments.data(), *const first_room = gathered.data();  // of this thread, for all of the loop's
-  const auto level_of = [&](std::size_t f, int stage) -> const Ties::Level* {
-    const auto& own = fields[f].ties.levels();
-    const auto level = static_cast<std::size_t>(levels - 1 - stage / 2);
-    return level < own.size() ? &own[level] : nullptr;
+  double *const moment = moments.data(), *const rooms = gathered.data();  // of this thread, for all of the loop's
+  const std::ptrdiff_t *const line_of = first_line.data(), *const room_of = first_room.data();
+  const int levels = most_levels(fields);
+  const auto level_in = [&](std::size_t f, int stage) { return level_of(fields[f], levels - 1 - stage / 2); };
+  const auto items = [&](std::size_t f, int stage) -> std::ptrdiff_t {
+    if (stage == 2 * levels) return static_cast<std::ptrdiff_t>(fields[f].ties.lines_.size());
+    const Ties::Level* const level = level_in(f, stage);
+    if (level == nullptr) return 0;
+    return static_cast<std::ptrdiff_t>(stage % 2 == 0 ? level->lines.size() : kComponents * level->masters.size());
   };
-  const auto items_at = [&](int stage) {
-    return [&, stage](std::size_t f) -> std::ptrdiff_t {
-      if (stage == 2 * levels) return lines(f);
-      const Ties::Level* const level = level_of(f, stage);
-      if (level == nullptr) return 0;
-      return static_cast<std::ptrdiff_t>(stage % 2 == 0 ? level->lines.size() : kComponents * level->masters.size());
-    };
-  };
-  for_each_in_stages(
-      2 * levels + 1, [&](int stage) { return all_items(fields, items_at(stage)); },
-      [&](int stage, std::ptrdiff_t k) {
-        visit_item(fields, k, items_at(stage), [&](std::size_t f, std::ptrdiff_t item) {
-          const Ties& ties = fields[f].ties;
-          if (stage == 2 * levels) {
-            moment[k] = ties.moment(static_cast<int>(item), fields[f]);
-            ties.clear(ties.lines_[item], fields[f]);
-            return;
-          }
-          double* const own_room = first_room + all_items(fields.first(f), room);
-          const Ties::Level& level = *level_of(f, stage);
-          if (stage % 2 == 0)
-            ties.gather(level.lines[item], fields[f], own_room);
-          else
-            ties.add_gathered(level, level.masters[item / kComponents], static_cast<int>(item % kComponents), fields[f],
-                              own_room);
-        });
-      });
+  each_item(fields, 2 * levels + 1, items, [&](std::size_t f, int stage, std::ptrdiff_t item) {
+    const Ties& ties = fields[f].ties;
+    double* const room = rooms + room_of[f];
+    if (stage == 2 * levels) {
+      moment[line_of[f] + item] = ties.moment(static_cast<int>(item), fields[f]);
+      ties.clear(ties.lines_[item], fields[f]);
+    } else if (const Ties::Level& level = *level_in(f, stage); stage % 2 == 0) {
+      ties.gather(level.lines[item], fields[f], room);
+    } else {
+      const Ties::Master& master = level.masters[item / kComponents];
+      ties.add_gathered(level, master, static_cast<int>(item % kComponents), fields[f], room);
+    }
+  });
   return std::accumulate(moments.begin(), moments.end(), 0.0);
 }
 
@@ -434,9 +393,7 @@ void Ties::apply_homogeneous(Field& u) const {
   spread_ties({&field, 1});
 }
 
-void Ties::apply_transpose(Field& f) const { apply_transpose_turned(f, 0); }
-
-double Ties::apply_transpose_turned(Field& f, double psi) const {
+double Ties::apply_transpose(Field& f, double psi) const {
   const TiedField field{*this, f, rotation_by(psi)};
   return collect_ties({&field, 1});
 }

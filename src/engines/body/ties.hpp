@@ -47,7 +47,7 @@ struct TiedField {
 };
 /// Ties::apply on several bodies in one parallel loop.
 void spread_ties(std::span<const TiedField> fields);
-/// Ties::apply_transpose_turned likewise; returns the sum of the moments [N m].
+/// Ties::apply_transpose likewise; returns the sum of the moments [N m].
 double collect_ties(std::span<const TiedField> fields);
 
 class Ties {
@@ -58,12 +58,10 @@ class Ties {
   void apply(Field& u, double psi) const;
   /// u_s = T u, without the offsets: increments and search directions.
   void apply_homogeneous(Field& u) const;
-  /// f += T^T f_s, f_s = 0: what stands at the slaves (forces, masses) goes to their masters.
-  void apply_transpose(Field& f) const;
-  /// The same for forces on a body turned by psi. Returns what the offsets hand to the rotation itself,
-  /// sum f_s . d(R delta)/dpsi [N m]: without it the work of the forces on the slaves is not that of those at the
-  /// masters.
-  double apply_transpose_turned(Field& f, double psi) const;
+  /// f += T^T f_s, f_s = 0: what stands at the slaves (forces, masses) goes to their masters. For forces on a body
+  /// turned by psi it returns what the offsets hand to the rotation itself, sum f_s . d(R delta)/dpsi [N m]: without it
+  /// the work of the forces on the slaves is not that of those at the masters.
+  double apply_transpose(Field& f, double psi = 0) const;
 
   struct Line;
   /// Torque of the forces on a line of slaves of a revolved body through the offsets [N m], of single
@@ -90,14 +88,11 @@ class Ties {
     int slave_block, master_block;
     std::vector<int> left, right;
     std::vector<double> weight;  ///< of right
-    // the transpose: master station i gets the slaves' values share[k] * at station from[k],
-    // first[i] <= k < first[i + 1]
-    std::vector<int> first, from;
-    std::vector<double> share;
-    // the same, padded with shares of nothing to `slots` numbers a station: slot_share[slot * stations + i]
+    /// The transpose: master station i gets share[k] times the slaves' values at station from[k], k = slot * stations +
+    /// i; shares of nothing fill all stations up to `slots`.
     int slots = 0;
-    std::vector<int> slot_from;
-    std::vector<double> slot_share;
+    std::vector<int> from;
+    std::vector<double> share;
   };
   /// Lines none of which carries another, and what each of their masters gets of them, the last line first. Masters
   /// that are tied themselves are slaves of a lower level.
@@ -121,12 +116,8 @@ class Ties {
   const std::vector<double>& delta_z() const { return delta_z_; }
 
  private:
-  static Interpolation interpolation(const SweptBody& body, int slave_block, int master_block);
-  static void transpose(int master_stations, Interpolation& in);
-  int interpolation_index(const SweptBody& body, int slave_block, int master_block);
   void add_line(const SweptBody& body, const Tie& tie);
   void add_levels();
-  void add_masters(Level& level) const;
 
   friend void spread_ties(std::span<const TiedField> fields);
   friend double collect_ties(std::span<const TiedField> fields);

@@ -27,18 +27,46 @@ std::vector<int> filled(const std::vector<long>& work, long most) {
   return out;
 }
 
+// The end of the stretch that tile `first` is in.
+int stretch_end(const Tiling& tiling, const TileCut& cut, int first) {
+  const int block_end = tiling.first_tile[tiling.tiles[first].block + 1];
+  int t = first;
+  while (t < block_end && cut.owner_of(t) == cut.owner_of(first)) ++t;
+  return t;
+}
+
+std::vector<StationRange> runs_of(const std::vector<char>& kept) {
+  std::vector<StationRange> out;
+  for (int j = 0; j < static_cast<int>(kept.size()); ++j) {
+    if (!kept[j]) continue;
+    if (out.empty() || out.back().end != j) out.push_back({j, j});
+    out.back().end = j + 1;
+  }
+  return out;
+}
+
 }  // namespace
+
+NodeMask no_nodes(const SweptBody& mesh) {
+  NodeMask out;
+  for (const Block& b : mesh.blocks) out.emplace_back(b.section.nodes.size(), 0);
+  return out;
+}
+
+NodeMask nodes_on_lines(const SweptBody& mesh) {
+  NodeMask out = no_nodes(mesh);
+  for (int c = 0; c <= mesh.contact.columns; ++c) out[mesh.contact.block][c] = 1;
+  for (const Tie& t : mesh.ties) {
+    out[t.slave_block][t.slave_node] = 1;
+    out[t.master_block][t.master_node0] = out[t.master_block][t.master_node1] = 1;
+  }
+  return out;
+}
 
 std::vector<long> tile_work(const SweptBody& mesh, const Tiling& tiling) {
   // measured by bench/rank_steps.cpp: 21.2 and 23.1 ns an element, 9 a node on a line
   const long of_element = mesh.kind == SweepKind::revolve ? 109 : 100, of_line_node = 43;
-  std::vector<std::vector<char>> on_line;
-  for (const Block& b : mesh.blocks) on_line.emplace_back(b.section.nodes.size(), 0);
-  for (int c = 0; c <= mesh.contact.columns; ++c) on_line[mesh.contact.block][c] = 1;
-  for (const Tie& t : mesh.ties) {
-    on_line[t.slave_block][t.slave_node] = 1;
-    on_line[t.master_block][t.master_node0] = on_line[t.master_block][t.master_node1] = 1;
-  }
+  const NodeMask on_line = nodes_on_lines(mesh);
   std::vector<long> of_station;  // by block
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
     of_station.push_back(of_element * static_cast<long>(mesh.blocks[b].section.quads.size()) +
@@ -88,27 +116,47 @@ std::vector<TileCut> cut_tiles(const std::vector<const Body*>& bodies, int ranks
 
 std::vector<OwnedChain> stretches(const Tiling& tiling, const TileCut& cut) {
   std::vector<OwnedChain> out;
-  for (int t = 0; t < static_cast<int>(tiling.tiles.size()); ++t) {
-    const int owner = cut.whole() ? cut.rank : cut.owner[t];
-    const bool anew = out.empty() || tiling.tiles[t].block != tiling.tiles[t - 1].block || owner != out.back().owner;
-    if (anew) out.push_back({{t, t}, owner});
-    out.back().end_tile = t + 1;
+  for (int t = 0; t < static_cast<int>(tiling.tiles.size()); t = out.back().end_tile)
+    out.push_back({{t, stretch_end(tiling, cut, t)}, cut.owner_of(t)});
+  return out;
+}
+
+std::vector<Chain> chains(const Tiling& tiling, int at_least, const TileCut& cut, std::vector<Chain> reuse) {
+  const int tiles = static_cast<int>(tiling.tiles.size());
+  const auto own = cut.whole() ? tiles : static_cast<int>(std::count(cut.owner.begin(), cut.owner.end(), cut.rank));
+  const int length = std::max(1, own / at_least);
+  std::vector<Chain> out = std::move(reuse);
+  out.clear();
+  for (int t = 0, end = 0; t < tiles; t = end) {
+    end = stretch_end(tiling, cut, t);
+    const int count = end - t, pieces = cut.is_own(t) ? (count + length - 1) / length : 1;
+    for (int k = 0; k < pieces; ++k) out.push_back({t + k * count / pieces, t + (k + 1) * count / pieces});
   }
   return out;
 }
 
-std::vector<Chain> cut_chains(const Tiling& tiling, const TileCut& cut, int at_least, bool single_tiles,
-                              std::vector<Chain> reuse) {
-  const auto own = static_cast<int>(std::count(cut.owner.begin(), cut.owner.end(), cut.rank));
-  const int length = single_tiles ? 1 : std::max(1, own / std::max(at_least, 1));
-  std::vector<Chain> out = std::move(reuse);
-  out.clear();
-  for (const OwnedChain& s : stretches(tiling, cut)) {
-    const int tiles = s.end_tile - s.first_tile;
-    const int pieces = s.owner == cut.rank ? (tiles + length - 1) / length : 1;
-    for (int k = 0; k < pieces; ++k)
-      out.push_back({s.first_tile + k * tiles / pieces, s.first_tile + (k + 1) * tiles / pieces});
+StationRange own_stations(const Body& body, int tile) {
+  const Tile& t = body.tiling.tiles[tile];
+  const BlockLayout& l = body.layout.blocks[t.block];
+  return {t.first, t.end == l.elements ? l.stations : t.end};
+}
+
+KeptValues kept_values(const Body& body, const TileCut& cut, NodeMask lines) {
+  assert(lines.size() == body.layout.blocks.size());
+  std::vector<std::vector<char>> kept;
+  for (const BlockLayout& l : body.layout.blocks) kept.emplace_back(l.stations, 0);
+  for (int t = 0; t < static_cast<int>(body.tiling.tiles.size()); ++t) {
+    if (!cut.is_own(t)) continue;
+    const StationRange own = own_stations(body, t);
+    for (int j = own.begin; j < own.end; ++j) kept[body.tiling.tiles[t].block][j] = 1;
   }
+  for (const OwnedChain& s : stretches(body.tiling, cut)) {
+    std::vector<char>& of_block = kept[body.tiling.block(s)];
+    of_block[body.tiling.border_plane(s)] = 1;
+    if (!body.layout.blocks[body.tiling.block(s)].closed) of_block.back() = 1;
+  }
+  KeptValues out{std::move(lines), {}};
+  for (const std::vector<char>& of_block : kept) out.runs.push_back(runs_of(of_block));
   return out;
 }
 

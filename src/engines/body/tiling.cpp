@@ -63,16 +63,4 @@ Tiling tiling_of(const SweptBody& body, const BodyLayout& layout) {
   return out;
 }
 
-std::vector<Chain> chains(const Tiling& tiling, int at_least, std::vector<Chain> reuse) {
-  const int length = std::max(1, static_cast<int>(tiling.tiles.size()) / at_least);
-  std::vector<Chain> out = std::move(reuse);
-  out.clear();
-  for (std::size_t b = 0; b + 1 < tiling.first_tile.size(); ++b) {
-    const int first = tiling.first_tile[b], tiles = tiling.first_tile[b + 1] - first;
-    const int pieces = (tiles + length - 1) / length;
-    for (int k = 0; k < pieces; ++k) out.push_back({first + k * tiles / pieces, first + (k + 1) * tiles / pieces});
-  }
-  return out;
-}
-
 }  // namespace railstrata

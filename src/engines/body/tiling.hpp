@@ -55,7 +55,4 @@ struct Tiling {
 
 Tiling tiling_of(const SweptBody& body, const BodyLayout& layout);
 
-/// At least so many chains if there are as many tiles, in the memory of `reuse`.
-std::vector<Chain> chains(const Tiling& tiling, int at_least, std::vector<Chain> reuse = {});
-
 }  // namespace railstrata

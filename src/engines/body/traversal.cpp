@@ -128,107 +128,63 @@ void Traversal::chain_forces(const Chain& chain, const Field& u, Field& f, const
     run_chain<double, Evaluation::finite>(chain, u, f, history, policy);
 }
 
-template <class EachLine>
-void Traversal::end_lines(const std::vector<Chain>& chains, Field& f, EachLine&& each_line) {
+void Traversal::end(const std::vector<Chain>& chains, Field& f, const std::vector<std::vector<int>>* some) {
   const Tiling& tiling = body_->tiling;
   for_each(static_cast<std::ptrdiff_t>(chains.size()), [&](std::ptrdiff_t k) {
     const int t = chains[k].first_tile, b = tiling.tiles[t].block;
     const BlockLayout& l = body_->layout.blocks[b];
     const int block_end = tiling.first_tile[b + 1];
     const auto left_by = [&](int tile) { return &border_end_[tiling.border[tile]]; };
+    const auto each_line = [&](auto&& visit) {
+      const int count = some ? static_cast<int>((*some)[b].size()) : l.nodes;
+      for (int n = 0; n < count; ++n)
+        for (int i = 0; i < 3; ++i) visit(3 * static_cast<std::ptrdiff_t>(some ? (*some)[b][n] : n) + i);
+    };
     const double* front = &border_first_[tiling.border[t]];
     const double* behind = t > tiling.first_tile[b] ? left_by(t - 1) : l.closed ? left_by(block_end - 1) : nullptr;
     double* out = f.data() + l.offset + tiling.tiles[t].first;
-    each_line(b,
-              [&](std::ptrdiff_t line) { out[line * l.stride] = behind ? behind[line] + front[line] : front[line]; });
+    each_line([&](std::ptrdiff_t line) { out[line * l.stride] = behind ? behind[line] + front[line] : front[line]; });
     if (chains[k].end_tile < block_end || l.closed) return;
     const double* end = left_by(chains[k].end_tile - 1);
     double* last = f.data() + l.offset + l.elements;
-    each_line(b, [&](std::ptrdiff_t line) { last[line * l.stride] = end[line]; });
-  });
-}
-
-void Traversal::end(const std::vector<Chain>& chains, Field& f) {
-  end_lines(chains, f, [&](int block, auto&& visit) {
-    const std::ptrdiff_t lines = static_cast<std::ptrdiff_t>(body_->layout.blocks[block].nodes) * 3;
-    for (std::ptrdiff_t line = 0; line < lines; ++line) visit(line);
-  });
-}
-
-void Traversal::end(const std::vector<Chain>& chains, Field& f, const std::vector<std::vector<int>>& nodes) {
-  end_lines(chains, f, [&](int block, auto&& visit) {
-    for (int n : nodes[block])
-      for (int i = 0; i < 3; ++i) visit(3 * static_cast<std::ptrdiff_t>(n) + i);
+    each_line([&](std::ptrdiff_t line) { last[line * l.stride] = end[line]; });
   });
 }
 
 template <Evaluation how>
-void Traversal::all_forces(Field& u, double psi, Field& f, const PlasticHistory& history) {
+void Traversal::forces(Field& u, double psi, Field& f, const PlasticHistory& history, const std::vector<Chain>* some) {
   constexpr int kChainsPerThread = 8;
-  all_chains_ = chains(body_->tiling, kChainsPerThread * max_threads(), std::move(all_chains_));
-  forces_of<how>(all_chains_, u, psi, f, history);
-}
-
-template <Evaluation how>
-void Traversal::forces_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f,
-                          const PlasticHistory& history) {
+  if (!some) all_chains_ = chains(body_->tiling, kChainsPerThread * max_threads(), {}, std::move(all_chains_));
+  const std::vector<Chain>& own = some ? *some : all_chains_;
   begin(u, psi);
-  const auto run = [&](std::ptrdiff_t k) { run_chain<double, how>(chains[k], u, f, history, StoreForces{}); };
-  for_each_apart(static_cast<std::ptrdiff_t>(chains.size()), run);
-  end(chains, f);
+  const auto run = [&](std::ptrdiff_t k) { run_chain<double, how>(own[k], u, f, history, StoreForces{}); };
+  for_each_apart(static_cast<std::ptrdiff_t>(own.size()), run);
+  end(own, f);
 }
 
-void Traversal::internal_force(Field& u, double psi, Field& f, const PlasticHistory& history) {
-  all_forces<Evaluation::finite>(u, psi, f, history);
+void Traversal::internal_force(Field& u, double psi, Field& f, const PlasticHistory& history,
+                               const std::vector<Chain>* some) {
+  forces<Evaluation::finite>(u, psi, f, history, some);
 }
-void Traversal::internal_force_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f,
-                                  const PlasticHistory& history) {
-  forces_of<Evaluation::finite>(chains, u, psi, f, history);
+void Traversal::linear_force(Field& u, Field& f, const std::vector<Chain>* some) {
+  forces<Evaluation::linear>(u, 0.0, f, {}, some);
 }
-void Traversal::linear_force_of(const std::vector<Chain>& chains, Field& u, Field& f) {
-  forces_of<Evaluation::linear>(chains, u, 0.0, f, {});
-}
-void Traversal::linear_force(Field& u, Field& f) { all_forces<Evaluation::linear>(u, 0.0, f, {}); }
 
 StrainEnergy Traversal::tile_energy(const Tile& tile, const Field& u) const {
   const BlockElements& d = body_->elements[tile.block];
-  const BlockLayout& lay = body_->layout.blocks[tile.block];
-  const CarriedFrame& frame = frames_[tile.block];
-  const auto& quads = body_->mesh.blocks[tile.block].section.quads;
   Pack strain{}, hourglass{};
-  for (std::size_t q = 0; q < quads.size(); ++q) {
+  for (int q = 0; q < d.quads; ++q) {
     const auto& ref = d.table.quads[q];
-    const double* in[4][3];
-    for (int c = 0; c < 4; ++c)
-      for (int i = 0; i < 3; ++i) in[c][i] = u.data() + lay.line(quads[q][c], i);
+    const bool own = d.varies_at(q);
     for (int e = tile.first; e < tile.end; e += kLanes) {
-      const StationScale<Pack> st = d.table.scale<Pack>(e, [](const double* x) { return load(x); });
-      const int real = std::min(kLanes, tile.end - e);
-      Pack cosine{}, sine{};
-      for (int l = 0; l < real; ++l) {
-        cosine[l] = frame.cosine[e + l];
-        sine[l] = frame.sine[e + l];
-      }
-      const auto corner = [&](int c, int i, Pack& sum, Pack& difference) {
-        auto carried = [&](int station) -> Pack {
-          if (i == 1) return load(in[c][1] + station);
-          const Pack x = load(in[c][0] + station), z = load(in[c][2] + station);
-          return i == 0 ? cosine * x + sine * z : cosine * z - sine * x;
-        };
-        const Pack left = carried(e), right = carried(e + 1);
-        sum = right + left;
-        difference = right - left;
-      };
-      auto kin = element_kinematics<SweepKind::revolve, Pack>(ref.shape, st, corner);
-      const int quad = static_cast<int>(q);
-      const bool own = d.varies_at(quad);
+      auto kin = traversal::pack_kinematics(*body_, tile.block, q, e, turn_, u);
       const auto stress =
-          own ? hex_stress<SweepKind::revolve, Pack>(traversal::pack_reference<double>(d, quad, e), turn_, kin)
+          own ? hex_stress<SweepKind::revolve, Pack>(traversal::pack_reference<double>(d, q, e), turn_, kin)
               : hex_stress<SweepKind::revolve, Pack>(ref, turn_, kin);
-      const Pack stored = own ? traversal::own_class_hourglass<double>(d, quad, e, kin)
-                              : traversal::pack_hourglass<double>(d, quad, e, kin);
-      for (int l = 0; l < real; ++l) hourglass[l] += stored[l];
-      strain += 0.5 * ref.shape.volume * st.v2 * double_contraction(stress.strain, stress.s);
+      const Pack stored =
+          own ? traversal::own_class_hourglass<double>(d, q, e, kin) : traversal::pack_hourglass<double>(d, q, e, kin);
+      for (int l = 0; l < std::min(kLanes, tile.end - e); ++l) hourglass[l] += stored[l];
+      strain += 0.5 * ref.shape.volume * load(&d.table.sigma_c[e]) * double_contraction(stress.strain, stress.s);
     }
   }
   StrainEnergy sum;
@@ -252,6 +208,20 @@ StrainEnergy Traversal::energy(Field& u, double psi, const PlasticHistory& histo
   if (!body_->plastic.empty()) sum.strain += plastic_strain_energy(*body_, u, psi, history);
   if (!body_->initial_stress.empty()) sum.strain += initial_stress_energy(*body_, u, psi, history);
   return sum;
+}
+
+void clear_held(const Body& body, Field& f) {
+  for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) {
+    if (body.inverse_mass[i] == 0) f[i] = 0;
+  });
+}
+
+void free_stiffness(Traversal& elements, Field& u, Field& f) {
+  const Ties& ties = elements.body().ties;
+  ties.apply_homogeneous(u);
+  elements.linear_force(u, f);
+  ties.apply_transpose(f);
+  clear_held(elements.body(), f);
 }
 
 template void Traversal::chain_forces(const Chain&, const Field&, Field&, const PlasticHistory&, const StoreForces&);

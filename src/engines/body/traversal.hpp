@@ -11,7 +11,6 @@
 // (body/plastic_pass.hpp); the traversal takes it off.
 //
 // The history is read and left alone; a pass over the elements that may yield advances it.
-#include <cassert>
 #include <vector>
 
 #include "body/body_state.hpp"
@@ -53,18 +52,11 @@ class Traversal {
 
   /// f = internal forces at displacement u (model frame, u = x - X); psi: rigid rotation of the body about its
   /// axle, positive when rolling forward. Ghosts of u are refreshed; padding of f is not defined. In double precision.
-  void internal_force(Field& u, double psi, Field& f, const PlasticHistory& history);
-  void internal_force(Field& u, double psi, Field& f) {
-    assert(body_->plastic.empty());
-    internal_force(u, psi, f, PlasticHistory());
-  }
+  /// some: of these chains alone; border planes lack what other chains leave there, until an end() of all. Null: all.
+  void internal_force(Field& u, double psi, Field& f, const PlasticHistory& history,
+                      const std::vector<Chain>* some = nullptr);
   /// f = K u, K the stiffness of the undeformed body.
-  void linear_force(Field& u, Field& f);
-  /// As internal_force and linear_force, of these chains alone. Border planes lack what other chains leave there, until
-  /// an end() of all.
-  void internal_force_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f,
-                         const PlasticHistory& history);
-  void linear_force_of(const std::vector<Chain>& chains, Field& u, Field& f);
+  void linear_force(Field& u, Field& f, const std::vector<Chain>* some = nullptr);
   /// Strain energy at the displacements u [J].
   StrainEnergy energy(Field& u, double psi, const PlasticHistory& history);
 
@@ -74,10 +66,9 @@ class Traversal {
   /// Runs in the precision of the body's options.
   template <class Policy>
   void chain_forces(const Chain& chain, const Field& u, Field& f, const PlasticHistory& history, const Policy& policy);
-  /// Forces on the border planes of all chains, and on the last station of an open block.
-  void end(const std::vector<Chain>& chains, Field& f);
-  /// The same for some section nodes of each block.
-  void end(const std::vector<Chain>& chains, Field& f, const std::vector<std::vector<int>>& nodes);
+  /// Forces on the border planes of all chains, and on the last station of an open block. some: on these section nodes
+  /// of each block alone.
+  void end(const std::vector<Chain>& chains, Field& f, const std::vector<std::vector<int>>* some = nullptr);
 
   /// Forces that the chains leave on the first plane of a tile and behind its last element, [node][component], tile
   /// after tile within a block: for tiles that another rank or device has evaluated; to be put here before end().
@@ -85,15 +76,11 @@ class Traversal {
   double* rear_forces(int tile) { return &border_end_[body_->tiling.border[tile]]; }
 
  private:
-  template <class EachLine>
-  void end_lines(const std::vector<Chain>& chains, Field& f, EachLine&& each_line);
   struct CarriedFrame {
     Field cosine, sine;  // of the element centres, turned back by psi: R of the element class
   };
   template <Evaluation how>
-  void all_forces(Field& u, double psi, Field& f, const PlasticHistory& history);
-  template <Evaluation how>
-  void forces_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f, const PlasticHistory& history);
+  void forces(Field& u, double psi, Field& f, const PlasticHistory& history, const std::vector<Chain>* some);
   template <class Real, Evaluation how, class Policy>
   void run_chain(const Chain& chain, const Field& u, Field& f, const PlasticHistory& history, const Policy& policy);
   template <class Real, Evaluation how, SweepKind kind, class Policy>
@@ -111,13 +98,9 @@ class Traversal {
   std::vector<StrainEnergy> tile_energy_;
 };
 
-/// A single evaluation of elements to which nothing has happened, with a workspace of its own.
-inline void internal_force(const Body& body, Field& u, double psi, Field& f) {
-  Traversal(body).internal_force(u, psi, f, initial_history(body));
-}
-inline void linear_force(const Body& body, Field& u, Field& f) { Traversal(body).linear_force(u, f); }
-inline StrainEnergy strain_energy(const Body& body, Field& u, double psi) {
-  return Traversal(body).energy(u, psi, initial_history(body));
-}
+/// 0 at nodes that are not free.
+void clear_held(const Body& body, Field& f);
+/// f = K u on the free nodes, 0 elsewhere; slaves follow their masters, in u too.
+void free_stiffness(Traversal& elements, Field& u, Field& f);
 
 }  // namespace railstrata

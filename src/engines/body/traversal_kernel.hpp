@@ -1,54 +1,36 @@
 #pragma once
 // Inner loop of body/traversal.cpp over a tile's quadrilaterals; a header so that benchmarks can measure it alone.
 #include <algorithm>
-#include <cmath>
 
 #include "body/plastic_pass.hpp"
 #include "body/scratch_rows.hpp"
 #include "body/traversal.hpp"
-#include "core/parallel.hpp"
 
 namespace railstrata {
 namespace traversal {
 
-// Hourglass stiffness of a pack: of one class, or of one in each half.
-template <class Real>
-struct OneClass {
-  const Real* k;
-  Real operator()(int e) const { return k[e]; }
-};
-template <class Real>
-struct TwoClasses {
-  const Real *lower, *upper;
-  PackOf<Real> operator()(int e) const { return halves(PackOf<Real>{} + lower[e], PackOf<Real>{} + upper[e]); }
-};
-
-// Hourglass stiffness of elements with materials of their own.
-template <class Real>
-struct OwnClasses {
-  const Real* k[kLanesOf<Real>];
-  PackOf<Real> operator()(int e) const {
-    PackOf<Real> out;
-    for (int l = 0; l < kLanesOf<Real>; ++l) out[l] = k[l][e];
-    return out;
-  }
-};
-
+// Hourglass forces of a pack whose halves are of two classes.
 // Seldom: where the spacing changes. Kept out of the loop over packs, whose registers it would take.
 template <class Real, class P>
 __attribute__((noinline)) P two_class_hourglass(const Real* lower, const Real* upper, ElementKinematics<P>& kin) {
-  return hourglass_forces(TwoClasses<Real>{lower, upper}, kin);
+  return hourglass_forces([=](int e) -> P { return halves(P{} + lower[e], P{} + upper[e]); }, kin);
 }
 
+// The same of elements with materials of their own.
 template <class Real, class P>
 __attribute__((noinline)) P own_class_hourglass(const BlockElements& elements, int quad, int first,
                                                 ElementKinematics<P>& kin) {
-  OwnClasses<Real> own;
+  const Real* own[kLanesOf<Real>];
   for (int l = 0; l < kLanesOf<Real>; ++l) {
     const int e = first + l, cls = elements.hourglass_class[e / kHourglassGroup];
-    own.k[l] = elements.of<Real>().hourglass[elements.hourglass(elements.set_at(e), cls, quad)].data();
+    own[l] = elements.of<Real>().hourglass[elements.hourglass(elements.set_at(e), cls, quad)].data();
   }
-  return hourglass_forces(own, kin);
+  const auto entry = [&](int e) {
+    P out;
+    for (int l = 0; l < kLanesOf<Real>; ++l) out[l] = own[l][e];
+    return out;
+  };
+  return hourglass_forces(entry, kin);
 }
 
 // Material parameters of a pack of elements from `first` on.
@@ -73,8 +55,38 @@ P pack_hourglass(const BlockElements& elements, int quad, int first, ElementKine
   const auto stiffness = [&](int cls) { return table.hourglass[cls * quads + quad].data(); };
   const int lower = elements.hourglass_class[first / kHourglassGroup];
   const int upper = elements.hourglass_class[(first + kLanesOf<Real> / 2) / kHourglassGroup];
-  if (lower == upper) return hourglass_forces(OneClass<Real>{stiffness(lower)}, kin);
+  if (lower == upper) return hourglass_forces([k = stiffness(lower)](int e) { return k[e]; }, kin);
   return two_class_hourglass<Real>(stiffness(lower), stiffness(upper), kin);
+}
+
+// Kinematics of kLanes elements from fields, without scratch rows. first: element of the block in lane 0; lanes past
+// the end of the block have no displacements. Of each source its own: where products are fused may differ between them
+// (ROOM_WIDE_VECTOR_SOURCES in cmake/rooms.cmake).
+static inline ElementKinematics<Pack> pack_kinematics(const Body& body, int block, int quad, int first,
+                                                      const Rotation<double>& turn, const Field& u) {
+  const BlockElements& elements = body.elements[block];
+  const BlockLayout& lay = body.layout.blocks[block];
+  const std::array<int, 4>& nodes = body.mesh.blocks[block].section.quads[quad];
+  Pack cosine{}, sine{}, real{};
+  for (int l = 0; l < std::min(kLanes, lay.elements - first); ++l) {
+    const Rotation<double> frame = Rotation<double>{elements.cos_q[first + l], elements.sin_q[first + l]}.minus(turn);
+    cosine[l] = frame.c;
+    sine[l] = frame.s;
+    real[l] = 1;
+  }
+  const StationScale<Pack> scale = elements.table.scale<Pack>(first, [](const double* x) { return load(x); });
+  const auto corner = [&](int c, int i, Pack& sum, Pack& difference) {
+    const auto carried = [&](int station) -> Pack {
+      if (i == 1) return real * load(&u[lay.line(nodes[c], 1) + station]);
+      const Pack x = load(&u[lay.line(nodes[c], 0) + station]), z = load(&u[lay.line(nodes[c], 2) + station]);
+      const PlaneVector<Pack> at = Rotation<Pack>{cosine, sine}.forward(x, z);
+      return i == 0 ? at.x : at.z;
+    };
+    const Pack left = carried(first), right = carried(first + 1);
+    sum = right + left;
+    difference = right - left;
+  };
+  return element_kinematics<SweepKind::revolve, Pack>(elements.table.quads[quad].shape, scale, corner);
 }
 
 template <class Real>

@@ -63,6 +63,18 @@ void for_gauss_points(F&& f) {
   for (int p = 0; p < 8; ++p) f((p & 1 ? kGauss : -kGauss), (p & 2 ? kGauss : -kGauss), (p & 4 ? kGauss : -kGauss));
 }
 
+/// Gradients of the shape functions at a point and the Jacobian's determinant.
+struct PointGradients {
+  double det;
+  Gradients g;
+};
+inline PointGradients gradients_at(const std::array<Vec3, 8>& corners, double xi, double eta, double zeta) {
+  const Gradients natural = natural_gradients(xi, eta, zeta);
+  const Matrix3 j = jacobian(corners, natural);
+  const Matrix3 inverse = j.inverse();
+  return {j.determinant(), product(inverse, natural)};
+}
+
 struct MeanGradients {
   Gradients b;
   double volume;
@@ -71,12 +83,9 @@ struct MeanGradients {
 inline MeanGradients mean_gradients(const std::array<Vec3, 8>& corners) {
   MeanGradients m{Gradients::Zero(), 0.0};
   for_gauss_points([&](double xi, double eta, double zeta) {
-    const Gradients natural = natural_gradients(xi, eta, zeta);
-    const Matrix3 j = jacobian(corners, natural);
-    const double det = j.determinant();
-    const Matrix3 inverse = j.inverse();
-    m.b += det * product(inverse, natural);
-    m.volume += det;
+    const PointGradients at = gradients_at(corners, xi, eta, zeta);
+    m.b += at.det * at.g;
+    m.volume += at.det;
   });
   m.b /= m.volume;
   return m;
@@ -126,6 +135,18 @@ inline Eigen::Matrix<double, 8, 3> positions(const std::array<Vec3, 8>& corners)
   return x;
 }
 
+// Amplitudes 3 l + i (component i of pattern l) in the order in which hourglass_forces gathers them.
+constexpr std::array<int, 5> kEvenAmplitudes{1, 2, 3, 6, 9};
+constexpr std::array<int, 7> kOddAmplitudes{0, 4, 5, 7, 8, 10, 11};
+
+/// Rows and columns `order` of a symmetric matrix: their upper triangle, row by row. Returns the end.
+template <class Matrix, std::size_t N, class To>
+To pack_upper(const Matrix& from, const std::array<int, N>& order, To to) {
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = i; j < N; ++j) *to++ = from(order[i], order[j]);
+  return to;
+}
+
 /// Displacements of unit hourglass amplitudes, q_l = 1: column 3 l + i for component i of pattern l, rows 3 a + i. They
 /// have no mean gradient.
 inline Eigen::Matrix<double, 24, 12> unit_hourglass_modes(const std::array<Vec3, 8>& corners,
@@ -162,14 +183,10 @@ void for_gauss_strains(const std::array<Vec3, 8>& corners, Visit&& visit) {
   const Matrix3 j0_inverse = jacobian(corners, natural_gradients(0, 0, 0)).inverse();
   const double det0 = 1.0 / j0_inverse.determinant();
   for_gauss_points([&](double xi, double eta, double zeta) {
-    const Gradients natural = natural_gradients(xi, eta, zeta);
-    const Matrix3 j = jacobian(corners, natural);
-    const double det = j.determinant();
-    const Matrix3 inverse = j.inverse();
-    const Gradients g = product(inverse, natural);
+    const PointGradients at = gradients_at(corners, xi, eta, zeta);
     Matrix6x24 b;
-    for (int a = 0; a < 8; ++a) b.middleCols<3>(3 * a) = strain_rows(g.col(a));
-    visit(det, b, bubble_strains(j0_inverse, det0 / det, xi, eta, zeta));
+    for (int a = 0; a < 8; ++a) b.middleCols<3>(3 * a) = strain_rows(at.g.col(a));
+    visit(at.det, b, bubble_strains(j0_inverse, det0 / at.det, xi, eta, zeta));
   });
 }
 

@@ -52,20 +52,6 @@ struct BubbleAmplitudes {
   T a[3][3];
 };
 
-namespace detail {
-
-template <class T>
-struct EvenOddAmplitudes {
-  T even[5], odd[7];
-};
-template <class T>
-RAILSTRATA_POINTWISE EvenOddAmplitudes<T> sorted(const T (&even)[3], const T (&odd)[3][3]) {
-  return {{even[1], even[2], odd[0][0], odd[1][0], odd[2][0]},
-          {even[0], odd[0][1], odd[0][2], odd[1][1], odd[1][2], odd[2][1], odd[2][2]}};
-}
-
-}  // namespace detail
-
 /// -A q, of the elastic element.
 template <class T, class Real>
 RAILSTRATA_POINTWISE BubbleAmplitudes<T> following_bubbles(const IncompatibleModes<Real>& m,
@@ -188,15 +174,7 @@ RAILSTRATA_POINTWISE Eigenstress<T> condensed(const IncompatibleModes<Real>& m, 
   }
   RAILSTRATA_UNROLL
   for (int n = 0; n < 6; ++n) out.mean[n] = s.mean[n];
-  out.even[0] = q.odd[0];
-  out.even[1] = q.even[0];
-  out.even[2] = q.even[1];
-  RAILSTRATA_UNROLL
-  for (int n = 0; n < 3; ++n) {
-    out.odd[n][0] = q.even[2 + n];
-    out.odd[n][1] = q.odd[1 + 2 * n];
-    out.odd[n][2] = q.odd[2 + 2 * n];
-  }
+  detail::put_back(q, out.even, out.odd);
   return out;
 }
 

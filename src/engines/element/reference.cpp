@@ -12,9 +12,23 @@ namespace {
 
 using namespace hex;
 
-// The order in which the law gathers the amplitudes: (mode, component) of the 5 even and the 7 odd ones.
-constexpr std::array<std::array<int, 2>, 5> kEvenOrder{{{0, 1}, {0, 2}, {1, 0}, {2, 0}, {3, 0}}};
-constexpr std::array<std::array<int, 2>, 7> kOddOrder{{{0, 0}, {1, 1}, {1, 2}, {2, 1}, {2, 2}, {3, 1}, {3, 2}}};
+// Gradients of the four patterns' unit amplitudes at a point, direction by pattern.
+Eigen::Matrix<double, 3, 4> pattern_gradients(const std::array<Vec3, 8>& corners,
+                                              const Eigen::Matrix<double, 24, 12>& modes, double xi, double eta,
+                                              double zeta) {
+  const Gradients g = gradients_at(corners, xi, eta, zeta).g;
+  Eigen::Matrix<double, 3, 4> out;
+  for (int l = 0; l < 4; ++l) {
+    Eigen::Matrix<double, 8, 1> unit;
+    for (int a = 0; a < 8; ++a) unit(a) = modes(3 * a, 3 * l);
+    out.col(l) = product(g, unit);
+  }
+  return out;
+}
+
+// Even and odd modes of the incompatible displacements, amplitudes 3 n + i.
+constexpr std::array<int, 6> kEvenBubbles{1, 2, 4, 5, 7, 8};
+constexpr std::array<int, 3> kOddBubbles{0, 3, 6};
 
 }  // namespace
 
@@ -33,7 +47,7 @@ std::array<Vec3, 8> local_corners(SweepKind kind, const std::array<Vec2, 4>& qua
   return x;
 }
 
-QuadShape<double> quad_shape(SweepKind kind, const std::array<Vec2, 4>& quad) {
+QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material) {
   const std::array<Vec3, 8> corners = local_corners(kind, quad, {1.0, 1.0});
   const MeanGradients mean = mean_gradients(corners);
   QuadShape<double> r{};
@@ -49,11 +63,7 @@ QuadShape<double> quad_shape(SweepKind kind, const std::array<Vec2, 4>& quad) {
     r.odd[1] += 2 * kZeta[k] * x.x;
     r.odd[2] += 2 * kEtaZeta[k] * x.x;
   }
-  return r;
-}
-
-QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material) {
-  return {quad_shape(kind, quad), material_parameters(material)};
+  return {r, material_parameters(material)};
 }
 
 HexReference<float> rounded(const QuadReference& r) {
@@ -73,7 +83,7 @@ HexReference<float> rounded(const QuadReference& r) {
 }
 
 StationScale<double> station_scale(SweepScale scale) {
-  return {1 / scale.sigma, 1 / scale.c, scale.c, scale.sigma * scale.c, scale.sigma, scale.sigma, scale.c};
+  return {1 / scale.sigma, 1 / scale.c, scale.sigma * scale.c, scale.sigma, scale.c};
 }
 
 Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const Elastic& material) {
@@ -104,14 +114,7 @@ HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>
     k = transposed_product(modes, product(incompatible_mode_stiffness(corners, material), modes));
   }
   HourglassStiffness out{};
-  int e = 0;
-  auto pack = [&](const auto& order) {
-    for (std::size_t i = 0; i < order.size(); ++i)
-      for (std::size_t j = i; j < order.size(); ++j)
-        out[static_cast<std::size_t>(e++)] = k(3 * order[i][0] + order[i][1], 3 * order[j][0] + order[j][1]);
-  };
-  pack(kEvenOrder);
-  pack(kOddOrder);
+  pack_upper(k, kOddAmplitudes, pack_upper(k, kEvenAmplitudes, out.begin()));
   return out;
 }
 
@@ -158,6 +161,62 @@ double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, Swee
   const Matrix24 scaled = root.asDiagonal() * k * root.asDiagonal();
   Eigen::SelfAdjointEigenSolver<Matrix24> eigen(0.5 * (scaled + scaled.transpose()), Eigen::EigenvaluesOnly);
   return 2 / std::sqrt(eigen.eigenvalues().maxCoeff());
+}
+
+GaussShape<double> gauss_shape(SweepKind kind, const std::array<Vec2, 4>& quad) {
+  const std::array<Vec3, 8> corners = local_corners(kind, quad, {1.0, 1.0});
+  const MeanGradients mean = mean_gradients(corners);
+  const Eigen::Matrix<double, 24, 12> modes = unit_hourglass_modes(corners, mean);
+  const Matrix3 j0_inverse = jacobian(corners, natural_gradients(0, 0, 0)).inverse();
+  const double det0 = 1.0 / j0_inverse.determinant();
+  GaussShape<double> out{};
+  for (int p = 0; p < kGaussPairs; ++p) {
+    const double xi = kGauss, eta = p & 1 ? kGauss : -kGauss, zeta = p & 2 ? kGauss : -kGauss;
+    const double det = jacobian(corners, natural_gradients(xi, eta, zeta)).determinant(), ratio = det0 / det;
+    const Eigen::Matrix<double, 3, 4> front = pattern_gradients(corners, modes, xi, eta, zeta);
+    const Eigen::Matrix<double, 3, 4> behind = pattern_gradients(corners, modes, -xi, eta, zeta);
+    const Eigen::Matrix<double, 3, 4> common = 0.5 * (front + behind), opposite = 0.5 * (front - behind);
+    GaussPair<double>& g = out.pair[p];
+    g.weight = det / mean.volume;
+    g.even_y = common(1, 0);
+    g.even_z = common(2, 0);
+    for (int m = 0; m < 3; ++m) {
+      g.along[m] = common(0, 1 + m);
+      g.odd_y[m] = opposite(1, 1 + m);
+      g.odd_z[m] = opposite(2, 1 + m);
+    }
+    g.bubble_x = -2 * xi * ratio * j0_inverse(0, 0);
+    const double across[2] = {-2 * eta * ratio, -2 * zeta * ratio};
+    for (int n = 0; n < 2; ++n) {
+      g.bubble_y[n] = across[n] * j0_inverse(1, 1 + n);
+      g.bubble_z[n] = across[n] * j0_inverse(2, 1 + n);
+    }
+  }
+  return out;
+}
+
+IncompatibleModes<double> incompatible_modes(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale,
+                                             const Elastic& material) {
+  const std::array<Vec3, 8> corners = local_corners(kind, quad, scale);
+  const Eigen::Matrix<double, 6, 6> c = elasticity(material);
+  const Eigen::Matrix<double, 24, 12> modes = unit_hourglass_modes(corners, mean_gradients(corners));
+  Eigen::Matrix<double, 9, 9> kaa = Eigen::Matrix<double, 9, 9>::Zero();
+  Eigen::Matrix<double, 9, 12> kaq = Eigen::Matrix<double, 9, 12>::Zero();
+  for_gauss_strains(corners, [&](double det, const Matrix6x24& b, const Eigen::Matrix<double, 6, 9>& m) {
+    const Eigen::Matrix<double, 6, 9> stress = product(c, m);
+    kaa += det * transposed_product(m, stress);
+    kaq += det * transposed_product(stress, product(b, modes));
+  });
+  const Eigen::Matrix<double, 9, 12> follow = kaa.ldlt().solve(kaq);
+  IncompatibleModes<double> out;
+  for (int n = 0; n < 6; ++n)
+    for (int j = 0; j < 5; ++j) out.follow_even[n][j] = follow(kEvenBubbles[n], kEvenAmplitudes[j]);
+  for (int n = 0; n < 3; ++n)
+    for (int j = 0; j < 7; ++j) out.follow_odd[n][j] = follow(kOddBubbles[n], kOddAmplitudes[j]);
+  const Eigen::Matrix<double, 9, 9> inverse = kaa.inverse();
+  pack_upper(inverse, kEvenBubbles, out.compliance_even);
+  pack_upper(inverse, kOddBubbles, out.compliance_odd);
+  return out;
 }
 
 }  // namespace railstrata

@@ -1,9 +1,9 @@
 #pragma once
-// Mesh data of the elements (element/swept_hex.hpp), computed once before the run.
+// Mesh data of the elements (element/swept_hex.hpp, element/plastic_hex.hpp), computed once before the run.
 #include <array>
 
 #include "core/vec.hpp"
-#include "element/swept_hex.hpp"
+#include "element/plastic_hex.hpp"
 #include "material/elastic.hpp"
 #include "mesh/swept.hpp"
 
@@ -25,7 +25,6 @@ enum class ElementKind { full, one_point };
 /// Corner coordinates of the element in its own frame, 0–3 at -a, 4–7 at +a.
 std::array<Vec3, 8> local_corners(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale);
 
-QuadShape<double> quad_shape(SweepKind kind, const std::array<Vec2, 4>& quad);
 QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material);
 /// Rounded to single precision.
 HexReference<float> rounded(const QuadReference& reference);
@@ -40,5 +39,12 @@ std::array<double, 4> corner_masses(SweepKind kind, const std::array<Vec2, 4>& q
 /// [Hughes2000 ch. 9].
 double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material,
                            const HourglassStiffness& hourglass);
+
+/// Of elements that yield.
+GaussShape<double> gauss_shape(SweepKind kind, const std::array<Vec2, 4>& quad);
+
+/// For one station spacing, as the hourglass stiffness.
+IncompatibleModes<double> incompatible_modes(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale,
+                                             const Elastic& material);
 
 }  // namespace railstrata

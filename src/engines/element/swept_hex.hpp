@@ -51,8 +51,9 @@ inline constexpr double kEta[4] = {-1, 1, 1, -1}, kZeta[4] = {-1, -1, 1, 1}, kEt
 template <class T>
 struct StationScale {
   T inv_sigma, inv_c;  ///< of the gradients
-  T v1, v2, v3;        ///< volume factors: c, sigma c, sigma (V b = reference volume x factor x reference gradient)
-  T sigma, c;
+  /// Volume factors, V b = reference volume x factor x reference gradient: c along the sweep, sigma c lateral, sigma
+  /// up.
+  T sigma_c, sigma, c;
 };
 
 namespace detail {
@@ -71,6 +72,30 @@ RAILSTRATA_POINTWISE void symmetric_product(const Entry& k, int first, const T (
       y[i] += k(e) * x[j];
       y[j] += k(e) * x[i];
     }
+  }
+}
+
+/// Hourglass amplitudes or their forces in the two blocks of K.
+template <class T>
+struct EvenOddAmplitudes {
+  T even[5], odd[7];
+};
+template <class T>
+RAILSTRATA_POINTWISE EvenOddAmplitudes<T> sorted(const T (&even)[3], const T (&odd)[3][3]) {
+  return {{even[1], even[2], odd[0][0], odd[1][0], odd[2][0]},
+          {even[0], odd[0][1], odd[0][2], odd[1][1], odd[1][2], odd[2][1], odd[2][2]}};
+}
+/// The inverse.
+template <class T>
+RAILSTRATA_POINTWISE void put_back(const EvenOddAmplitudes<T>& q, T (&even)[3], T (&odd)[3][3]) {
+  even[0] = q.odd[0];
+  even[1] = q.even[0];
+  even[2] = q.even[1];
+  RAILSTRATA_UNROLL
+  for (int m = 0; m < 3; ++m) {
+    odd[m][0] = q.even[2 + m];
+    odd[m][1] = q.odd[1 + 2 * m];
+    odd[m][2] = q.odd[2 + 2 * m];
   }
 }
 
@@ -186,26 +211,16 @@ RAILSTRATA_POINTWISE ElementStress<T> small_stress(const ElementKinematics<T>& k
 /// number of HourglassStiffness.
 template <class T, class Entry>
 RAILSTRATA_POINTWISE T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
-  const T a[5] = {k.even[1], k.even[2], k.odd[0][0], k.odd[1][0], k.odd[2][0]};
-  T ka[5];
-  detail::symmetric_product<5>(entry, 0, a, ka);
-  const T b[7] = {k.even[0], k.odd[0][1], k.odd[0][2], k.odd[1][1], k.odd[1][2], k.odd[2][1], k.odd[2][2]};
-  T kb[7];
-  detail::symmetric_product<7>(entry, 15, b, kb);
+  const detail::EvenOddAmplitudes<T> q = detail::sorted(k.even, k.odd);
+  detail::EvenOddAmplitudes<T> kq;
+  detail::symmetric_product<5>(entry, 0, q.even, kq.even);
+  detail::symmetric_product<7>(entry, 15, q.odd, kq.odd);
   T twice_energy{};
   RAILSTRATA_UNROLL
-  for (int i = 0; i < 5; ++i) twice_energy += a[i] * ka[i];
+  for (int i = 0; i < 5; ++i) twice_energy += q.even[i] * kq.even[i];
   RAILSTRATA_UNROLL
-  for (int i = 0; i < 7; ++i) twice_energy += b[i] * kb[i];
-  k.even[0] = kb[0];
-  k.even[1] = ka[0];
-  k.even[2] = ka[1];
-  RAILSTRATA_UNROLL
-  for (int m = 0; m < 3; ++m) {
-    k.odd[m][0] = ka[2 + m];
-    k.odd[m][1] = kb[1 + 2 * m];
-    k.odd[m][2] = kb[2 + 2 * m];
-  }
+  for (int i = 0; i < 7; ++i) twice_energy += q.odd[i] * kq.odd[i];
+  detail::put_back(kq, k.even, k.odd);
   return twice_energy * ScalarOf<T>(0.5);
 }
 
@@ -215,7 +230,7 @@ template <class T, class Real, class Change>
 RAILSTRATA_POINTWISE void element_forces(const QuadShape<Real>& r, const StationScale<T>& st,
                                          const ElementStress<T>& stress, const ElementKinematics<T>& k,
                                          Change&& change) {
-  const T v1 = r.volume * st.v1, v2 = r.volume * st.v2, v3 = r.volume * st.v3;
+  const T v1 = r.volume * st.c, v2 = r.volume * st.sigma_c, v3 = r.volume * st.sigma;
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
     const T t1 = v1 * stress.p1[i] - (r.odd[0] * k.odd[0][i] + r.odd[1] * k.odd[1][i] + r.odd[2] * k.odd[2][i]);
@@ -258,6 +273,16 @@ struct PackReference {
   MaterialParameters<T> material;
 };
 
+/// Stress and strain of an element at a displacement.
+template <SweepKind kind, class T, class Reference, class Real, class Relieve = NoEigenstress>
+RAILSTRATA_POINTWISE ElementStress<T> hex_stress(const Reference& r, const Rotation<Real>& turn,
+                                                 const ElementKinematics<T>& kin, Relieve&& relieve = {}) {
+  return finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
+    elastic_stress(r.material.lambda, r.material.mu, strain, s);
+    relieve(s);
+  });
+}
+
 /// Internal forces of one element (or of a pack of them); Reference: HexReference or PackReference.
 ///   corner     as in element_kinematics
 ///   hourglass  replaces the hourglass amplitudes of the kinematics by generalised forces
@@ -269,26 +294,13 @@ RAILSTRATA_POINTWISE void hex_forces(const Reference& r, const StationScale<T>& 
                                      Corner&& corner, Hourglass&& hourglass, Change&& change, Relieve&& relieve = {}) {
   auto kin = element_kinematics<kind, T>(r.shape, st, corner);
   ElementStress<T> stress;
-  const auto& m = r.material;
   if constexpr (how == Evaluation::linear)
-    stress = small_stress(kin, [&](const T(&strain)[6], T(&s)[6]) { elastic_stress(m.lambda, m.mu, strain, s); });
+    stress = small_stress(
+        kin, [&](const T(&strain)[6], T(&s)[6]) { elastic_stress(r.material.lambda, r.material.mu, strain, s); });
   else
-    stress = finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
-      elastic_stress(m.lambda, m.mu, strain, s);
-      relieve(s);
-    });
+    stress = hex_stress<kind, T>(r, turn, kin, relieve);
   hourglass(kin);
   element_forces(r.shape, st, stress, kin, change);
-}
-
-/// Stress and strain of an element at a displacement.
-template <SweepKind kind, class T, class Reference, class Real, class Relieve = NoEigenstress>
-RAILSTRATA_POINTWISE ElementStress<T> hex_stress(const Reference& r, const Rotation<Real>& turn,
-                                                 const ElementKinematics<T>& kin, Relieve&& relieve = {}) {
-  return finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
-    elastic_stress(r.material.lambda, r.material.mu, strain, s);
-    relieve(s);
-  });
 }
 
 }  // namespace railstrata

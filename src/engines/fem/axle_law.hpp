@@ -59,7 +59,11 @@ struct AxleLaw {
 /// Smooth rise from 0 to 1 over [0, 1] with zero slope at both ends.
 RAILSTRATA_POINTWISE double smooth_rise(double t) { return t <= 0 ? 0 : t >= 1 ? 1 : t * t * (3 - 2 * t); }
 
-/// One central-difference step of the groups; axle_z from static equilibrium [m], axle_vz its half-step velocity [m/s].
+/// Groups of a spring and a dashpot, each carrying its share of the sprung mass, vertical, on the axle's non-rotating
+/// box:
+///   m z'' = k (z_axle - z) + c (z_axle' - z'),   shares of the whole: m / n, k / n, c / n
+/// z is counted from static equilibrium, where the springs carry the weight. One central-difference step; axle_z from
+/// static equilibrium [m], axle_vz its half-step velocity [m/s].
 template <class Groups>
 RAILSTRATA_POINTWISE SuspensionForce step_suspension(const SuspensionLaw& law, double axle_z, double axle_vz, double dt,
                                                      Groups&& groups) {

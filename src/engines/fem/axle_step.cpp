@@ -18,11 +18,16 @@ AxleLoads bore_loads(const std::vector<BoreNode>& nodes, const Field& f, Rotatio
   return {bore.x, bore.y, bore.z, moment};
 }
 
+SuspensionLaw suspension_law(const VehicleSpec& v) {
+  return {v.sprung_mass, v.suspension_stiffness, v.suspension_damping};
+}
+
 AxleLaw axle_law(const RollingSystem& system, double rest_z) {
   const Axle& axle = system.axle;
   const ExplicitOptions& o = system.options;
-  return {axle.mass_x,     axle.mass_z, axle.inertia, suspension_law(o.vehicle), system.gravity,
-          o.lateral_speed, rest_z,      o.keeps_pace, o.free_sideways,           system.on_ring()};
+  return {axle.mass_x,     axle.mass_z,     axle.inertia, suspension_law(system.spec().vehicle),
+          system.gravity,  o.lateral_speed, rest_z,       o.keeps_pace,
+          o.free_sideways, system.on_ring()};
 }
 
 }  // namespace railstrata

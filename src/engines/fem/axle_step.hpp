@@ -2,15 +2,14 @@
 // The rigid axle of the wheel: what loads it and its step.
 #include "body/body_state.hpp"
 #include "fem/axle_law.hpp"
-#include "fem/node_update.hpp"
+#include "fem/reference_frame.hpp"
 #include "fem/rolling_system.hpp"
-#include "fem/suspension.hpp"
 
 namespace railstrata {
 
 /// Drive torque at `time` [s], N m.
 inline double drive_torque(const RollingSystem& system, double time) {
-  const double ramp = system.options.torque_ramp;
+  const double ramp = system.spec().drive.torque_ramp;
   return ramp > 0 ? system.torque * smooth_rise(time / ramp) : system.torque;
 }
 
@@ -18,6 +17,8 @@ inline double drive_torque(const RollingSystem& system, double time) {
 /// ties' offsets hand to the rotation.
 AxleLoads bore_loads(const std::vector<BoreNode>& nodes, const Field& f, Rotation<double> drift, double tie_moment,
                      const ReferenceFrame& frame);
+
+SuspensionLaw suspension_law(const VehicleSpec& vehicle);
 
 /// rest_z: height of the axle in static equilibrium [m].
 AxleLaw axle_law(const RollingSystem& system, double rest_z);

@@ -8,8 +8,6 @@
 namespace railstrata {
 namespace {
 
-double inverse_mass(const RollingBody& b, std::ptrdiff_t i) { return b.scaling.share(i) * b.body.inverse_mass[i]; }
-
 // A force [N] of the wheel on the rail in a row of the contact, to the nodes of both bodies; add(body, index, force on
 // the node).
 template <class Add>
@@ -22,38 +20,18 @@ void distribute(const MortarRows& rows, const ContactRow& row, const RollingBodi
       add(kWheel, rows.weights[w].wheel + i * bodies[kWheel].surface.stride, rows.weights[w].m * on_wheel[i]);
 }
 
-// Of a node of a body that turns.
-FreeMotion turning_node(const RollingBody& b, const BodyState& state, std::ptrdiff_t i, SurfaceIndex at,
-                        const StepScope& scope) {
-  return free_wheel_node(b.frame, b.mean, b.arm(b.body.mesh.contact.block, at.column, at.station),
-                         b.body.inverse_mass[i], vector_at(state.f, i, b.surface.stride),
-                         vector_at(state.v, i, b.surface.stride), scope.gravity, scope.dt, scope.damping_rate);
-}
-
-void gather_rail(const MortarRows& rows, const RollingBody& b, const BodyState& state, const StepScope& scope,
-                 ContactSide& side) {
-  side.clear();
-  for (const ContactRow& r : rows.rows) {
-    const int stride = b.surface.stride;
-    const FreeMotion motion =
-        b.turns() ? turning_node(b, state, r.rail, {r.column, r.station}, scope)
-                  : free_rail_node(b.body.inverse_mass[r.rail], vector_at(state.f, r.rail, stride),
-                                   vector_at(state.v, r.rail, stride), scope.gravity, scope.dt, scope.damping_rate);
-    side.before.push_back(motion.before);
-    side.velocity.push_back(motion.after);
-    side.inverse_mass.push_back(inverse_mass(b, r.rail));
-  }
-}
-
-void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b, const BodyState& state,
-                  const StepScope& scope, ContactSide& side) {
-  side.clear();
-  for (std::ptrdiff_t i : nodes) {
-    const FreeMotion motion = turning_node(b, state, i, b.surface.node_at(i), scope);
-    side.before.push_back(motion.before);
-    side.velocity.push_back(motion.after);
-    side.inverse_mass.push_back(inverse_mass(b, i));
-  }
+// Adds a node of a body, `i` its index.
+void add_node(const RollingBody& b, const BodyState& state, std::ptrdiff_t i, SurfaceIndex at, const StepScope& scope,
+              ContactSide& side) {
+  const double m = b.body.inverse_mass[i];
+  const Vec3 f = vector_at(state.f, i, b.surface.stride), v = vector_at(state.v, i, b.surface.stride);
+  const FreeMotion motion =
+      b.turns() ? free_wheel_node(b.frame, b.mean, b.arm(b.body.mesh.contact.block, at.column, at.station), m, f, v,
+                                  scope.gravity, scope.dt, scope.damping_rate)
+                : free_rail_node(m, f, v, scope.gravity, scope.dt, scope.damping_rate);
+  side.before.push_back(motion.before);
+  side.velocity.push_back(motion.after);
+  side.inverse_mass.push_back(b.scaling.share(i) * m);
 }
 
 }  // namespace
@@ -62,13 +40,19 @@ SearchWindow search_window(const RollingSystem& sys) {
   return {search_half_length(sys.model), 0.25 * sys.model.hertz.approach};
 }
 
-ContactStep::ContactStep(const ContactSurface& rail, const ContactSurface& wheel, const EnforcementOptions& options,
-                         const SearchWindow& window)
-    : search_(rail, wheel), window_(window), options_(options) {}
+ContactStep::ContactStep(const RollingSystem& system)
+    : search_(system.rail_surface(), system.wheel_surface()),
+      window_(search_window(system)),
+      options_(system.options.contact) {}
 
-void ContactStep::restore(Restart restart) {
-  search_.restore(std::move(restart.facets));
-  reached_edge_ = restart.reached_edge;
+void ContactStep::save(RestartState& to) const {
+  to.facets = search_.facets();
+  to.reached_edge = reached_edge_;
+}
+
+void ContactStep::restore(RestartState&& from) {
+  search_.restore(std::move(from.facets));
+  reached_edge_ = from.reached_edge;
 }
 
 Vec3 ContactStep::force_on_rail(const ContactRow& row, const SurfaceTractions& tractions) const {
@@ -92,8 +76,12 @@ void ContactStep::find_rows(long step, RollingBodies& bodies, const BodyStates& 
 
 void ContactStep::gather(const RollingBodies& bodies, const BodyStates& states, const StepScope& scope) {
   numbering_.number(*rows_, bodies[kWheel].surface, system_);
-  gather_rail(*rows_, bodies[kRail], states[kRail], scope, system_.rail);
-  gather_wheel(system_.wheel_nodes, bodies[kWheel], states[kWheel], scope, system_.wheel);
+  system_.rail.clear();
+  for (const ContactRow& r : rows_->rows)
+    add_node(bodies[kRail], states[kRail], r.rail, {r.column, r.station}, scope, system_.rail);
+  system_.wheel.clear();
+  for (std::ptrdiff_t i : system_.wheel_nodes)
+    add_node(bodies[kWheel], states[kWheel], i, bodies[kWheel].surface.node_at(i), scope, system_.wheel);
 }
 
 void ContactStep::apply_tractions(const RollingBodies& bodies, BodyStates& states,

@@ -21,8 +21,7 @@ class ContactStep {
  public:
   static constexpr int kSearchInterval = 16;  ///< steps; the wheel moves less than 0.1 mm between searches
 
-  ContactStep(const ContactSurface& rail, const ContactSurface& wheel, const EnforcementOptions& options,
-              const SearchWindow& window);
+  explicit ContactStep(const RollingSystem& system);
 
   /// Rows of this step. Every kSearchInterval steps they are searched anew, and nodes that left the neighbourhood of
   /// the patch lose their tractions.
@@ -45,19 +44,15 @@ class ContactStep {
   bool reached_edge() const { return reached_edge_; }
 
   /// Result of this search that the next one starts from.
-  struct Restart {
-    std::vector<MortarContact::Facet> facets;
-    bool reached_edge = false;
-  };
-  Restart restart() const { return {search_.facets(), reached_edge_}; }
-  void restore(Restart restart);
+  void save(RestartState& to) const;
+  void restore(RestartState&& from);
 
  private:
   Vec3 force_on_rail(const ContactRow& row, const SurfaceTractions& tractions) const;
 
   MortarContact search_;
   SearchWindow window_;
-  EnforcementOptions options_;
+  const EnforcementOptions& options_;
   const MortarRows* rows_ = nullptr;
   WheelNumbering numbering_;
   ContactSystem system_;

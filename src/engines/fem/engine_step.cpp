@@ -29,7 +29,9 @@ void Stepper::restore_state(RestartState restart) {
   state_ = std::move(restart.state);
   balance_ = restart.balance;
   bodies_[kWheel].mean = restart.mean;
-  contact_.restore({std::move(restart.facets), restart.reached_edge});
+  axle_rest_z_ = restart.axle_z0;
+  side_force_ = restart.side_force;
+  contact_.restore(std::move(restart));
   fields_here_ = true;
 }
 

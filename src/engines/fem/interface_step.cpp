@@ -1,7 +1,6 @@
 #include "fem/interface_step.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/parallel.hpp"
 #include "mesh/split_interface.hpp"
@@ -41,32 +40,20 @@ std::vector<StationRange> between(const std::vector<StationRange>& ranges, int s
   return out;
 }
 
-void add_vector(Field& f, std::ptrdiff_t x, int stride, Vec3 v) {
-  f[x] += v.x;
-  f[x + stride] += v.y;
-  f[x + 2L * stride] += v.z;
-}
-
 }  // namespace
 
 InterfaceStep::InterfaceStep(const Body& rail) : mass_(rail.mass) {
-  for (const SplitInterface& interface : rail.mesh.interfaces)
-    each_pair(interface, rail.mesh.contact, [&](int above, int below) { add_line(rail, interface, above, below); });
+  const Block& block = rail.mesh.blocks[rail.mesh.contact.block];
+  const BlockLayout& lay = rail.layout.blocks[rail.mesh.contact.block];
+  for (const SplitInterface& interface : rail.mesh.interfaces) {
+    const std::vector<StationRange> open = open_stations(interface.open, block.stations.at);
+    each_pair(interface, rail.mesh.contact, [&](int above, int below) {
+      lines_.push_back({lay.line(above, 0), lay.line(below, 0), lay.stride,
+                        normal_at(block.section, rail.mesh.contact, above), interface.friction, open,
+                        between(open, lay.stations)});
+    });
+  }
   losses_.resize(lines_.size());
-}
-
-void InterfaceStep::add_line(const Body& rail, const SplitInterface& interface, int above, int below) {
-  const int block = rail.mesh.contact.block;
-  const BlockLayout& lay = rail.layout.blocks[block];
-  Line line{lay.line(above, 0),
-            lay.line(below, 0),
-            lay.stride,
-            normal_at(rail.mesh.blocks[block].section, rail.mesh.contact, above),
-            interface.friction,
-            open_stations(interface.open, rail.mesh.blocks[block].stations.at),
-            {}};
-  line.joined = between(line.open, lay.stations);
-  lines_.push_back(std::move(line));
 }
 
 void InterfaceStep::join(Field& f) const {

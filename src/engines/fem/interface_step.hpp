@@ -1,13 +1,41 @@
 #pragma once
 // A step of the interfaces below layers that have come off their base (mesh/swept.hpp, SplitInterface). Outside their
 // stretches both nodes of a pair have one acceleration, that of both their forces on both their masses; within them
-// they meet by fem/interface_law.hpp.
+// they meet node on node, for slides are small:
+//
+//   g + dt w(n+1/2) >= 0,  P_n >= 0,  one of them zero;   |P_t| <= f P_n, against the slip w_t(n+1/2)
+//   w(n+1/2) = w* + dt P/m,  1/m = 1/m_above + 1/m_below
+// with w* the relative velocity after an update without P: contact and friction at the end of the step, which any step
+// bears [CarpenterTaylorKatona1991].
 #include <vector>
 
 #include "body/body.hpp"
-#include "fem/interface_law.hpp"
 
 namespace railstrata {
+
+/// Two nodes that stand at one place of the undeformed body. Relative motion: of the one above over the one below.
+struct NodePair {
+  Vec3 normal;          ///< unit, outward: from below to above
+  double mass = 0;      ///< kg, reduced
+  double friction = 0;  ///< Coulomb's coefficient
+};
+
+/// Forces on the node above, N.
+struct PairForce {
+  double pressure = 0;  ///< along the normal
+  Vec3 shear;
+  Vec3 whole(Vec3 normal) const { return pressure * normal + shear; }
+};
+
+/// gap: relative displacement [m]; free: relative velocity after the step without contact [m/s].
+inline PairForce pair_force(const NodePair& pair, Vec3 gap, Vec3 free, double dt) {
+  const double stiffness = pair.mass / dt, approach = dot(free, pair.normal);
+  const double pressure = -stiffness * (dot(gap, pair.normal) / dt + approach);
+  if (!(pressure > 0)) return {};
+  const Vec3 stick = -stiffness * (free - approach * pair.normal);
+  const double held = norm(stick), most = pair.friction * pressure;
+  return {pressure, held > most ? (most / held) * stick : stick};
+}
 
 /// J, dissipated.
 struct InterfaceLosses {
@@ -25,7 +53,6 @@ class InterfaceStep {
  public:
   explicit InterfaceStep(const Body& rail);
 
-  bool none() const { return lines_.empty(); }
   /// Outside the stretches: shares the forces of each pair by its masses. f: like internal forces, positive against the
   /// motion.
   void join(Field& f) const;
@@ -42,7 +69,6 @@ class InterfaceStep {
     double friction;
     std::vector<StationRange> open, joined;
   };
-  void add_line(const Body& rail, const SplitInterface& interface, int above, int below);
   InterfaceLosses press_line(const Line& line, const Field& u, const Field& v, double dt, double damping_rate,
                              Field& f) const;
 

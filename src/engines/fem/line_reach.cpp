@@ -96,12 +96,16 @@ void add_chains(const std::vector<MassScaling::Chain>& chains, Groups& groups) {
     }
 }
 
-void add_slaves(const Ties& ties, Groups& groups) {
-  for (const Ties::Line& line : ties.lines()) {
-    const Ties::Interpolation& in = ties.interpolations()[line.interpolation];
-    for (int j = 0; j + 1 < static_cast<int>(in.first.size()); ++j)
-      if (groups.has({line.master_block, line.node0}, j) || groups.has({line.master_block, line.node1}, j))
-        for (int k = in.first[j]; k < in.first[j + 1]; ++k) groups.add({line.slave_block, line.slave_node}, in.from[k]);
+void add_slaves(const SharedLines& body, Groups& groups) {
+  for (const Ties::Line& line : body.ties.lines()) {
+    const Ties::Interpolation& in = body.ties.interpolations()[line.interpolation];
+    const auto stations = static_cast<std::size_t>(body.layout.blocks[line.master_block].stations);
+    for (std::size_t k = 0; k < in.from.size(); ++k) {
+      const int j = static_cast<int>(k % stations);
+      const bool read =
+          groups.has({line.master_block, line.node0}, j) || groups.has({line.master_block, line.node1}, j);
+      if (read && in.share[k] > 0) groups.add({line.slave_block, line.slave_node}, in.from[k]);
+    }
   }
 }
 
@@ -124,12 +128,21 @@ void add_for_axle(const SharedLines& body, Groups& groups) {
 
 }  // namespace
 
-NodesOfBlocks chosen_nodes(const std::vector<std::vector<char>>& mask) {
+NodesOfBlocks chosen_nodes(const NodeMask& mask) {
   NodesOfBlocks out(mask.size());
   for (std::size_t k = 0; k < mask.size(); ++k)
     for (int n = 0; n < static_cast<int>(mask[k].size()); ++n)
       if (mask[k][n]) out[k].push_back(n);
   return out;
+}
+
+NodesOfBlocks nodes_on_axle(const SweptBody& mesh, const NodesOfBlocks& lines) {
+  NodeMask wanted = no_nodes(mesh);
+  if (mesh.kind == SweepKind::revolve)
+    for (const SectionNode& n : mesh.prescribed) wanted[n.block][n.node] = 1;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (int n : lines[k]) wanted[k][n] = 0;
+  return chosen_nodes(wanted);
 }
 
 double search_half_length(const Model& model) {
@@ -158,7 +171,7 @@ std::vector<LineReach> line_reaches(const SharedLines& body, int ranks) {
     LineStations values = groups.ranges();
     add_for_axle(body, groups);
     add_chains(body.chains, groups);
-    add_slaves(body.ties, groups);
+    add_slaves(body, groups);
     out.push_back({std::move(values), groups.ranges()});
   }
   return out;

@@ -27,7 +27,9 @@ struct ContactWindow {
 /// Section nodes by block.
 using NodesOfBlocks = std::vector<std::vector<int>>;
 /// Those in a mask by block and node.
-NodesOfBlocks chosen_nodes(const std::vector<std::vector<char>>& mask);
+NodesOfBlocks chosen_nodes(const NodeMask& mask);
+/// Those on the axle of a body that turns, but for `lines`.
+NodesOfBlocks nodes_on_axle(const SweptBody& mesh, const NodesOfBlocks& lines);
 
 /// A body as the ranks share its lines. contact +- half_width: in its sweep coordinate, m or rad.
 struct SharedLines {

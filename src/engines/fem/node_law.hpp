@@ -34,12 +34,10 @@ struct NodeStep {
   double gx = 0, gz = 0;    ///< m/s², gravity in the frame
 };
 
-/// Kinematics of a body of this kind in its frame.
-template <SweepKind kind>
+/// Kinematics of a body in its frame.
 RAILSTRATA_POINTWISE NodeStep node_step(const ReferenceFrame& frame, const MeanMotion& mean, double dt, double rate,
                                         double gravity) {
-  constexpr bool turning = kind == SweepKind::revolve;
-  return {frame, mean, dt, rate, turning ? frame.turn.s * gravity : 0.0, turning ? -frame.turn.c * gravity : -gravity};
+  return {frame, mean, dt, rate, frame.turn.s * gravity, -frame.turn.c * gravity};
 }
 
 namespace node_law {
@@ -60,14 +58,10 @@ RAILSTRATA_POINTWISE RigidVelocity rigid_velocity(const ReferenceFrame& frame, d
           slope_z + travel_z, own.y};
 }
 
-struct PlaneAndLateral {
-  double x, y, z;
-};
 // Deceleration of a node by the run-up damping, components of this step's frame.
 template <bool turning>
-RAILSTRATA_POINTWISE PlaneAndLateral run_up_damping(double rate, const MeanMotion& mean, Rotation<double> step,
-                                                    double radius, double cosine, double sine, double wx, double wy,
-                                                    double wz) {
+RAILSTRATA_POINTWISE Vec3 run_up_damping(double rate, const MeanMotion& mean, Rotation<double> step, double radius,
+                                         double cosine, double sine, double wx, double wy, double wz) {
   double rx = rate * wx, ry = rate * wy, rz = rate * wz;
   if constexpr (turning) {
     rx -= rate * (mean.x + mean.spin * radius * cosine);
@@ -81,24 +75,19 @@ RAILSTRATA_POINTWISE PlaneAndLateral run_up_damping(double rate, const MeanMotio
 
 }  // namespace node_law
 
-/// Sums of a loop over nodes, before they become UpdateSums.
-struct NodeSums {
-  double twice_kinetic = 0, power = 0, px = 0, pz = 0, angular = 0;
-};
-
 /// One step of one node: displacement u and velocity v move on, f holds what opposes the motion (internal forces).
 /// m: inverse mass; cosine, sine: of the station's angle, and the node's radius, of a body that turns; measured: with
 /// run-up damping and sums.
 template <SweepKind kind, bool measured>
 RAILSTRATA_POINTWISE void advance_node(const NodeStep& s, double m, double radius, double cosine, double sine,
                                        double fx, double fy, double fz, double& ux, double& uy, double& uz, double& vx,
-                                       double& vy, double& vz, NodeSums& sums) {
+                                       double& vy, double& vz, UpdateSums& sums) {
   constexpr bool turning = kind == SweepKind::revolve;
   const double dt = s.dt, cd = s.frame.step.c, sd = s.frame.step.s;
   const double wx = vx, wy = vy, wz = vz;
   double ax = s.gx - m * fx, ay = -m * fy, az = s.gz - m * fz;
-  double bx = wx, bz = wz;                         // before, in the frame of this step
-  [[maybe_unused]] node_law::PlaneAndLateral d{};  // run-up damping
+  double bx = wx, bz = wz;    // before, in the frame of this step
+  [[maybe_unused]] Vec3 d{};  // run-up damping
   if constexpr (turning) {
     const double push = s.frame.centrifugal * radius;
     ax -= push * sine;
@@ -131,12 +120,12 @@ RAILSTRATA_POINTWISE void advance_node(const NodeStep& s, double m, double radiu
       after_x += rigid.after_x;
       after_y += rigid.y;
       after_z += rigid.after_z;
-      sums.px += mass * qx;
-      sums.pz += mass * qz;
+      sums.momentum_x += mass * qx;
+      sums.momentum_z += mass * qz;
       sums.angular += mass * radius * (cosine * qx + sine * qz);
     }
-    sums.twice_kinetic += mass * (before_x * after_x + before_y * after_y + before_z * after_z);
-    sums.power += 0.5 * mass * (d.x * (before_x + after_x) + d.y * (before_y + after_y) + d.z * (before_z + after_z));
+    sums.kinetic += 0.5 * mass * (before_x * after_x + before_y * after_y + before_z * after_z);
+    sums.damping += 0.5 * mass * (d.x * (before_x + after_x) + d.y * (before_y + after_y) + d.z * (before_z + after_z));
   }
 }
 

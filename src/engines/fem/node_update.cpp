@@ -45,11 +45,8 @@ struct BodyUpdate {
 };
 
 BodyUpdate update_of(RollingBody& b, BodyState& state, const StepScope& scope) {
-  const auto step = b.turns() ? node_step<SweepKind::revolve> : node_step<SweepKind::extrude>;
-  return {b, state, step(b.frame, b.mean, scope.dt, damping_of(b, scope), scope.gravity), scope.sums_wanted()};
+  return {b, state, node_step(b.frame, b.mean, scope.dt, damping_of(b, scope), scope.gravity), scope.sums_wanted()};
 }
-
-UpdateSums update_sums(const NodeSums& s) { return {0.5 * s.twice_kinetic, s.power, s.px, s.pz, s.angular}; }
 
 // Calls run.operator()<kind, measured>().
 template <class Run>
@@ -72,19 +69,19 @@ void advance_rows(const NodeRows& node, const NodeStep& of_body, int begin, int 
   const NodeRows n = node;
   const NodeStep step = of_body;
   const double radius = n.radius;
-  NodeSums of_rows;
+  UpdateSums of_rows;
   RAILSTRATA_INDEPENDENT
   for (int j = begin; j < end; ++j)
     advance_node<kind, measured>(step, n.inverse_mass[j], radius, turning ? n.cosine[j] : 1.0,
                                  turning ? n.sine[j] : 0.0, n.fx[j], n.fy[j], n.fz[j], n.ux[j], n.uy[j], n.uz[j],
                                  n.vx[j], n.vy[j], n.vz[j], of_rows);
-  if constexpr (measured) sums += update_sums(of_rows);
+  if constexpr (measured) sums += of_rows;
 }
 
 // One station. Whether a plane lies within a chain or between two depends on the number of threads, its bits do not:
 // both come here, and out of line, so that the compiler fuses the same products.
 template <SweepKind kind, bool measured>
-__attribute__((noinline)) void advance_station(const NodeRows& n, const NodeStep& step, int j, NodeSums& sums) {
+__attribute__((noinline)) void advance_station(const NodeRows& n, const NodeStep& step, int j, UpdateSums& sums) {
   constexpr bool turning = kind == SweepKind::revolve;
   advance_node<kind, measured>(step, n.inverse_mass[j], n.radius, turning ? n.cosine[j] : 1.0,
                                turning ? n.sine[j] : 0.0, n.fx[j], n.fy[j], n.fz[j], n.ux[j], n.uy[j], n.uz[j], n.vx[j],
@@ -93,10 +90,10 @@ __attribute__((noinline)) void advance_station(const NodeRows& n, const NodeStep
 
 void advance_at(const BodyUpdate& of, SectionNode node, int station, const double* const (&f)[3], UpdateSums& sums) {
   const NodeRows rows = rows_of(of.body, of.state, node, f);
-  NodeSums of_node;
+  UpdateSums of_node;
   in_kind(of,
           [&]<SweepKind kind, bool measured>() { advance_station<kind, measured>(rows, of.step, station, of_node); });
-  if (of.measured) sums += update_sums(of_node);
+  if (of.measured) sums += of_node;
 }
 
 void advance(const BodyUpdate& of, SectionNode node, int begin, int end, const double* const (&f)[3],
@@ -138,30 +135,26 @@ UpdateSums fused_chain(const BodyUpdate& of, const Chain& chain) {
   return sums;
 }
 
-// A node plane between elements of two chains: what they left there.
-struct BorderPlane {
-  int block, station;
-  const double *front, *behind;  // [node][component], of the chain that begins here and of the one that ends here
-};
-
-// Nodes that wait for nothing are updated, the others' forces go to f.
+// A node plane between elements of two chains, with the forces that they left there, [node][component], of the one that
+// begins here and of the one that ends here. Nodes that wait for nothing are updated, the others' forces go to f.
 template <SweepKind kind, bool measured>
-UpdateSums advance_plane(const BodyUpdate& of, const BorderPlane& plane) {
-  const BlockLayout& lay = of.body.body.layout.blocks[plane.block];
-  const std::vector<char>& at_once = of.body.schedule.at_once[plane.block];
-  NodeSums sums;
+UpdateSums advance_plane(const BodyUpdate& of, int block, int station, const double* all_front,
+                         const double* all_behind) {
+  const BlockLayout& lay = of.body.body.layout.blocks[block];
+  const std::vector<char>& at_once = of.body.schedule.at_once[block];
+  UpdateSums sums;
   for (int n = 0; n < lay.nodes; ++n) {
-    const double *front = plane.front + 3 * n, *behind = plane.behind + 3 * n;
+    const double *front = all_front + 3 * n, *behind = all_behind + 3 * n;
     const double force[3] = {behind[0] + front[0], behind[1] + front[1], behind[2] + front[2]};
     if (at_once[n]) {
-      const double* const f[3] = {force - plane.station, force + 1 - plane.station, force + 2 - plane.station};
-      advance_station<kind, measured>(rows_of(of.body, of.state, {plane.block, n}, f), of.step, plane.station, sums);
+      const double* const f[3] = {force - station, force + 1 - station, force + 2 - station};
+      advance_station<kind, measured>(rows_of(of.body, of.state, {block, n}, f), of.step, station, sums);
     } else {
-      double* const line = of.state.f.data() + lay.line(n, 0) + plane.station;
+      double* const line = of.state.f.data() + lay.line(n, 0) + station;
       for (int i = 0; i < 3; ++i) line[static_cast<std::ptrdiff_t>(i) * lay.stride] = force[i];
     }
   }
-  return measured ? update_sums(sums) : UpdateSums{};
+  return sums;
 }
 
 void store_plane(const BodyUpdate& of, int block, int station, const double* forces) {
@@ -187,10 +180,57 @@ UpdateSums complete_planes(const BodyUpdate& of, const Chain& chain) {
     return {};
   }
   const int before = t == block_first ? block_end - 1 : t - 1;
-  const BorderPlane plane{block, station, b.elements.front_forces(t), b.elements.rear_forces(before)};
+  const double *front = b.elements.front_forces(t), *behind = b.elements.rear_forces(before);
   UpdateSums sums;
-  in_kind(of, [&]<SweepKind kind, bool measured>() { sums = advance_plane<kind, measured>(of, plane); });
+  in_kind(of, [&]<SweepKind kind, bool measured>() {
+    sums = advance_plane<kind, measured>(of, block, station, front, behind);
+  });
   return sums;
+}
+
+// A tile's stations of a line, with the end of an open block.
+StationRange stations_of(const Tile& tile, const BlockLayout& block) {
+  return {tile.first, tile.end + (!block.closed && tile.end == block.elements)};
+}
+
+// A node that waited, with sums tile by tile: of the tiles that this rank has; all where energies are wanted.
+void advance_measured(const BodyUpdate& of, std::size_t waiting, const double* const (&f)[3], bool all) {
+  RollingBody& b = of.body;
+  const SectionNode node = b.schedule.waiting[waiting];
+  const Tiling& tiling = b.body.tiling;
+  const int first = tiling.first_tile[node.block];
+  for (int t = first; t < tiling.first_tile[node.block + 1]; ++t) {
+    const StationRange at = stations_of(tiling.tiles[t], b.body.layout.blocks[node.block]);
+    UpdateSums sums;
+    if (all || b.part == nullptr || b.cut.is_own(t)) {
+      advance(of, node, at.begin, at.end, f, sums);
+      b.schedule.waiting_sums[b.schedule.first_waiting_sum[waiting] + static_cast<std::size_t>(t - first)] = sums;
+      continue;
+    }
+    for (const StationRange& kept : b.part->values[node.block][node.node]) {
+      const int begin = std::max(kept.begin, at.begin), end = std::min(kept.end, at.end);
+      if (begin < end) advance(of, node, begin, end, f, sums);
+    }
+  }
+}
+
+void add_up_tiles(RollingBody& b, bool all) {
+  UpdateSchedule& schedule = b.schedule;
+  const Tiling& tiling = b.body.tiling;
+  std::fill(schedule.tile_sums.begin(), schedule.tile_sums.end(), UpdateSums{});
+  if (!all)
+    for (int c : schedule.own) {
+      UpdateSums& sums = schedule.tile_sums[schedule.chains[c].first_tile];
+      sums += schedule.chain_sums[c];
+      sums += schedule.plane_sums[c];
+    }
+  for (std::size_t w = 0; w < schedule.waiting.size(); ++w) {
+    const int block = schedule.waiting[w].block, first = tiling.first_tile[block];
+    for (int t = first; t < tiling.first_tile[block + 1]; ++t)
+      if (all || b.cut.is_own(t))
+        schedule.tile_sums[t] +=
+            schedule.waiting_sums[schedule.first_waiting_sum[w] + static_cast<std::size_t>(t - first)];
+  }
 }
 
 }  // namespace
@@ -240,55 +280,6 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
   };
   for_each(chains(0) + chains(1), complete, true);
 }
-
-namespace {
-
-// A tile's stations of a line, with the end of an open block.
-StationRange stations_of(const Tile& tile, const BlockLayout& block) {
-  return {tile.first, tile.end + (!block.closed && tile.end == block.elements)};
-}
-
-// A node that waited, with sums tile by tile: of the tiles that this rank has; all where energies are wanted.
-void advance_measured(const BodyUpdate& of, std::size_t waiting, const double* const (&f)[3], bool all) {
-  RollingBody& b = of.body;
-  const SectionNode node = b.schedule.waiting[waiting];
-  const Tiling& tiling = b.body.tiling;
-  const int first = tiling.first_tile[node.block];
-  for (int t = first; t < tiling.first_tile[node.block + 1]; ++t) {
-    const StationRange at = stations_of(tiling.tiles[t], b.body.layout.blocks[node.block]);
-    UpdateSums sums;
-    if (all || b.part == nullptr || b.cut.is_own(t)) {
-      advance(of, node, at.begin, at.end, f, sums);
-      b.schedule.waiting_sums[b.schedule.first_waiting_sum[waiting] + static_cast<std::size_t>(t - first)] = sums;
-      continue;
-    }
-    for (const StationRange& kept : b.part->values[node.block][node.node]) {
-      const int begin = std::max(kept.begin, at.begin), end = std::min(kept.end, at.end);
-      if (begin < end) advance(of, node, begin, end, f, sums);
-    }
-  }
-}
-
-void add_up_tiles(RollingBody& b, bool all) {
-  UpdateSchedule& schedule = b.schedule;
-  const Tiling& tiling = b.body.tiling;
-  std::fill(schedule.tile_sums.begin(), schedule.tile_sums.end(), UpdateSums{});
-  if (!all)
-    for (int c : schedule.own) {
-      UpdateSums& sums = schedule.tile_sums[schedule.chains[c].first_tile];
-      sums += schedule.chain_sums[c];
-      sums += schedule.plane_sums[c];
-    }
-  for (std::size_t w = 0; w < schedule.waiting.size(); ++w) {
-    const int block = schedule.waiting[w].block, first = tiling.first_tile[block];
-    for (int t = first; t < tiling.first_tile[block + 1]; ++t)
-      if (all || b.cut.is_own(t))
-        schedule.tile_sums[t] +=
-            schedule.waiting_sums[schedule.first_waiting_sum[w] + static_cast<std::size_t>(t - first)];
-  }
-}
-
-}  // namespace
 
 void update_waiting_nodes(RollingBodies& bodies, BodyStates& states, const StepScope& scope) {
   const BodyUpdate updates[] = {update_of(bodies[0], states[0], scope), update_of(bodies[1], states[1], scope)};

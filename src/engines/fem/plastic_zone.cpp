@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "body/body.hpp"
 #include "core/faults.hpp"
@@ -14,11 +15,14 @@
 namespace railstrata {
 namespace {
 
-// A material of the mesh: its entry in the case, and the depth that its tables begin at.
+// A material of the mesh: its entry in the case, the depth that its tables begin at, how it yields, and its strength
+// over that of its layer.
 struct Source {
   const MaterialSpec* material;
   std::string name, key;
   double top = 0;
+  std::optional<PlasticLaw> law = {};
+  double factor = 1;
 };
 std::vector<Source> sources_of(const CaseSpec& spec, BodyId id, const SweptBody& mesh) {
   const bool rail = id == BodyId::rail;
@@ -29,54 +33,34 @@ std::vector<Source> sources_of(const CaseSpec& spec, BodyId id, const SweptBody&
   for (const std::size_t i : layers_on(spec, id))
     by_layer.push_back({&spec.layers[i].material, spec.layers[i].name, fmt::format("layer.{}", i), tops[i]});
   std::vector<Source> out;
-  for (int m = 0; m < static_cast<int>(mesh.materials.size()); ++m)
-    out.push_back(by_layer.at(static_cast<std::size_t>(mesh.layer_of(m))));
-  return out;
-}
-
-struct Law {
-  std::optional<PlasticLaw> law;
-  double top = 0, factor = 1;
-};
-std::vector<Law> laws_of(const CaseSpec& spec, BodyId id, const SweptBody& mesh) {
-  std::vector<Law> out;
-  for (const Source& s : sources_of(spec, id, mesh))
-    out.push_back({plastic_law(*s.material, s.name, s.key), s.top, mesh.strength_of(static_cast<int>(out.size()))});
+  for (int m = 0; m < static_cast<int>(mesh.materials.size()); ++m) {
+    Source& s = out.emplace_back(by_layer.at(static_cast<std::size_t>(mesh.layer_of(m))));
+    s.law = plastic_law(*s.material, s.name, s.key);
+    s.factor = mesh.strength_of(m);
+  }
   return out;
 }
 
 class Zone {
  public:
   Zone(const Model& model, BodyId id, const SweptBody& mesh)
-      : mesh_(mesh), axes_(model, id), laws_(laws_of(model.spec, id, mesh)) {}
+      : mesh_(mesh), axes_(model, id), sources_(sources_of(model.spec, id, mesh)) {}
 
   /// Of a quadrilateral's elements of a material.
   std::optional<PlasticMaterial> material(int block, int quad, int material) const {
-    const Law& law = laws_[material];
-    if (!law.law) return std::nullopt;
+    const Source& source = sources_[material];
+    if (!source.law) return std::nullopt;
     const double depth = axes_.depth(centre_of(mesh_.blocks[block].section, quad));
-    PlasticMaterial out = law.law->at(std::max(depth - law.top, 0.0));
-    if (law.factor != 1) out.plastic = scaled(out.plastic, law.factor);
+    PlasticMaterial out = source.law->at(std::max(depth - source.top, 0.0));
+    if (source.factor != 1) out.plastic = scaled(out.plastic, source.factor);
     return out;
   }
   bool within(const HotBox& box, int block, int quad) const {
     const Vec2 at = centre_of(mesh_.blocks[block].section, quad);
     return axes_.depth(at) < box.depth && axes_.aside(at) < box.half_width;
   }
-
- private:
-  const SweptBody& mesh_;
-  SectionAxes axes_;
-  std::vector<Law> laws_;
-};
-
-class ProcessStress {
- public:
-  ProcessStress(const Model& model, BodyId id, const SweptBody& mesh)
-      : mesh_(mesh), axes_(model, id), sources_(sources_of(model.spec, id, mesh)) {}
-
-  /// In the element's frame.
-  InitialStress::Stress at(int block, int quad) const {
+  /// That a process has left, in the element's frame.
+  InitialStress::Stress stress(int block, int quad) const {
     const Section& section = mesh_.blocks[block].section;
     const Source& source = sources_[section.quad_material[quad]];
     const StrengthSpec& s = source.material->strength;
@@ -107,12 +91,11 @@ class ProcessStress {
 PlasticElements plastic_zone(const Model& model, BodyId id, const Body& body, const HotBox& hot) {
   if (!model.spec.run.plasticity) return {};
   const Zone zone(model, id, body.mesh);
-  const ProcessStress process(model, id, body.mesh);
   return {body,
           [&](int block, int quad, int material) -> std::optional<YieldingMaterial> {
             const std::optional<PlasticMaterial> yields = zone.material(block, quad, material);
             if (!yields) return std::nullopt;
-            YieldingMaterial out{yields->plastic, process.at(block, quad)};
+            YieldingMaterial out{yields->plastic, zone.stress(block, quad)};
             out.law.mu = body.materials[material].mu;  // of a row of a graded layer, or in a stretch
             return out;
           },
@@ -121,8 +104,8 @@ PlasticElements plastic_zone(const Model& model, BodyId id, const Body& body, co
 
 InitialStress initial_stress(const Model& model, BodyId id, const SweptBody& mesh) {
   if (!model.spec.run.plasticity) return {};
-  const ProcessStress process(model, id, mesh);
-  return {mesh, [&](int block, int quad) { return process.at(block, quad); }};
+  const Zone zone(model, id, mesh);
+  return {mesh, [&](int block, int quad) { return zone.stress(block, quad); }};
 }
 
 }  // namespace railstrata

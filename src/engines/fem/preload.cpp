@@ -10,7 +10,6 @@
 #include "body/plastic_pass.hpp"
 #include "body/traversal.hpp"
 #include "core/faults.hpp"
-#include "core/parallel.hpp"
 #include "fem/static_preconditioner.hpp"
 #include "mesh/split_interface.hpp"
 
@@ -28,7 +27,7 @@ constexpr int kMostSteps = 60, kMostPlasticSteps = 400, kMostIterations = 5000;
 
 class Preload {
  public:
-  Preload(const RollingSystem& system, const ClusterSizes& clusters, const RailBefore* before, const Ranks& ranks)
+  Preload(const RollingSystem& system, const RailBefore* before, const Ranks& ranks)
       : sys_(system),
         share_(system, ranks),
         contact_(system.rail_surface(), system.wheel_surface()),
@@ -36,16 +35,17 @@ class Preload {
         before_(before),
         virgin_{before ? before->history : initial_history(system.rail()), initial_history(system.wheel())},
         history_(virgin_),
-        preconditioner_(system, share_, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
+        preconditioner_(system, share_, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero_vector(system)) {
-    element_stiffness_ = young(sys_.rail().materials.front()) / sys_.options.element_size;
+    element_stiffness_ = young(sys_.rail().materials.front()) / sys_.spec().mesh.element_size;
     penalty_ = kPenaltyScale * element_stiffness_;
   }
 
   PreloadResult solve(double tolerance, const PreloadProgress& progress) {
     start_from_overlap();
     PreloadResult out;
-    const double load = load_norm();
+    const StaticVector weight = loads();
+    const double load = std::sqrt(share_.dot(weight, weight));
     for (int step = 1;; ++step) {
       update_contact();
       StaticVector r = residual();
@@ -95,11 +95,11 @@ class Preload {
         1e3 * m.spec.mesh.element_size, 2e3 * m.hertz.a, 2e3 * m.hertz.b);
   }
 
-  double search_length() const { return 2 * sys_.model.hertz.a + 4 * sys_.options.element_size + sys_.model.reach; }
+  double search_length() const { return 2 * sys_.model.hertz.a + 4 * sys_.spec().mesh.element_size + sys_.model.reach; }
 
   // How far the rigid wheel comes down to touch the heights along the middle of the contact.
   double rigid_descent() const {
-    const double length = search_length(), step = 0.25 * sys_.options.element_size;
+    const double length = search_length(), step = 0.25 * sys_.spec().mesh.element_size;
     double least = std::numeric_limits<double>::infinity();
     for (double x = -length; x <= length; x += step)
       least = std::min(least, x * x / (2 * sys_.rolling_radius) - sys_.rail_surface().heights.at(x, 0).z -
@@ -126,7 +126,7 @@ class Preload {
           for (int j = 0; j < l.count; ++j) f.body[k][l.first + j] = -g * sys_.bodies[k].mass[l.first + j];
     add_centrifugal(sys_.wheel(), sys_.start_spin, f.body[kWheel]);
     if (sys_.on_ring()) add_centrifugal(sys_.rail(), sys_.rail_spin, f.body[kRail]);
-    f.axle = -g * (sys_.axle.mass_z + sys_.options.vehicle.sprung_mass);
+    f.axle = -g * (sys_.axle.mass_z + sys_.spec().vehicle.sprung_mass);
     return f;
   }
   static void add_centrifugal(const Body& body, double spin, Field& f) {
@@ -139,10 +139,6 @@ class Preload {
         f[l.first + j] += spin2 * body.mass[l.first + j] * (l.component == 0 ? -z * std::sin(t) : z * std::cos(t));
       }
     }
-  }
-  double load_norm() {
-    const StaticVector f = loads();
-    return std::sqrt(share_.dot(f, f));
   }
   // Where the ranks look at one another.
   bool any_rank_stops(bool own, double residual) const {
@@ -229,15 +225,11 @@ class Preload {
       const ContactRow& row = rows_->rows[k];
       const Vec3 on_rail = (row.area * ratio * pressure_[k]) * tangent_frame(row.normal).t2;
       const Vec3 on_wheel = -yaw_back(sys_.wheel_surface().yaw, on_rail);
-      add_force(f.body[kRail], row.rail, sys_.rail_surface().stride, on_rail);
+      add_vector(f.body[kRail], row.rail, sys_.rail_surface().stride, on_rail);
       for (int w = row.first; w < row.first + row.count; ++w)
-        add_force(f.body[kWheel], rows_->weights[w].wheel, sys_.wheel_surface().stride, rows_->weights[w].m * on_wheel);
+        add_vector(f.body[kWheel], rows_->weights[w].wheel, sys_.wheel_surface().stride,
+                   rows_->weights[w].m * on_wheel);
     }
-  }
-  static void add_force(Field& f, std::ptrdiff_t x, int stride, Vec3 force) {
-    f[x] += force.x;
-    f[x + stride] += force.y;
-    f[x + 2 * stride] += force.z;
   }
 
   // Forces on constrained nodes go to what carries them.
@@ -378,11 +370,10 @@ RollingSystem bonded(const RollingSystem& system) {
 }  // namespace
 
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress,
-                            const ClusterSizes& clusters, const RailBefore* before, const Ranks& ranks) {
-  if (!system.rail().mesh.interfaces.empty())
-    return solve_preload(bonded(system), tolerance, progress, clusters, before, ranks);
+                            const RailBefore* before, const Ranks& ranks) {
+  if (!system.rail().mesh.interfaces.empty()) return solve_preload(bonded(system), tolerance, progress, before, ranks);
   const auto start = std::chrono::steady_clock::now();
-  PreloadResult result = Preload(system, clusters, before, ranks).solve(tolerance, progress);
+  PreloadResult result = Preload(system, before, ranks).solve(tolerance, progress);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

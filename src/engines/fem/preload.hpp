@@ -17,7 +17,6 @@
 #include <array>
 #include <functional>
 
-#include "body/cluster_sizes.hpp"
 #include "core/ranks.hpp"
 #include "fem/rolling_system.hpp"
 
@@ -50,7 +49,6 @@ using PreloadProgress = std::function<bool(double, double, int)>;
 /// get the result of one to the last bit. Throws NumericalError when it does not converge, Interrupted when `progress`
 /// asks for it on any rank.
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {},
-                            const ClusterSizes& clusters = {}, const RailBefore* before = nullptr,
-                            const Ranks& ranks = {});
+                            const RailBefore* before = nullptr, const Ranks& ranks = {});
 
 }  // namespace railstrata

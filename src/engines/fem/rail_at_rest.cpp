@@ -2,15 +2,16 @@
 
 #include <cmath>
 
+#include "body/field_algebra.hpp"
 #include "body/traversal.hpp"
 #include "core/faults.hpp"
-#include "fem/static_vector.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr int kMostRestSteps = 20, kMostRestIterations = 20000;
-constexpr double kRestForcing = 1e-3;  // of the residual, left over by a linear step
+constexpr double kRestTolerance = 1e-7;  // of the first residual
+constexpr double kRestForcing = 1e-3;    // of the residual, left over by a linear step
 
 class RailAtRest {
  public:
@@ -23,15 +24,15 @@ class RailAtRest {
     make_uniform(inverse_);
   }
 
-  Field solve(double tolerance) {
+  Field solve() {
     Field u = rail_.layout.field();
     double first = 0;
     for (int step = 0; step < kMostRestSteps; ++step) {
       Field r = residual(u);
       const double size = std::sqrt(dot(r, r));
       if (step == 0) first = size;
-      if (size <= tolerance * first) return u;
-      conjugate_gradients(r, std::max(kRestForcing * size, 0.3 * tolerance * first));
+      if (size <= kRestTolerance * first) return u;
+      conjugate_gradients(r, std::max(kRestForcing * size, 0.3 * kRestTolerance * first));
       rail_.ties.apply_homogeneous(r);
       add(u, 1.0, r);
     }
@@ -39,13 +40,6 @@ class RailAtRest {
   }
 
  private:
-  void reduce(Field& f) const {
-    rail_.ties.apply_transpose(f);
-    for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) {
-      if (rail_.inverse_mass[i] == 0) f[i] = 0;
-    });
-    make_uniform(f);
-  }
   /// Endless rail: replaces f by its mean along the sweep, the orthogonal projection on uniform fields.
   void make_uniform(Field& f) const {
     if (!endless_) return;
@@ -60,16 +54,15 @@ class RailAtRest {
     Field f = rail_.layout.field();
     elements_.internal_force(u, 0, f, history_);
     for (double& v : f) v = -v;
-    reduce(f);
+    rail_.ties.apply_transpose(f);
+    clear_held(rail_, f);
+    make_uniform(f);
     return f;
   }
   void stiffness(Field& x, Field& y) {
-    rail_.ties.apply_homogeneous(x);
-    elements_.linear_force(x, y);
-    reduce(y);
-    for_each(static_cast<std::ptrdiff_t>(x.size()), [&](std::ptrdiff_t i) {
-      if (rail_.inverse_mass[i] == 0) x[i] = 0;
-    });
+    free_stiffness(elements_, x, y);
+    make_uniform(y);
+    clear_held(rail_, x);
   }
   /// Solves for r in place, down to |r| <= wanted.
   void conjugate_gradients(Field& r, double wanted) {
@@ -97,12 +90,8 @@ class RailAtRest {
 
 }  // namespace
 
-Field rail_at_rest(const RollingSystem& system, const PlasticHistory& history, double tolerance) {
-  return RailAtRest(system.rail(), history, false).solve(tolerance);
-}
-
-Field endless_rail_at_rest(const RollingSystem& system, const PlasticHistory& history, double tolerance) {
-  return RailAtRest(system.rail(), history, true).solve(tolerance);
+Field rail_at_rest(const RollingSystem& system, const PlasticHistory& history, bool endless) {
+  return RailAtRest(system.rail(), history, endless).solve();
 }
 
 }  // namespace railstrata

@@ -1,17 +1,14 @@
 #include "fem/rail_on_track.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "body/field_algebra.hpp"
 #include "body/stable_step.hpp"
 #include "body/traversal.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "fem/rolling_system.hpp"
-#include "fem/static_vector.hpp"
 #include "fem/track_step.hpp"
 
 namespace railstrata {
@@ -77,7 +74,11 @@ class Strike {
     elements_.linear_force(u_, f_);
     rail_.ties.apply_transpose(f_);
     booked_.clear();
-    if (last) out_.energy.kept = 0.5 * dot(u_, f_on_free());
+    if (last) {
+      Field on_free = f_;
+      clear_held(rail_, on_free);
+      out_.energy.kept = 0.5 * dot(u_, on_free);
+    }
     track_.press(u_, v_, out_.dt, sleepers_, f_);
     const double force = force_at(time);
     if (force > 0)
@@ -87,13 +88,6 @@ class Strike {
     out_.section.push_back(-mean_height(section_, u_));
     out_.head.push_back(-mean_height(head_, u_));
     update(last);
-  }
-  /// Internal forces where nodes are free.
-  Field f_on_free() const {
-    Field out = f_;
-    for (std::size_t i = 0; i < out.size(); ++i)
-      if (rail_.inverse_mass[i] == 0) out[i] = 0;
-    return out;
   }
   void update(bool last) {
     const Field before = last ? v_ : Field();

@@ -12,27 +12,11 @@ namespace {
 constexpr std::ptrdiff_t kUpdateSums = sizeof(UpdateSums) / sizeof(double);
 static_assert(kUpdateSums * sizeof(double) == sizeof(UpdateSums));
 
-std::vector<std::vector<char>> no_nodes(const RollingBody& b) {
-  std::vector<std::vector<char>> out;
-  for (const BlockLayout& l : b.body.layout.blocks) out.emplace_back(l.nodes, 0);
-  return out;
-}
-
 // Section nodes of a body on its lines: those that wait for the contact, and those that are carried.
 NodesOfBlocks line_nodes(const RollingBody& b) {
-  std::vector<std::vector<char>> wanted = no_nodes(b);
+  NodeMask wanted = no_nodes(b.body.mesh);
   for (const SectionNode& n : b.schedule.waiting) wanted[n.block][n.node] = 1;
   for (const Tie& t : b.body.mesh.ties) wanted[t.slave_block][t.slave_node] = 1;
-  return chosen_nodes(wanted);
-}
-
-// The nodes on the axle.
-NodesOfBlocks bore_nodes(const RollingBody& b, const NodesOfBlocks& lines) {
-  std::vector<std::vector<char>> wanted = no_nodes(b);
-  if (b.turns())
-    for (const SectionNode& n : b.body.mesh.prescribed) wanted[n.block][n.node] = 1;
-  for (std::size_t k = 0; k < lines.size(); ++k)
-    for (int n : lines[k]) wanted[k][n] = 0;
   return chosen_nodes(wanted);
 }
 
@@ -79,7 +63,7 @@ RankExchange::RankExchange(const Ranks& ranks, const Model& model, RollingBodies
   for (const Stretch& s : stretches_) borders_[s.body].push_back(s);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     lines_[k] = line_nodes(bodies[k]);
-    bore_[k] = bore_nodes(bodies[k], lines_[k]);
+    bore_[k] = nodes_on_axle(bodies[k].body.mesh, lines_[k]);
     slaves_[k] = lines_with_moments(bodies[k]);
     inner_nodes_[k] = updated_at_once(bodies[k]);
     const Ties& ties = bodies[k].body.ties;
@@ -112,80 +96,15 @@ bool RankExchange::left_windows(const AxlePose& pose) const {
            std::abs(pose.psi - placed_.psi) * window_.radius <= window_.stride);
 }
 
-RankExchange::Kind RankExchange::kind_of(const StepScope& scope) { return scope.energy_wanted ? whole : usual; }
-
-// visit(first number, how many) for all that a rank gives in a step.
-template <class Visit>
-void RankExchange::each_force(int rank, Kind kind, RollingBodies& bodies, BodyStates& states, Visit&& visit) {
-  visit(marks_.data() + 2 * rank, 2);
-  for (std::size_t k = 0; k < stretches_.size(); ++k) {
-    const Stretch& s = stretches_[k];
-    if (s.owner != rank) continue;
-    RollingBody& b = bodies[s.body];
-    const int block = s.block;
-    const BlockLayout& lay = b.body.layout.blocks[block];
-    const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(lay.nodes) * 3;
-    visit(b.elements.front_forces(s.first_tile), plane);
-    visit(b.elements.rear_forces(s.end_tile - 1), plane);
-    double* f = states[s.body].f.data();
-    const auto visit_node = [&](int node, StationRange at) {
-      for (int i = 0; i < 3; ++i) visit(f + lay.line(node, i) + at.begin, at.end - at.begin);
-    };
-    const StationRange all{s.first, s.end};
-    if (kind == whole) {
-      for (int n = 0; n < lay.nodes; ++n) visit_node(n, all);
-      continue;
-    }
-    for (int n : bore_[s.body][block]) visit_node(n, all);
-    for (int n : lines_[s.body][block])
-      for (const StationRange& r : sent_[k][n]) visit_node(n, r);
-    for (int line : slaves_[s.body][block])
-      visit(moment_pieces(s, b.body.ties, line) + 2 * (s.first_tile - b.body.tiling.first_tile[block]) + 1,
-            moment_numbers(s));
-  }
-}
-
-// The nodes that a rank alone updates, and its part of the lines.
-template <class Visit>
-void RankExchange::each_value(int rank, const RollingBodies& bodies, BodyStates& states, Field BodyState::*field,
-                              Visit&& visit) const {
-  for (const Stretch& s : stretches_) {
-    if (s.owner != rank) continue;
-    const BlockLayout& lay = bodies[s.body].body.layout.blocks[s.block];
-    double* values = (states[s.body].*field).data();
-    const auto visit_nodes = [&](const std::vector<int>& nodes, int first, int end) {
-      for (int n : nodes)
-        for (int i = 0; i < 3; ++i) visit(values + lay.line(n, i) + first, end - first);
-    };
-    visit_nodes(inner_nodes_[s.body][s.block], s.first, s.end);
-    // with the plane in front, and the ghost of a ring (body/traversal.hpp)
-    visit_nodes(lines_[s.body][s.block], s.first - 1, s.end + (lay.closed && s.end == lay.stations));
-  }
-}
-
-// The history of a rank's elements that may yield.
-template <class Visit>
-void RankExchange::each_slot(int rank, const RollingBodies& bodies, BodyStates& states, Visit&& visit) const {
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const PlasticElements& plastic = bodies[k].body.plastic;
-    if (plastic.empty()) continue;
-    PlasticHistory& history = states[k].history;
-    for (int slot = 0; slot < plastic.hot_places(history); ++slot)
-      if (bodies[k].cut.owner[plastic.hot(history, slot).tile] == rank)
-        visit(plastic.rows(history, slot), plastic.slot_numbers());
-  }
-}
-
 void RankExchange::prepare(RollingBodies& bodies, BodyStates& states, const StepScope& scope, const AxlePose& pose) {
-  const Kind kind = kind_of(scope);
-  const bool parts = kind == usual, moves = parts && left_windows(pose);
-  if ((kind == whole || moves) && !all_known_) complete(bodies, states);
+  const bool parts = !scope.energy_wanted, moves = parts && left_windows(pose);
+  if ((!parts || moves) && !all_known_) complete(bodies, states);
   if (moves) place_windows(bodies, pose);
   if (parts && all_known_)
     for (std::size_t k = 0; k < bodies.size(); ++k)
       clear_elsewhere(bodies[k], lines_[k], parts_[k].forces, states[k].f);
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].part = parts ? &parts_[k] : nullptr;
-  if (kind != whole) all_known_ = false;
+  if (parts) all_known_ = false;
 }
 
 double* RankExchange::moment_pieces(const Stretch& s, const Ties& ties, int line) {
@@ -210,21 +129,48 @@ void RankExchange::own_moments(const RollingBodies& bodies, BodyStates& states, 
 
 void RankExchange::share_forces(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
                                 const StepScope& scope) {
-  const Kind kind = kind_of(scope);
+  const bool whole = scope.energy_wanted;
   for (std::size_t k = 0; k < bodies.size(); ++k) {  // planes within the own stretches
     own_chains_.clear();
     for (int c : bodies[k].schedule.own) own_chains_.push_back(bodies[k].schedule.chains[c]);
-    if (kind == whole) {
+    if (whole) {
       bodies[k].elements.end(own_chains_, states[k].f);
       continue;
     }
-    for (const NodesOfBlocks* nodes : {&lines_[k], &bore_[k]}) bodies[k].elements.end(own_chains_, states[k].f, *nodes);
+    for (const NodesOfBlocks* nodes : {&lines_[k], &bore_[k]}) bodies[k].elements.end(own_chains_, states[k].f, nodes);
   }
-  if (kind == usual) own_moments(bodies, states, drift);
+  if (!whole) own_moments(bodies, states, drift);
   std::copy(mark_.begin(), mark_.end(), marks_.begin() + 2 * ranks_.rank);
-  exchange_([&](int rank, auto&& visit) { each_force(rank, kind, bodies, states, visit); });
+  exchange_([&](int rank, auto&& visit) {
+    visit(marks_.data() + 2 * rank, 2);
+    for (std::size_t k = 0; k < stretches_.size(); ++k) {
+      const Stretch& s = stretches_[k];
+      if (s.owner != rank) continue;
+      RollingBody& b = bodies[s.body];
+      const int block = s.block;
+      const BlockLayout& lay = b.body.layout.blocks[block];
+      const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(lay.nodes) * 3;
+      visit(b.elements.front_forces(s.first_tile), plane);
+      visit(b.elements.rear_forces(s.end_tile - 1), plane);
+      double* f = states[s.body].f.data();
+      const auto visit_node = [&](int node, StationRange at) {
+        for (int i = 0; i < 3; ++i) visit(f + lay.line(node, i) + at.begin, at.end - at.begin);
+      };
+      const StationRange all{s.first, s.end};
+      if (whole) {
+        for (int n = 0; n < lay.nodes; ++n) visit_node(n, all);
+        continue;
+      }
+      for (int n : bore_[s.body][block]) visit_node(n, all);
+      for (int n : lines_[s.body][block])
+        for (const StationRange& r : sent_[k][n]) visit_node(n, r);
+      for (int line : slaves_[s.body][block])
+        visit(moment_pieces(s, b.body.ties, line) + 2 * (s.first_tile - b.body.tiling.first_tile[block]) + 1,
+              moment_numbers(s));
+    }
+  });
   require_same_bits(ranks_, marks_);
-  if (kind == usual) return;  // evaluate_elements goes on with the border planes
+  if (!whole) return;  // evaluate_elements goes on with the border planes
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].elements.end(borders_[k], states[k].f);
 }
 
@@ -239,8 +185,29 @@ void RankExchange::share_sums(RollingBodies& bodies) {
 void RankExchange::complete(const RollingBodies& bodies, BodyStates& states) {
   if (all_known_) return;
   for (Field BodyState::*field : {&BodyState::u, &BodyState::v})
-    exchange_([&](int rank, auto&& visit) { each_value(rank, bodies, states, field, visit); });
-  exchange_([&](int rank, auto&& visit) { each_slot(rank, bodies, states, visit); });
+    exchange_([&](int rank, auto&& visit) {
+      for (const Stretch& s : stretches_) {
+        if (s.owner != rank) continue;
+        const BlockLayout& lay = bodies[s.body].body.layout.blocks[s.block];
+        double* values = (states[s.body].*field).data();
+        const auto visit_nodes = [&](const std::vector<int>& nodes, int first, int end) {
+          for (int n : nodes)
+            for (int i = 0; i < 3; ++i) visit(values + lay.line(n, i) + first, end - first);
+        };
+        visit_nodes(inner_nodes_[s.body][s.block], s.first, s.end);
+        // with the plane in front, and the ghost of a ring (body/traversal.hpp)
+        visit_nodes(lines_[s.body][s.block], s.first - 1, s.end + (lay.closed && s.end == lay.stations));
+      }
+    });
+  exchange_([&](int rank, auto&& visit) {
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      const PlasticElements& plastic = bodies[k].body.plastic;
+      PlasticHistory& history = states[k].history;
+      for (int slot = 0; slot < plastic.hot_places(history); ++slot)
+        if (bodies[k].cut.owner[plastic.hot(history, slot).tile] == rank)
+          visit(plastic.rows(history, slot), plastic.slot_numbers());
+    }
+  });
   all_known_ = true;
 }
 

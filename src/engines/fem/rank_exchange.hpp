@@ -43,15 +43,6 @@ class RankExchange {
   void complete(const RollingBodies& bodies, BodyStates& states);
 
  private:
-  enum Kind { usual, whole };  // steps: fused, or with energies
-  static Kind kind_of(const StepScope& scope);
-  template <class Visit>
-  void each_force(int rank, Kind kind, RollingBodies& bodies, BodyStates& states, Visit&& visit);
-  template <class Visit>
-  void each_value(int rank, const RollingBodies& bodies, BodyStates& states, Field BodyState::*field,
-                  Visit&& visit) const;
-  template <class Visit>
-  void each_slot(int rank, const RollingBodies& bodies, BodyStates& states, Visit&& visit) const;
   void place_windows(RollingBodies& bodies, const AxlePose& pose);
   bool left_windows(const AxlePose& pose) const;
   double* moment_pieces(const Stretch& s, const Ties& ties, int line);

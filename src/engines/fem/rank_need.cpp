@@ -13,69 +13,58 @@ namespace {
 // lines; lines, planes and copies: by the share that a rank keeps.
 constexpr double kContact = 0.055 / 0.229, kOwnLines = 0.13 / 0.141;
 
-// By block: section nodes on lines, others on the axle, and how many slaves there are.
-struct Lines {
-  NodesOfBlocks lines, bore;
-  std::vector<long> slaves;
-};
-
-Lines lines_of(const SweptBody& body) {
-  std::vector<std::vector<char>> on_line, on_axle;
-  for (const Block& b : body.blocks) on_line.emplace_back(b.section.nodes.size(), 0);
-  on_axle = on_line;
-  std::vector<long> slaves(body.blocks.size());
-  for (int c = 0; c <= body.contact.columns; ++c) on_line[body.contact.block][c] = 1;
-  for (const Tie& t : body.ties) on_line[t.master_block][t.master_node0] = on_line[t.master_block][t.master_node1] = 1;
+// Section nodes on lines that the axle does not carry.
+NodesOfBlocks lines_of(const SweptBody& body) {
+  NodeMask on_line = nodes_on_lines(body);
   for (const SectionNode& n : body.on_pads) on_line[n.block][n.node] = 1;
-  for (const SectionNode& n : body.prescribed) {
-    on_line[n.block][n.node] = 0;
-    on_axle[n.block][n.node] = body.kind == SweepKind::revolve;
-  }
-  for (const Tie& t : body.ties) {
-    on_line[t.slave_block][t.slave_node] = 1;
-    on_axle[t.slave_block][t.slave_node] = 0;
-    ++slaves[t.slave_block];
-  }
-  return {chosen_nodes(on_line), chosen_nodes(on_axle), slaves};
+  for (const SectionNode& n : body.prescribed) on_line[n.block][n.node] = 0;
+  for (const Tie& t : body.ties) on_line[t.slave_block][t.slave_node] = 1;
+  return chosen_nodes(on_line);
 }
 
 // A body as far as its elements are not needed.
 struct Skeleton {
   explicit Skeleton(const SweptBody& body)
-      : mesh(body), layout(layout_of(body)), tiling(tiling_of(body, layout)), ties(body, layout) {}
+      : mesh(body),
+        layout(layout_of(body)),
+        tiling(tiling_of(body, layout)),
+        ties(body, layout),
+        lines(lines_of(body)) {}
   const SweptBody& mesh;
   BodyLayout layout;
   Tiling tiling;
   Ties ties;
+  NodesOfBlocks lines;
 };
 
 double line_nodes(const Skeleton& b) {
-  const Lines lines = lines_of(b.mesh);
   double out = 0;
-  for (std::size_t k = 0; k < lines.lines.size(); ++k)
-    out += static_cast<double>(lines.lines[k].size()) * b.layout.blocks[k].stations;
+  for (std::size_t k = 0; k < b.lines.size(); ++k)
+    out += static_cast<double>(b.lines[k].size()) * b.layout.blocks[k].stations;
   return out;
 }
 
 // Adds one body's numbers that each rank sends in a step, and its nodes on lines that the rank keeps.
 void add_lines(const Skeleton& b, const TileCut& cut, double contact, double half_width, std::vector<double>& given,
                std::vector<double>& kept) {
-  const Lines lines = lines_of(b.mesh);
-  const SharedLines shared{b.mesh, b.layout, b.tiling, b.ties, cut, lines.lines, {}, contact, half_width};
+  const NodesOfBlocks bores = nodes_on_axle(b.mesh, b.lines);
+  const SharedLines shared{b.mesh, b.layout, b.tiling, b.ties, cut, b.lines, {}, contact, half_width};
   const std::vector<LineReach> reaches = line_reaches(shared, static_cast<int>(given.size()));
   const std::vector<SentRanges> gifts = sent_ranges(shared, reaches);
   const std::vector<OwnedChain> all = stretches(b.tiling, cut);
   const bool gives_moments = b.mesh.kind == SweepKind::revolve && moments_of_tiles(b.mesh, b.ties);
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto block = static_cast<std::size_t>(b.tiling.block(all[k]));
-    const long nodes = b.layout.blocks[block].nodes, bore = static_cast<long>(lines.bore[block].size()),
+    const long nodes = b.layout.blocks[block].nodes, bore = static_cast<long>(bores[block].size()),
                inner = b.tiling.tiles[all[k].end_tile - 1].end - b.tiling.border_plane(all[k]) - 1;
-    const long moments = gives_moments ? lines.slaves[block] * moment_numbers(all[k]) : 0;
+    const auto in_block = [&](const Tie& t) { return t.slave_block == static_cast<int>(block); };
+    const long slaves = std::count_if(b.mesh.ties.begin(), b.mesh.ties.end(), in_block),
+               moments = gives_moments ? slaves * moment_numbers(all[k]) : 0;
     given[all[k].owner] += static_cast<double>(6 * nodes + 3 * bore * inner + sent_numbers(gifts[k]) + moments);
   }
   for (std::size_t r = 0; r < kept.size(); ++r)
-    for (std::size_t block = 0; block < lines.lines.size(); ++block)
-      for (int n : lines.lines[block])
+    for (std::size_t block = 0; block < b.lines.size(); ++block)
+      for (int n : b.lines[block])
         for (const StationRange& at : reaches[r].values[block][n]) kept[r] += at.end - at.begin;
 }
 

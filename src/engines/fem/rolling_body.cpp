@@ -30,7 +30,7 @@ double station_derivative(const Block& block, int stations, int j, F&& value) {
 UpdateSchedule schedule_of(const Body& body, const ContactSurface& surface, const MassScaling& scaling) {
   UpdateSchedule out;
   const SweptBody& mesh = body.mesh;
-  for (const BlockLayout& b : body.layout.blocks) out.at_once.emplace_back(b.nodes, 0);
+  out.at_once = no_nodes(mesh);
   for (const NodeLine& l : body.lines) out.at_once[l.block][l.node] = 1;
   const auto wait = [&](int block, int node) {
     if (!out.at_once[block][node]) return;
@@ -124,12 +124,10 @@ Vec3 RollingBody::arm(int block, int node, int station) const {
 void chain_tiles(RollingBody& b, bool sums_wanted) {
   constexpr int kChainsPerThread = 6, kSingleTiles = std::numeric_limits<int>::max();
   UpdateSchedule& schedule = b.schedule;
-  const Tiling& tiling = b.body.tiling;
   const int wanted = sums_wanted ? kSingleTiles : kChainsPerThread * max_threads();
   if (wanted == schedule.chains_wanted) return;
   schedule.chains_wanted = wanted;
-  schedule.chains = b.cut.whole() ? chains(tiling, wanted, std::move(schedule.chains))
-                                  : cut_chains(tiling, b.cut, wanted, sums_wanted, std::move(schedule.chains));
+  schedule.chains = chains(b.body.tiling, wanted, b.cut, std::move(schedule.chains));
   schedule.own.clear();
   for (std::size_t k = 0; k < schedule.chains.size(); ++k)
     if (b.cut.is_own(schedule.chains[k].first_tile)) schedule.own.push_back(static_cast<int>(k));

@@ -14,10 +14,10 @@ namespace railstrata {
 
 /// When a body's nodes are updated: as soon as their forces are complete, or after the contact.
 struct UpdateSchedule {
-  std::vector<std::vector<char>> at_once;  ///< per block and section node
-  std::vector<SectionNode> waiting;        ///< free nodes on surface, pads and ties, or with added mass
-  std::vector<SectionNode> bordered;       ///< nodes updated at once, but for the ends of open blocks
-  int chains_wanted = 0;                   ///< what chains were made for
+  NodeMask at_once;
+  std::vector<SectionNode> waiting;   ///< free nodes on surface, pads and ties, or with added mass
+  std::vector<SectionNode> bordered;  ///< nodes updated at once, but for the ends of open blocks
+  int chains_wanted = 0;              ///< what chains were made for
   std::vector<Chain> chains;  ///< enough to keep the threads busy; where sums are wanted this rank's are single tiles,
                               ///< so that the bits do not depend on the threads. Those of other ranks: their stretches
   std::vector<int> own;       ///< those of the chains that this rank works through

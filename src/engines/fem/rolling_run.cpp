@@ -1,11 +1,10 @@
 #include "fem/rolling_run.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "body/plastic_pass.hpp"
 #include "body/traversal.hpp"
 #include "core/faults.hpp"
 #include "fem/guards.hpp"
@@ -88,22 +87,143 @@ void cut_tables(RunResult& result, std::size_t rows, std::size_t samples, const 
 class Roller {
  public:
   Roller(const RollingSystem& system, const RunObserver& observer, Stepper& stepper, RunState run,
-         Clock::time_point start);
-  RunResult roll();
+         Clock::time_point start)
+      : sys_(system),
+        observer_(observer),
+        stepper_(stepper),
+        run_(std::move(run)),
+        wanted_(wanted_samples(system)),
+        end_(std::max(system.model.x_end, wanted_.back().position)),
+        frame_spacing_(end_ / std::max(system.model.spec.run.output.series_frames, 1)),
+        start_(start),
+        earlier_seconds_(run_.result.wall_seconds) {
+    result().limits = stepper_.plan().limits;
+    result().dt = stepper_.dt();
+  }
+
+  RunResult roll() {
+    try {
+      while (!result().stopped && !all_sampled())
+        if (attend_to_demand())
+          step();
+        else
+          result().stopped = true;
+    } catch (const NumericalError&) {
+      save_last_good_state();
+      throw;
+    }
+    return finish();
+  }
 
  private:
-  bool attend_to_demand();
-  void step();
-  double next_look() const;
-  void record_history();
-  void show_frame();
-  void take_due_samples();
-  void keep_state();
-  void save(bool stopping);
-  void save_last_good_state();
-  void drop_unfinished_positions();
-  RunResult finish();
-
+  // False when the run is to stop.
+  bool attend_to_demand() {
+    if (!stepper_.is_restart_point()) return true;
+    const Demand demand = observer_.demand ? observer_.demand() : Demand::go_on;
+    if (demand != Demand::go_on)
+      time_output([&] { save(demand == Demand::save_and_stop); });
+    else if (observer_.save && stepper_.state().step % kStepsBetweenGoodStates == 0)
+      time_output([&] { keep_state(); });
+    return demand != Demand::save_and_stop;
+  }
+  void step() {
+    const bool record = stepper_.position() >= run_.next_history;
+    if (record) stepper_.want_energy();
+    stepper_.check_next_at(next_look());
+    stepper_.step();
+    require_sound(stepper_);
+    require_forward(stepper_);
+    if (record) record_history();
+    if (observer_.frame && stepper_.position() >= run_.next_frame) show_frame();
+    take_due_samples();
+  }
+  // Where more than scalars is read of a step, or energies are asked for.
+  double next_look() const {
+    double next = std::min(run_.next_history, wanted_[run_.next_sample].position);
+    if (observer_.frame) next = std::min(next, run_.next_frame);
+    return next;
+  }
+  void record_history() {
+    run_.next_history += sys_.model.spec.run.history_interval;
+    const EnergyBalance& now = stepper_.energy();
+    if (!run_.started) {
+      run_.start_energy = now;
+      run_.started = true;
+    }
+    if (sys_.varies_along() || result().history.size() % GuardLimits{}.rows_between_shapes == 0) stepper_.complete();
+    const HistoryRow row = history_row(stepper_, run_.start_energy);
+    run_.largest_closure = std::max(run_.largest_closure, std::abs(row.closure));
+    run_.largest_energy = std::max({run_.largest_energy, now.torque_work, now.strain});
+    require_within_bounds(stepper_, row, run_.largest_energy, result().history.size());
+    result().hourglass_share = std::max(result().hourglass_share, now.hourglass / now.strain);
+    result().run_up_damping_energy = now.damping;
+    result().history.push_back(row);
+    time_output([&] {
+      if (observer_.history) observer_.history(row);
+      if (observer_.progress) observer_.progress(stepper_.position() / end_, row);
+    });
+  }
+  void show_frame() {
+    run_.next_frame += frame_spacing_;
+    run_.frame_times.push_back(stepper_.state().time);
+    stepper_.complete();
+    time_output([&] { observer_.frame(take_sample(stepper_)); });
+  }
+  void take_due_samples() {
+    for (; !all_sampled() && stepper_.position() >= wanted_[run_.next_sample].position; ++run_.next_sample) {
+      stepper_.complete();
+      result().penetration = std::max(result().penetration, stepper_.forces().penetration);
+      time_output(
+          [&] { result().positions[wanted_[run_.next_sample].group].samples.push_back(take_sample(stepper_)); });
+    }
+  }
+  void keep_state() {
+    stepper_.complete();
+    require_finite(stepper_);
+    result().wall_seconds = wall_seconds();
+    result().reached_edge = stepper_.reached_edge();
+    good_ = {};  // one at a time
+    RunResult tables;
+    swap_tables(tables, result());
+    good_ = run_;
+    swap_tables(tables, result());
+    good_rows_ = result().history.size();
+    good_.stepper = stepper_.restart_state();
+  }
+  void save(bool stopping) {
+    if (!observer_.save) return;
+    keep_state();
+    swap_tables(good_.result, result());
+    observer_.save(good_, stopping);
+    swap_tables(good_.result, result());
+  }
+  void save_last_good_state() {
+    if (!observer_.save || good_.stepper.dt == 0) return;
+    cut_tables(result(), good_rows_, good_.next_sample, wanted_);
+    swap_tables(good_.result, result());
+    observer_.save(good_, false);
+  }
+  // A position measured in a part of its window only is none.
+  void drop_unfinished_positions() {
+    std::vector<PositionSamples>& positions = result().positions;
+    while (!positions.empty() &&
+           positions.back().samples.size() < sample_positions(sys_, positions.back().position).size())
+      positions.pop_back();
+  }
+  RunResult finish() {
+    stepper_.complete();
+    if (result().stopped)
+      drop_unfinished_positions();
+    else if (observer_.finished)
+      observer_.finished(stepper_.state());
+    result().closure = run_.largest_energy > 0 ? run_.largest_closure / run_.largest_energy : 0;
+    result().reached_edge = stepper_.reached_edge();
+    result().steps = stepper_.state().step;
+    const RollingState& state = stepper_.state();
+    add_remains(sys_, state.bodies[kRail].history, state.bodies[kWheel].history, result());
+    result().wall_seconds = wall_seconds();
+    return std::move(run_.result);
+  }
   RunResult& result() { return run_.result; }
   bool all_sampled() const { return run_.next_sample == wanted_.size(); }
   double wall_seconds() const { return earlier_seconds_ + seconds_since(start_); }
@@ -125,153 +245,6 @@ class Roller {
   RunState good_;           // the last state that was looked at, without tables; saved when a guard ends the run
   std::size_t good_rows_ = 0;
 };
-
-Roller::Roller(const RollingSystem& system, const RunObserver& observer, Stepper& stepper, RunState run,
-               Clock::time_point start)
-    : sys_(system),
-      observer_(observer),
-      stepper_(stepper),
-      run_(std::move(run)),
-      wanted_(wanted_samples(system)),
-      end_(std::max(system.model.x_end, wanted_.back().position)),
-      frame_spacing_(end_ / std::max(system.model.spec.run.output.series_frames, 1)),
-      start_(start),
-      earlier_seconds_(run_.result.wall_seconds) {
-  result().limits = stepper_.plan().limits;
-  result().dt = stepper_.dt();
-}
-
-RunResult Roller::roll() {
-  try {
-    while (!result().stopped && !all_sampled())
-      if (attend_to_demand())
-        step();
-      else
-        result().stopped = true;
-  } catch (const NumericalError&) {
-    save_last_good_state();
-    throw;
-  }
-  return finish();
-}
-
-// False when the run is to stop.
-bool Roller::attend_to_demand() {
-  if (!stepper_.is_restart_point()) return true;
-  const Demand demand = observer_.demand ? observer_.demand() : Demand::go_on;
-  if (demand != Demand::go_on)
-    time_output([&] { save(demand == Demand::save_and_stop); });
-  else if (observer_.save && stepper_.state().step % kStepsBetweenGoodStates == 0)
-    time_output([&] { keep_state(); });
-  return demand != Demand::save_and_stop;
-}
-
-void Roller::step() {
-  const bool record = stepper_.position() >= run_.next_history;
-  if (record) stepper_.want_energy();
-  stepper_.check_next_at(next_look());
-  stepper_.step();
-  require_sound(stepper_);
-  require_forward(stepper_);
-  if (record) record_history();
-  if (observer_.frame && stepper_.position() >= run_.next_frame) show_frame();
-  take_due_samples();
-}
-
-// Where more than scalars is read of a step, or energies are asked for.
-double Roller::next_look() const {
-  double next = std::min(run_.next_history, wanted_[run_.next_sample].position);
-  if (observer_.frame) next = std::min(next, run_.next_frame);
-  return next;
-}
-
-void Roller::record_history() {
-  run_.next_history += sys_.model.spec.run.history_interval;
-  const EnergyBalance& now = stepper_.energy();
-  if (!run_.started) {
-    run_.start_energy = now;
-    run_.started = true;
-  }
-  if (sys_.varies_along() || result().history.size() % GuardLimits{}.rows_between_shapes == 0) stepper_.complete();
-  const HistoryRow row = history_row(stepper_, run_.start_energy);
-  run_.largest_closure = std::max(run_.largest_closure, std::abs(row.closure));
-  run_.largest_energy = std::max({run_.largest_energy, now.torque_work, now.strain});
-  require_within_bounds(stepper_, row, run_.largest_energy, result().history.size());
-  result().hourglass_share = std::max(result().hourglass_share, now.hourglass / now.strain);
-  result().run_up_damping_energy = now.damping;
-  result().history.push_back(row);
-  time_output([&] {
-    if (observer_.history) observer_.history(row);
-    if (observer_.progress) observer_.progress(stepper_.position() / end_, row);
-  });
-}
-
-void Roller::show_frame() {
-  run_.next_frame += frame_spacing_;
-  run_.frame_times.push_back(stepper_.state().time);
-  stepper_.complete();
-  time_output([&] { observer_.frame(take_sample(stepper_)); });
-}
-
-void Roller::take_due_samples() {
-  for (; !all_sampled() && stepper_.position() >= wanted_[run_.next_sample].position; ++run_.next_sample) {
-    stepper_.complete();
-    result().penetration = std::max(result().penetration, stepper_.forces().penetration);
-    time_output([&] { result().positions[wanted_[run_.next_sample].group].samples.push_back(take_sample(stepper_)); });
-  }
-}
-
-void Roller::keep_state() {
-  stepper_.complete();
-  require_finite(stepper_);
-  result().wall_seconds = wall_seconds();
-  result().reached_edge = stepper_.reached_edge();
-  good_ = {};  // one at a time
-  RunResult tables;
-  swap_tables(tables, result());
-  good_ = run_;
-  swap_tables(tables, result());
-  good_rows_ = result().history.size();
-  good_.stepper = stepper_.restart_state();
-}
-
-void Roller::save(bool stopping) {
-  if (!observer_.save) return;
-  keep_state();
-  swap_tables(good_.result, result());
-  observer_.save(good_, stopping);
-  swap_tables(good_.result, result());
-}
-
-void Roller::save_last_good_state() {
-  if (!observer_.save || good_.stepper.dt == 0) return;
-  cut_tables(result(), good_rows_, good_.next_sample, wanted_);
-  swap_tables(good_.result, result());
-  observer_.save(good_, false);
-}
-
-// A position measured in a part of its window only is none.
-void Roller::drop_unfinished_positions() {
-  std::vector<PositionSamples>& positions = result().positions;
-  while (!positions.empty() &&
-         positions.back().samples.size() < sample_positions(sys_, positions.back().position).size())
-    positions.pop_back();
-}
-
-RunResult Roller::finish() {
-  stepper_.complete();
-  if (result().stopped)
-    drop_unfinished_positions();
-  else if (observer_.finished)
-    observer_.finished(stepper_.state());
-  result().closure = run_.largest_energy > 0 ? run_.largest_closure / run_.largest_energy : 0;
-  result().reached_edge = stepper_.reached_edge();
-  result().steps = stepper_.state().step;
-  const RollingState& state = stepper_.state();
-  add_remains(sys_, state.bodies[kRail].history, state.bodies[kWheel].history, result());
-  result().wall_seconds = wall_seconds();
-  return std::move(run_.result);
-}
 
 // A static case has one position with one sample.
 PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& preload) {
@@ -307,7 +280,7 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer, con
   RunResult out;
   out.elements = sys.model.rail.elements() + sys.model.wheel.elements();
   out.nodes = sys.model.rail.nodes() + sys.model.wheel.nodes();
-  PreloadResult preload = solve_preload(sys, run.preload_tolerance, observer.preload, {}, before, by.ranks);
+  PreloadResult preload = solve_preload(sys, run.preload_tolerance, observer.preload, before, by.ranks);
   out.preload_wall_seconds = preload.wall_seconds;
 
   if (!run.rolling) {

@@ -1,7 +1,6 @@
 #pragma once
 // A whole run: static preload, run-up, rolling, samples around the wanted positions.
 #include "body/plastic_field.hpp"
-#include "body/plastic_pass.hpp"
 #include "fem/rolling_sample.hpp"
 
 namespace railstrata {

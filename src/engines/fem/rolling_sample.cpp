@@ -15,7 +15,7 @@ namespace {
 
 // Half length of a sample: the patch and the stress field around it.
 double sample_half_length(const RollingSystem& s) {
-  return 1.5 * s.model.hertz.a + 2 * s.options.element_size + s.model.reach;
+  return 1.5 * s.model.hertz.a + 2 * s.spec().mesh.element_size + s.model.reach;
 }
 
 // The node planes of a band by number; on a ring the numbers go on below zero and beyond the last station.

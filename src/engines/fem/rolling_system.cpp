@@ -12,12 +12,6 @@
 
 namespace railstrata {
 
-ElementOptions element_options(const CaseSpec& spec) {
-  return {spec.mesh.element == ElementFormulation::one_point ? ElementKind::one_point : ElementKind::full,
-          spec.run.precision == ArithmeticPrecision::single_precision ? Precision::single_precision
-                                                                      : Precision::double_precision};
-}
-
 namespace {
 
 // Areas of the section that belong to each of its nodes.
@@ -29,29 +23,6 @@ std::vector<double> nodal_areas(const Section& s) {
   }
   return area;
 }
-
-}  // namespace
-
-std::vector<EndDashpot> end_absorbers(const Body& rail) {
-  const BodyLayout& lay = rail.layout;
-  Field coefficient = lay.field();
-  const Elastic& m = rail.materials.front();
-  const double normal = std::sqrt(m.p_wave_modulus() * m.density), tangential = std::sqrt(m.mu * m.density);
-  for (std::size_t b = 0; b < lay.blocks.size(); ++b) {
-    const std::vector<double> area = nodal_areas(rail.mesh.blocks[b].section);
-    for (std::size_t n = 0; n < area.size(); ++n)
-      for (int i = 0; i < 3; ++i)
-        for (int j : {0, lay.blocks[b].stations - 1})
-          coefficient[lay.blocks[b].line(static_cast<int>(n), i) + j] = area[n] * (i == 0 ? normal : tangential);
-  }
-  rail.ties.apply_transpose(coefficient);
-  std::vector<EndDashpot> out;
-  for (std::ptrdiff_t k = 0; k < lay.size; ++k)
-    if (coefficient[k] > 0 && rail.inverse_mass[k] > 0) out.push_back({k, coefficient[k]});
-  return out;
-}
-
-namespace {
 
 std::vector<EndLoad> end_loads_of(const Body& rail) {
   if (rail.initial_stress.empty()) return {};
@@ -118,12 +89,6 @@ double vibration_time(const CaseSpec& spec) {
 ExplicitOptions explicit_options(const Model& m) {
   const CaseSpec& spec = m.spec;
   ExplicitOptions out;
-  out.speed = spec.drive.speed;
-  out.torque_ramp = spec.drive.torque_ramp;
-  out.run_up = spec.run.run_up;
-  out.run_up_damping = spec.run.run_up_damping;
-  out.element_size = spec.mesh.element_size;
-  out.vehicle = spec.vehicle;
   const DriveSpec& drive = spec.drive;
   const RigidContact& contact = m.placement.contact;
   out.keeps_pace = drive.creepage.has_value();
@@ -154,6 +119,31 @@ ContactSurface wheel_surface_of(const Model& m, const Body& wheel) {
 }
 
 }  // namespace
+
+ElementOptions element_options(const CaseSpec& spec) {
+  return {spec.mesh.element == ElementFormulation::one_point ? ElementKind::one_point : ElementKind::full,
+          spec.run.precision == ArithmeticPrecision::single_precision ? Precision::single_precision
+                                                                      : Precision::double_precision};
+}
+
+std::vector<EndDashpot> end_absorbers(const Body& rail) {
+  const BodyLayout& lay = rail.layout;
+  Field coefficient = lay.field();
+  const Elastic& m = rail.materials.front();
+  const double normal = std::sqrt(m.p_wave_modulus() * m.density), tangential = std::sqrt(m.mu * m.density);
+  for (std::size_t b = 0; b < lay.blocks.size(); ++b) {
+    const std::vector<double> area = nodal_areas(rail.mesh.blocks[b].section);
+    for (std::size_t n = 0; n < area.size(); ++n)
+      for (int i = 0; i < 3; ++i)
+        for (int j : {0, lay.blocks[b].stations - 1})
+          coefficient[lay.blocks[b].line(static_cast<int>(n), i) + j] = area[n] * (i == 0 ? normal : tangential);
+  }
+  rail.ties.apply_transpose(coefficient);
+  std::vector<EndDashpot> out;
+  for (std::ptrdiff_t k = 0; k < lay.size; ++k)
+    if (coefficient[k] > 0 && rail.inverse_mass[k] > 0) out.push_back({k, coefficient[k]});
+  return out;
+}
 
 RollingSystem::RollingSystem(const Model& m)
     : model((require_support(uses::kFiniteElements, m.spec), m)),

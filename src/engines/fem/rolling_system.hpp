@@ -59,15 +59,9 @@ struct EndLoad {
   double force;
 };
 
-/// Options of a case that the steps use, so that no step reads the case itself.
+/// What follows from a case for the steps.
 struct ExplicitOptions {
-  double speed = 0;            ///< m/s
-  double torque_ramp = 0;      ///< s
-  double run_up = 0;           ///< m, over which the run-up damping fades
-  double run_up_damping = 0;   ///< 1/s, at the start
-  double element_size = 0;     ///< m, of the contact's zone
-  EnforcementOptions contact;  ///< friction included
-  VehicleSpec vehicle;
+  EnforcementOptions contact;   ///< friction included
   bool keeps_pace = false;      ///< the creepage is given: travel and spin of the axle go on as they started
   bool free_sideways = false;   ///< the axle keeps the lateral force of the start, not its lateral speed
   double lateral_speed = 0;     ///< m/s, of a guided axle; at the start of one that is free sideways
@@ -96,6 +90,7 @@ struct RollingSystem {
   double torque =
       0;  ///< N m, steady: gives the wanted F_T with the inertia of the accelerated wheel, M = F_T (r + I/(m r))
 
+  const CaseSpec& spec() const { return model.spec; }
   const Body& body(BodyId id) const { return bodies[index_of(id)]; }
   const Body& rail() const { return body(BodyId::rail); }
   const Body& wheel() const { return body(BodyId::wheel); }

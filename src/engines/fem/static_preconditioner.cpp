@@ -12,15 +12,15 @@ namespace {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // Colours such that no two clusters of one colour have a neighbour in common.
-std::vector<std::vector<int>> colour(const Aggregates::Neighbours& neighbours) {
-  const int n = static_cast<int>(neighbours.of.size());
+std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighbours) {
+  const int n = static_cast<int>(neighbours.size());
   std::vector<int> colour_of(n, -1);
   std::vector<std::vector<int>> classes;
   std::vector<int> taken;  // by colour: the last cluster that found it taken
   for (int a = 0; a < n; ++a) {
     taken.resize(classes.size() + 1, -1);
-    for (int b : neighbours.of[a])
-      for (int c : neighbours.of[b])
+    for (int b : neighbours[a])
+      for (int c : neighbours[b])
         if (colour_of[c] >= 0) taken[colour_of[c]] = a;
     int k = 0;
     while (taken[k] == a) ++k;
@@ -36,11 +36,11 @@ Vec2 contact_in_section(const ContactSurface& s) { return s.node[s.columns / 2];
 }  // namespace
 
 StaticPreconditioner::StaticPreconditioner(const RollingSystem& system, const StaticShare& share,
-                                           const ClusterSizes& sizes, const Operator& stiffness)
+                                           const Operator& stiffness)
     : sys_(system),
       share_(share),
-      clusters_{Aggregates(system.rail(), contact_in_section(system.rail_surface()), sizes),
-                Aggregates(system.wheel(), contact_in_section(system.wheel_surface()), sizes)},
+      clusters_{Aggregates(system.rail(), contact_in_section(system.rail_surface())),
+                Aggregates(system.wheel(), contact_in_section(system.wheel_surface()))},
       size_(clusters_[kRail].modes() + clusters_[kWheel].modes() + 1) {
   count_parts();
   invert_diagonal();
@@ -60,7 +60,7 @@ void StaticPreconditioner::count_parts() {
     const TileCut& cut = share_.cut(k);
     int begin = 0, end = 0;
     for (int p = 0; p < a.parts(); ++p) {
-      const int owner = cut.whole() ? cut.rank : cut.owner[a.part_tile(p)];
+      const int owner = cut.owner_of(a.part_tile(p));
       part_numbers_[owner] += Aggregates::kPartNumbers;
       if (owner != cut.rank) continue;
       if (end == 0) begin = p;
@@ -106,51 +106,46 @@ void StaticPreconditioner::invert_diagonal() {
   inverse_.axle = 1 / axle;
 }
 
-// The coarse matrix by columns: the stiffness is applied to one mode of all clusters of a colour at once.
+int StaticPreconditioner::first_mode(std::size_t body) const { return body == kRail ? 0 : clusters_[kRail].modes(); }
+
+// The coarse matrix by columns: the stiffness is applied to one mode of all clusters of a colour at once, and shows the
+// rows of their neighbours.
 void StaticPreconditioner::probe(const Operator& stiffness) {
   StaticVector x = zero_vector(sys_), y = x;
-  std::array<ColouredClusters, 2> parts;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    parts[k].neighbours = clusters_[k].neighbours();
-    parts[k].classes = colour(parts[k].neighbours);
+  std::array<std::vector<std::vector<int>>, 2> neighbours, classes;
+  for (std::size_t k = 0; k < classes.size(); ++k) {
+    neighbours[k] = clusters_[k].neighbours();
+    classes[k] = colour(neighbours[k]);
+    classes[k].resize(std::max(classes[0].size(), classes[k].size()));
   }
-  const std::size_t colours = std::max(parts[0].classes.size(), parts[1].classes.size());
+  classes[0].resize(classes[1].size());
   std::vector<double> c(static_cast<std::size_t>(size_));
-  for (std::size_t colour = 0; colour < colours; ++colour)
+  // of the probed clusters that have the mode: their column
+  const auto each_column = [&](std::size_t body, std::size_t colour, int mode, auto&& visit) {
+    const Aggregates& clusters = clusters_[body];
+    for (int a : classes[body][colour])
+      if (mode < clusters.mode_count(a)) visit(a, first_mode(body) + clusters.first_mode(a) + mode);
+  };
+  for (std::size_t colour = 0; colour < classes[0].size(); ++colour)
     for (int mode = 0; mode < 6; ++mode) {
       std::fill(c.begin(), c.end(), 0.0);
-      for (std::size_t k = 0; k < parts.size(); ++k) {
+      for (std::size_t k = 0; k < classes.size(); ++k) {
         std::fill(x.body[k].begin(), x.body[k].end(), 0.0);
-        if (colour >= parts[k].classes.size()) continue;
-        for (int a : parts[k].classes[colour])
-          if (mode < clusters_[k].mode_count(a)) c[first_mode(k) + clusters_[k].first_mode(a) + mode] = 1;
+        each_column(k, colour, mode, [&](int, int column) { c[column] = 1; });
       }
       x.axle = 0;
       prolong(c.data(), x);
       stiffness(x, y);
-      ++probes_;
       restrict_to(y, c.data());
-      for (std::size_t k = 0; k < parts.size(); ++k)
-        if (colour < parts[k].classes.size()) gather_columns(k, parts[k], colour, mode, c.data() + first_mode(k));
+      for (std::size_t k = 0; k < classes.size(); ++k)
+        each_column(k, colour, mode, [&](int a, int column) {
+          for (int b : neighbours[k][a])
+            for (int i = 0; i < clusters_[k].mode_count(b); ++i) {
+              const int row = first_mode(k) + clusters_[k].first_mode(b) + i;
+              if (row >= column) coarse_.emplace_back(row, column, c[row]);
+            }
+        });
     }
-}
-
-int StaticPreconditioner::first_mode(std::size_t body) const { return body == kRail ? 0 : clusters_[kRail].modes(); }
-
-// Entries of the coarse matrix that one probe shows: rows of the neighbours of the probed clusters.
-void StaticPreconditioner::gather_columns(std::size_t body, const ColouredClusters& part, std::size_t colour, int mode,
-                                          const double* c) {
-  const Aggregates& clusters = clusters_[body];
-  const int offset = first_mode(body);
-  for (int a : part.classes[colour]) {
-    if (mode >= clusters.mode_count(a)) continue;
-    const int column = offset + clusters.first_mode(a) + mode;
-    for (int b : part.neighbours.of[a])
-      for (int i = 0; i < clusters.mode_count(b); ++i) {
-        const int row = clusters.first_mode(b) + i;
-        if (offset + row >= column) coarse_.emplace_back(offset + row, column, c[row]);
-      }
-  }
 }
 
 void StaticPreconditioner::probe_axle(const Operator& stiffness) {
@@ -158,7 +153,6 @@ void StaticPreconditioner::probe_axle(const Operator& stiffness) {
   x.axle = 1.0;
   StaticVector y = x;
   stiffness(x, y);
-  ++probes_;
   std::vector<double> c(static_cast<std::size_t>(size_));
   restrict_to(y, c.data());
   const int axle = size_ - 1;
@@ -188,12 +182,6 @@ void StaticPreconditioner::add_sleepers() {
 }
 
 void StaticPreconditioner::set_contact(const MortarRows& rows, const std::vector<char>& active, double penalty) {
-  gather_gaps(rows, active, penalty);
-  factorise_gaps();
-  factorise_coarse();
-}
-
-void StaticPreconditioner::gather_gaps(const MortarRows& rows, const std::vector<char>& active, double penalty) {
   assert(active.size() == rows.rows.size());
   gaps_.clear();
   for (std::size_t k = 0; k < rows.rows.size(); ++k) {
@@ -211,6 +199,8 @@ void StaticPreconditioner::gather_gaps(const MortarRows& rows, const std::vector
     }
     gaps_.push_back(std::move(g));
   }
+  factorise_gaps();
+  factorise_coarse();
 }
 
 // W^-1 + G D^-1 G^T
@@ -240,31 +230,24 @@ void StaticPreconditioner::factorise_gaps() {
     throw NumericalError("static preload: the contact's flexibility is not positive definite");
 }
 
-// G P of one row, scaled so that its square is the row's stiffness.
-std::vector<Eigen::Triplet<double>> StaticPreconditioner::coarse_row(const GapRow& row, int number) const {
-  std::vector<Eigen::Triplet<double>> out;
-  const double scale = std::sqrt(row.stiffness);
-  for (const Entry& e : row.entry) {
-    const ContactSurface& s = sys_.surfaces[e.body];
-    const Aggregates& a = clusters_[e.body];
-    const int block = sys_.bodies[e.body].mesh.contact.block;
-    const std::ptrdiff_t place = e.index - s.first_line, line = place / s.stride;
-    const int node = static_cast<int>(line / 3), component = static_cast<int>(line % 3),
-              station = static_cast<int>(place % s.stride);
-    const int cluster = a.cluster_of(block, node, station);
-    if (cluster < 0) continue;
-    const auto modes = a.modes_at(block, node, station, component);
-    const int first = first_mode(e.body) + a.first_mode(cluster);
-    for (int i = 0; i < a.mode_count(cluster); ++i) out.emplace_back(number, first + i, scale * e.value * modes[i]);
-  }
-  return out;
-}
-
+// With rows of G P, scaled so that their squares are the rows' stiffness.
 void StaticPreconditioner::factorise_coarse() {
   std::vector<Eigen::Triplet<double>> rows;
   for (int k = 0; k < static_cast<int>(gaps_.size()); ++k) {
-    const auto row = coarse_row(gaps_[k], k);
-    rows.insert(rows.end(), row.begin(), row.end());
+    const double scale = std::sqrt(gaps_[k].stiffness);
+    for (const Entry& e : gaps_[k].entry) {
+      const ContactSurface& s = sys_.surfaces[e.body];
+      const Aggregates& a = clusters_[e.body];
+      const int block = sys_.bodies[e.body].mesh.contact.block;
+      const std::ptrdiff_t place = e.index - s.first_line, line = place / s.stride;
+      const int node = static_cast<int>(line / 3), component = static_cast<int>(line % 3),
+                station = static_cast<int>(place % s.stride);
+      const int cluster = a.cluster_of(block, node, station);
+      if (cluster < 0) continue;
+      const auto modes = a.modes_at(block, node, station, component);
+      const int first = first_mode(e.body) + a.first_mode(cluster);
+      for (int i = 0; i < a.mode_count(cluster); ++i) rows.emplace_back(k, first + i, scale * e.value * modes[i]);
+    }
   }
   SparseMatrix g(static_cast<int>(gaps_.size()), size_), stiffness(size_, size_);
   g.setFromTriplets(rows.begin(), rows.end());

@@ -27,16 +27,12 @@ class StaticPreconditioner {
   /// stiffness(x, y): y = K x on the free degrees of freedom, without contact, sleepers standing still.
   using Operator = std::function<void(StaticVector&, StaticVector&)>;
   /// share: of this rank; vectors are right where it keeps them.
-  StaticPreconditioner(const RollingSystem& system, const StaticShare& share, const ClusterSizes& sizes,
-                       const Operator& stiffness);
+  StaticPreconditioner(const RollingSystem& system, const StaticShare& share, const Operator& stiffness);
 
   /// The rows in contact and their stiffness (Pa/m); factorises both levels.
   void set_contact(const MortarRows& rows, const std::vector<char>& active, double penalty);
   /// z = M^-1 r
   void apply(const StaticVector& r, StaticVector& z);
-
-  int coarse_size() const { return size_; }
-  int probes() const { return probes_; }  ///< applications of K that the coarse matrix took
 
  private:
   using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>;
@@ -49,23 +45,16 @@ class StaticPreconditioner {
     std::vector<Entry> entry;
     double stiffness;  // N/m
   };
-  struct ColouredClusters {
-    Aggregates::Neighbours neighbours;
-    std::vector<std::vector<int>> classes;  // clusters of one colour have no neighbour in common
-  };
   int first_mode(std::size_t body) const;
   void count_parts();
   void restrict_to(const StaticVector& f, double* coarse);
   void prolong(const double* coarse, StaticVector& x) const;
-  void gather_columns(std::size_t body, const ColouredClusters& part, std::size_t colour, int mode, const double* c);
   void invert_diagonal();
   void probe(const Operator& stiffness);
   void probe_axle(const Operator& stiffness);
   void add_sleepers();
-  void gather_gaps(const MortarRows& rows, const std::vector<char>& active, double penalty);
   void factorise_gaps();
   void factorise_coarse();
-  std::vector<Eigen::Triplet<double>> coarse_row(const GapRow& row, int number) const;
 
   const RollingSystem& sys_;
   const StaticShare& share_;
@@ -73,7 +62,7 @@ class StaticPreconditioner {
   std::vector<double> part_forces_;           // of the clusters' parts, both bodies
   std::vector<std::ptrdiff_t> part_numbers_;  // of them, by rank
   std::array<std::pair<int, int>, 2> own_parts_;
-  int size_ = 0, probes_ = 0;
+  int size_ = 0;
   StaticVector inverse_;
   std::vector<GapRow> gaps_;
   std::vector<Eigen::Triplet<double>> coarse_;

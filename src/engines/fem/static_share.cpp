@@ -4,24 +4,18 @@ namespace railstrata {
 namespace {
 
 // Section nodes of a body that the right-hand side reads at all stations.
-std::vector<std::vector<char>> read_lines(const Body& body, const ContactSurface& surface) {
-  std::vector<std::vector<char>> out;
-  for (const BlockLayout& l : body.layout.blocks) out.emplace_back(l.nodes, 0);
-  for (int c = 0; c < surface.columns; ++c) out[body.mesh.contact.block][c] = 1;
-  for (const SectionNode& n : body.mesh.on_pads) out[n.block][n.node] = 1;
-  for (const Tie& t : body.mesh.ties) {
-    out[t.slave_block][t.slave_node] = 1;
-    out[t.master_block][t.master_node0] = out[t.master_block][t.master_node1] = 1;
-  }
-  if (body.mesh.kind == SweepKind::revolve)
-    for (const SectionNode& n : body.mesh.prescribed) out[n.block][n.node] = 1;
+NodeMask read_lines(const SweptBody& mesh) {
+  NodeMask out = nodes_on_lines(mesh);
+  for (const SectionNode& n : mesh.on_pads) out[n.block][n.node] = 1;
+  if (mesh.kind == SweepKind::revolve)
+    for (const SectionNode& n : mesh.prescribed) out[n.block][n.node] = 1;
   return out;
 }
 
 std::vector<Chain> own_chains(const Body& body, const TileCut& cut) {
   constexpr int kChainsPerThread = 8;
   std::vector<Chain> out;
-  for (const Chain& c : cut_chains(body.tiling, cut, kChainsPerThread * max_threads(), false))
+  for (const Chain& c : chains(body.tiling, kChainsPerThread * max_threads(), cut))
     if (cut.is_own(c.first_tile)) out.push_back(c);
   return out;
 }
@@ -48,25 +42,21 @@ StaticShare::StaticShare(const RollingSystem& system, const Ranks& ranks)
       elements_{Traversal(system.rail()), Traversal(system.wheel())},
       tile_counts_(static_cast<std::size_t>(ranks.count)) {
   for (std::size_t k = 0; k < kept_.size(); ++k) {
-    kept_[k] = kept_values(sys_.bodies[k], cuts_[k], read_lines(sys_.bodies[k], sys_.surfaces[k]));
+    kept_[k] = kept_values(sys_.bodies[k], cuts_[k], read_lines(sys_.bodies[k].mesh));
     own_[k] = own_chains(sys_.bodies[k], cuts_[k]);
   }
   for (const Stretch& s : stretches_) {
     borders_[s.body].push_back(s);
     tile_counts_[s.owner] += s.end_tile - s.first_tile;
   }
-  find_ranges();
   cut_into_pieces();
-}
-
-void StaticShare::find_ranges() {
   for (std::size_t k = 0; k < kept_.size(); ++k)
     for (std::size_t b = 0; b < kept_[k].line.size(); ++b) {
       const BlockLayout& l = sys_.bodies[k].layout.blocks[b];
-      const std::vector<StationRun> whole = {{0, l.stations}};
+      const std::vector<StationRange> whole = {{0, l.stations}};
       for (int n = 0; n < l.nodes; ++n)
         for (int i = 0; i < 3; ++i)
-          for (const StationRun& run : kept_[k].line[b][n] ? whole : kept_[k].runs[b])
+          for (const StationRange& run : kept_[k].line[b][n] ? whole : kept_[k].runs[b])
             ranges_.push_back({k, l.line(n, i) + run.begin, l.line(n, i) + run.end});
     }
 }
@@ -87,20 +77,18 @@ void StaticShare::cut_into_pieces() {
   tile_sums_.resize(static_cast<std::size_t>(row));
 }
 
-double StaticShare::piece_sum(const Piece& piece, const Field& a, const Field& b) const {
-  const BlockLayout& l = sys_.bodies[piece.body].layout.blocks[piece.block];
-  double sum = 0;
-  for (int n = piece.first_node; n < piece.end_node; ++n)
-    for (int i = 0; i < 3; ++i) {
-      const std::ptrdiff_t at = l.line(n, i) + piece.stations.begin;
-      sum += product_sum(a.data() + at, b.data() + at, piece.stations.end - piece.stations.begin);
-    }
-  return sum;
-}
-
 double StaticShare::dot(const StaticVector& a, const StaticVector& b) {
   for_each(static_cast<std::ptrdiff_t>(pieces_.size()), [&](std::ptrdiff_t k) {
-    piece_sums_[k] = piece_sum(pieces_[k], a.body[pieces_[k].body], b.body[pieces_[k].body]);
+    const Piece& piece = pieces_[k];
+    const BlockLayout& l = sys_.bodies[piece.body].layout.blocks[piece.block];
+    double sum = 0;
+    for (int n = piece.first_node; n < piece.end_node; ++n)
+      for (int i = 0; i < 3; ++i) {
+        const std::ptrdiff_t at = l.line(n, i) + piece.stations.begin;
+        sum += product_sum(a.body[piece.body].data() + at, b.body[piece.body].data() + at,
+                           piece.stations.end - piece.stations.begin);
+      }
+    piece_sums_[k] = sum;
   });
   std::fill(tile_sums_.begin(), tile_sums_.end(), 0.0);
   for (std::size_t k = 0; k < pieces_.size(); ++k) tile_sums_[pieces_[k].tile] += piece_sums_[k];
@@ -129,22 +117,13 @@ void StaticShare::scale_and_add(StaticVector& y, double s, const StaticVector& x
 }
 
 void StaticShare::linear_force(StaticVector& x, StaticVector& y) {
-  for (std::size_t k = 0; k < elements_.size(); ++k) {
-    if (ranks_.alone())
-      elements_[k].linear_force(x.body[k], y.body[k]);
-    else
-      elements_[k].linear_force_of(own_[k], x.body[k], y.body[k]);
-  }
+  for (std::size_t k = 0; k < elements_.size(); ++k) elements_[k].linear_force(x.body[k], y.body[k], &own_[k]);
   share_forces(y);
 }
 
 void StaticShare::internal_force(StaticVector& u, const std::array<PlasticHistory, 2>& history, StaticVector& y) {
-  for (std::size_t k = 0; k < elements_.size(); ++k) {
-    if (ranks_.alone())
-      elements_[k].internal_force(u.body[k], 0, y.body[k], history[k]);
-    else
-      elements_[k].internal_force_of(own_[k], u.body[k], 0, y.body[k], history[k]);
-  }
+  for (std::size_t k = 0; k < elements_.size(); ++k)
+    elements_[k].internal_force(u.body[k], 0, y.body[k], history[k], &own_[k]);
   share_forces(y);
 }
 

@@ -2,20 +2,26 @@
 // The part of the static problem that one of several ranks computes.
 //
 // A rank evaluates the elements of its own tiles (body/tile_cut.hpp) and keeps vectors up to date at the nodes there,
-// on the planes between stretches, and on the lines that ties, contact and axle read (body/kept_values.hpp); those
-// every rank has, as in the steps (fem/rank_exchange.hpp). A sum over a vector is made of sums over parts of tiles,
-// each by the rank that has the tile, and added in the order of tiles by every rank: the same bits for any number of
-// ranks and threads. One rank alone has all tiles and exchanges nothing.
+// on the planes between stretches, and on the lines that ties, contact and axle read; those every rank has, as in the
+// steps (fem/rank_exchange.hpp). A sum over a vector is made of sums over parts of tiles, each by the rank that has the
+// tile, and added in the order of tiles by every rank: the same bits for any number of ranks and threads. One rank
+// alone has all tiles and exchanges nothing.
 #include <array>
 #include <vector>
 
-#include "body/kept_values.hpp"
+#include "body/tile_cut.hpp"
 #include "body/traversal.hpp"
+#include "core/parallel.hpp"
 #include "fem/part_exchange.hpp"
 #include "fem/rolling_system.hpp"
-#include "fem/static_vector.hpp"
 
 namespace railstrata {
+
+/// A vector of the static problem: displacements (or forces) of both bodies and of the axle's height.
+struct StaticVector {
+  std::array<Field, 2> body;  ///< by BodyId
+  double axle = 0;            ///< m or N
+};
 
 class StaticShare {
  public:
@@ -58,11 +64,9 @@ class StaticShare {
   struct Piece {  // of a tile: some nodes of its section
     std::size_t body;
     int block, first_node, end_node, tile;  // in the row of all tiles
-    StationRun stations;
+    StationRange stations;
   };
-  void find_ranges();
   void cut_into_pieces();
-  double piece_sum(const Piece& piece, const Field& a, const Field& b) const;
   void share_forces(StaticVector& y);
 
   const RollingSystem& sys_;

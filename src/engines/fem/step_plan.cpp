@@ -52,30 +52,27 @@ void note_scaled_blocks(const Body& body, const MassScaling& scaling, StepLimits
 StepPlan::StepPlan(const RollingSystem& sys) {
   const CaseSpec& spec = sys.model.spec;
   find_element_bound(sys, limits);
-  std::array<double, 2> own{};
-  for (std::size_t k = 0; k < own.size(); ++k) own[k] = lanczos_stable_step(sys.bodies[k]);
-  limits.unscaled = limits.lanczos = std::min(own[kRail], own[kWheel]);
-  if (spec.run.mass_scaling_step > 0 && sys.rail().mesh.interfaces.empty()) scale_masses(sys, own);
-  limits.chosen = rounded_down(spec.run.step_safety * limits.lanczos);
-}
-
-void StepPlan::scale_masses(const RollingSystem& sys, const std::array<double, 2>& own) {
-  limits.lanczos = HUGE_VAL;
-  for (std::size_t k = 0; k < own.size(); ++k) {
+  limits.unscaled = limits.lanczos = HUGE_VAL;
+  for (std::size_t k = 0; k < scaling.size(); ++k) {
     const Body& body = sys.bodies[k];
-    MassScaling& added = scaling[k];
-    added = {body, wanted_step(body, sys.model.spec)};
-    double step = added.empty() ? own[k] : lanczos_stable_step(body, added);
-    if (step < kWorthwhile * own[k]) {
-      added = {};
-      step = own[k];
+    const double own = lanczos_stable_step(body);
+    double step = own;
+    if (spec.run.mass_scaling_step > 0 && sys.rail().mesh.interfaces.empty()) {
+      MassScaling& added = scaling[k];
+      added = {body, wanted_step(body, spec)};
+      if (!added.empty()) step = lanczos_stable_step(body, added);
+      if (step < kWorthwhile * own) {
+        added = {};
+        step = own;
+      }
+      limits.added_mass += added.report().added_mass;
+      limits.scaled_mass += added.report().scaled_mass;
+      note_scaled_blocks(body, added, limits);
     }
-    limits.added_mass += added.report().added_mass;
-    limits.scaled_mass += added.report().scaled_mass;
-    note_scaled_blocks(body, added, limits);
-    if (!added.empty()) limits.scaled_where += (limits.scaled_where.empty() ? "" : ", ") + added.report().where;
+    limits.unscaled = std::min(limits.unscaled, own);
     limits.lanczos = std::min(limits.lanczos, step);
   }
+  limits.chosen = rounded_down(spec.run.step_safety * limits.lanczos);
 }
 
 }  // namespace railstrata

@@ -23,8 +23,7 @@ struct StepLimits {
   double element = 0;
   double chosen = 0;  ///< the step taken: run.step_safety times lanczos
   double added_mass = 0,
-         scaled_mass = 0;    ///< kg, by selective mass scaling and of the nodes it acts on; 0: real masses
-  std::string scaled_where;  ///< blocks with added mass: "rail cap, rail gauge shell"
+         scaled_mass = 0;  ///< kg, by selective mass scaling and of the nodes it acts on; 0: real masses
   std::vector<ScaledBlock> scaled_blocks;
   std::string where;
 };
@@ -38,9 +37,6 @@ struct StepPlan {
 
   StepLimits limits;
   std::array<MassScaling, 2> scaling;  ///< by BodyId; empty: real masses
-
- private:
-  void scale_masses(const RollingSystem& system, const std::array<double, 2>& own);
 };
 
 }  // namespace railstrata

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "body/field_algebra.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
-#include "fem/static_vector.hpp"
 #include "rules/support.hpp"
 
 namespace railstrata {
@@ -14,7 +14,7 @@ namespace {
 
 ReferenceFrame rolling_frame(const RollingSystem& sys, double dt) {
   ReferenceFrame frame;
-  frame.speed = sys.on_ring() ? 0.0 : sys.options.speed;
+  frame.speed = sys.on_ring() ? 0.0 : sys.spec().drive.speed;
   frame.lateral_speed = sys.options.lateral_speed;
   frame.spin = sys.start_spin;
   frame.yaw_turn = sys.wheel_surface().yaw;
@@ -54,7 +54,7 @@ Stepper::Stepper(const RollingSystem& system, const Ranks& ranks)
     : sys_(system),
       plan_(system),
       bodies_(rolling_bodies(system, plan_, ranks)),
-      contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)),
+      contact_(system),
       track_(system.pads),
       interface_(system.rail()) {
   require_stable(system.pads, system.rail(), dt(), system.model.spec.run.step_safety);
@@ -69,26 +69,20 @@ Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload, cons
 
 Stepper::Stepper(const RollingSystem& system, RestartState restart, const Ranks& ranks) : Stepper(system, ranks) {
   if (!same_sizes(restart, sys_)) throw CaseError("the saved state is that of another mesh", "start the run anew");
-  state_ = std::move(restart.state);
+  restore_state(std::move(restart));
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     state_.bodies[k].f = sys_.bodies[k].layout.field();
     sys_.bodies[k].plastic.index(state_.bodies[k].history);
     bodies_[k].frame.move_to(state_.time);
     if (bodies_[k].turns()) bodies_[k].surface_u = state_.bodies[k].u;
   }
-  balance_ = restart.balance;
-  bodies_[kWheel].mean = restart.mean;
-  axle_rest_z_ = restart.axle_z0;
-  side_force_ = restart.side_force;
-  contact_.restore({std::move(restart.facets), restart.reached_edge});
 }
 
 RestartState Stepper::restart_state() const {
   RestartState out = restart_beside_state();
   out.state = {state_.time, state_.step, {}, state_.axle, state_.groups, state_.sleepers, state_.tractions};
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    for (const StateArray& a : kStateArrays)
-      if (a.restart) out.state.bodies[k].*a.values = state_.bodies[k].*a.values;
+    for (const StateArray& a : kStateArrays) out.state.bodies[k].*a.values = state_.bodies[k].*a.values;
     out.state.bodies[k].history = state_.bodies[k].history;
   }
   return out;
@@ -101,9 +95,7 @@ RestartState Stepper::restart_beside_state() const {
   out.axle_z0 = axle_rest_z_;
   out.side_force = side_force_;
   out.dt = dt();
-  ContactStep::Restart contact = contact_.restart();
-  out.facets = std::move(contact.facets);
-  out.reached_edge = contact.reached_edge;
+  contact_.save(out);
   return out;
 }
 
@@ -111,14 +103,14 @@ void Stepper::start(const PreloadResult& preload) {
   state_.tractions = preload.tractions;
   const bool ring = sys_.on_ring();
   state_.axle = {.z = preload.axle_z,
-                 .vx = ring ? 0.0 : sys_.options.speed,
+                 .vx = ring ? 0.0 : sys_.spec().drive.speed,
                  .vy = sys_.options.lateral_speed,
                  .spin = sys_.start_spin};
   side_force_ = -preload.contact_force.y;
   axle_rest_z_ = preload.axle_z;
   state_.groups.assign(kSuspensionGroups, MassGroup{});
   // of the pattern against the material: m/s, rad/s
-  const double rate[2] = {ring ? sys_.rail_spin : sys_.options.speed, sys_.start_spin};
+  const double rate[2] = {ring ? sys_.rail_spin : sys_.spec().drive.speed, sys_.start_spin};
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     RollingBody& b = bodies_[k];
     BodyState& state = state_.bodies[k];
@@ -136,9 +128,8 @@ void Stepper::start(const PreloadResult& preload) {
 }
 
 double Stepper::damping_rate() const {
-  const ExplicitOptions& o = sys_.options;
-  if (o.run_up <= 0) return 0;
-  return o.run_up_damping * (1 - smooth_rise(position() / o.run_up));
+  const RunSpec& run = sys_.spec().run;
+  return run.run_up > 0 ? run.run_up_damping * (1 - smooth_rise(position() / run.run_up)) : 0;
 }
 
 // Rotation of each body relative to its frame.
@@ -199,7 +190,9 @@ void Stepper::step() {
   contact_.gather(bodies_, state_.bodies, scope);
   contact_.enforce(scope.dt, state_.tractions);
   contact_.apply_tractions(bodies_, state_.bodies, state_.tractions);
-  book_contact(contact_.measure(scope.dt, state_.tractions));
+  const ContactLosses lost = contact_.measure(scope.dt, state_.tractions);
+  balance_.friction += scope.dt * lost.friction;
+  balance_.contact_normal += scope.dt * lost.normal;
   scope.lap(StepPart::contact);
 
   update_waiting_nodes(bodies_, state_.bodies, scope);
@@ -274,19 +267,17 @@ void Stepper::absorb_at_ends() {
   BodyState& rail = state_.bodies[kRail];
   double absorbed = 0;
   for (const EndDashpot& d : sys_.absorbers) {
-    const double v = sys_.pads.none() ? rail.v[d.index] : absorbing_velocity(d);
+    double v = rail.v[d.index];
+    // the mean of those before and after the update: stable at any coefficient, hence on coarse ends too
+    if (!sys_.pads.none()) {
+      const double mobility = dt() * sys_.rail().inverse_mass[d.index], half = 0.5 * d.coefficient * mobility;
+      v = (v - 0.5 * mobility * rail.f[d.index]) / (1 + half);
+    }
     rail.f[d.index] += d.coefficient * v;
     absorbed += d.coefficient * v * v;
   }
   balance_.absorbed += dt() * absorbed;
   for (const EndLoad& l : sys_.end_loads) rail.f[l.index] -= l.force;
-}
-
-// The mean of the velocities before and after the update: stable at any coefficient, hence on coarse ends too.
-double Stepper::absorbing_velocity(const EndDashpot& d) const {
-  const BodyState& rail = state_.bodies[kRail];
-  const double mobility = dt() * sys_.rail().inverse_mass[d.index], half = 0.5 * d.coefficient * mobility;
-  return (rail.v[d.index] - 0.5 * mobility * rail.f[d.index]) / (1 + half);
 }
 
 // Springs and dashpots of the track stand with the suspension's.
@@ -305,16 +296,10 @@ void Stepper::press_interface(const StepScope& scope) {
   balance_.contact_normal += losses.normal;
 }
 
-void Stepper::book_contact(const ContactLosses& losses) {
-  balance_.friction += dt() * losses.friction;
-  balance_.contact_normal += dt() * losses.normal;
-}
-
 // Damping losses of the update, and the mean motion that the next step's damping spares.
 void Stepper::book_update(const StepScope& scope) {
   balance_.damping += scope.dt * (sums_[kWheel].damping + sums_[kRail].damping);
-  if (!scope.sums_wanted()) return;
-  bodies_[kWheel].mean = mean_motion(bodies_[kWheel], sums_[kWheel]);
+  if (scope.sums_wanted()) bodies_[kWheel].mean = mean_motion(bodies_[kWheel], sums_[kWheel]);
 }
 
 void Stepper::book_kinetic_energy(double axle) {

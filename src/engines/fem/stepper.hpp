@@ -73,7 +73,7 @@ class Stepper {
   /// Position of the wheel, m from the start; on a ring the arc that has passed below it.
   double position() const { return sys_.on_ring() ? speed() * state_.time : state_.axle.x; }
   /// V, m/s, of the wheel along the rail.
-  double speed() const { return sys_.on_ring() ? sys_.options.speed : state_.axle.vx; }
+  double speed() const { return sys_.on_ring() ? sys_.spec().drive.speed : state_.axle.vx; }
   /// Rigid slip of wheel against rail over the speed, (V - omega r)/V: negative when driving.
   double creepage() const { return (speed() - state_.axle.spin * sys_.rolling_radius) / speed(); }
   /// Of the axle and of a rail that is a ring, model frame.
@@ -109,7 +109,6 @@ class Stepper {
   std::array<double, 2> reduce_ties(const std::array<double, 2>& drift);
   void book_ring_drive(double tie_moment);
   void absorb_at_ends();
-  double absorbing_velocity(const EndDashpot& d) const;
   void book_track();
   void press_interface(const StepScope& scope);
   void step_on_engine();
@@ -119,7 +118,6 @@ class Stepper {
   RestartState restart_beside_state() const;  // all but the state itself
   RestartState release_state();
   void restore_state(RestartState restart);
-  void book_contact(const ContactLosses& losses);
   void book_update(const StepScope& scope);
   void book_kinetic_energy(double axle);
   void advance_clock();

@@ -9,30 +9,28 @@ TrackStep::TrackStep(const RailPads& pads) : pads_(pads) {
 }
 
 void TrackStep::press(const Field& u, const Field& v, double dt, std::vector<MassGroup>& sleepers, Field& f) {
+  const SleeperTrack& t = pads_.track;
   dt_ = dt;
   elastic_ = kinetic_ = 0;
   of_sleepers_ = {};
   dashpots_.clear();
   for (std::size_t k = 0; k < sleepers.size(); ++k) {
-    spring_ = dashpot_ = 0;
-    for (const NodeShare& n : pads_.nodes[k]) press_node(n, u, v, sleepers[k], f);
-    move(sleepers[k], spring_, dashpot_);
-  }
-}
-
-void TrackStep::press_node(const NodeShare& n, const Field& u, const Field& v, const MassGroup& sleeper, Field& f) {
-  const SleeperTrack& t = pads_.track;
-  for (int i = 0; i < 3; ++i) {
-    const double part = n.share * (i < 2 ? t.pad_shear : 1.0);
-    const std::ptrdiff_t at = n.index + static_cast<std::ptrdiff_t>(i) * n.stride;
-    const double pressed = u[at] - (i < 2 ? 0.0 : sleeper.z), spring = part * t.pad_stiffness * pressed,
-                 dashpot = part * t.pad_damping * (v[at] - (i < 2 ? 0.0 : sleeper.vz));
-    f[at] += spring + dashpot;
-    elastic_ += 0.5 * spring * pressed;
-    dashpots_.push_back({at, dashpot, v[at]});
-    if (i < 2) continue;
-    spring_ += spring;
-    dashpot_ += dashpot;
+    MassGroup& sleeper = sleepers[k];
+    double all_springs = 0, all_dashpots = 0;  // N, of the pad
+    for (const NodeShare& n : pads_.nodes[k])
+      for (int i = 0; i < 3; ++i) {
+        const double part = n.share * (i < 2 ? t.pad_shear : 1.0);
+        const std::ptrdiff_t at = n.index + static_cast<std::ptrdiff_t>(i) * n.stride;
+        const double pressed = u[at] - (i < 2 ? 0.0 : sleeper.z), spring = part * t.pad_stiffness * pressed,
+                     dashpot = part * t.pad_damping * (v[at] - (i < 2 ? 0.0 : sleeper.vz));
+        f[at] += spring + dashpot;
+        elastic_ += 0.5 * spring * pressed;
+        dashpots_.push_back({at, dashpot, v[at]});
+        if (i < 2) continue;
+        all_springs += spring;
+        all_dashpots += dashpot;
+      }
+    move(sleeper, all_springs, all_dashpots);
   }
 }
 

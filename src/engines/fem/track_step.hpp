@@ -29,14 +29,12 @@ class TrackStep {
     std::ptrdiff_t index;
     double force, before;  // N, on the rail's node against its motion; m/s
   };
-  void press_node(const NodeShare& n, const Field& u, const Field& v, const MassGroup& sleeper, Field& f);
   void move(MassGroup& sleeper, double spring, double dashpot);
 
   const RailPads& pads_;
   std::vector<Dashpot> dashpots_;
   double dt_ = 0, elastic_ = 0, kinetic_ = 0;
   TrackLosses of_sleepers_;
-  double spring_ = 0, dashpot_ = 0;  // N, of a pad on its sleeper
 };
 
 }  // namespace railstrata

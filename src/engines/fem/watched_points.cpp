@@ -10,42 +10,37 @@
 namespace railstrata {
 namespace {
 
-class PointsOf {
- public:
-  PointsOf(const SweptBody& rail, double end) : rail_(rail), band_(rail.contact), end_(end) {}
+struct PointsOf {
+  const SweptBody& rail;
+  double end;
+  std::set<std::pair<int, int>> known = {};
+  std::vector<WatchedPoint> out = {};
 
   /// The element of `row` that has x, or the one before it.
   void add(double x, int row, int back = 0) {
-    const Block& block = rail_.blocks[static_cast<std::size_t>(band_.block)];
-    const int element = block.stations.element_at(x) - back, quad = row * band_.columns + band_.columns / 2;
-    if (x < 0 || x > end_ || element < 0 || row < 0 || row >= band_.rows || !known_.emplace(quad, element).second)
-      return;
-    out_.push_back({quad, element, block.stations.centre(element), 0.5 * (band_.depth[row] + band_.depth[row + 1]),
-                    rail_.layer_of(block.material(quad, element))});
+    const ContactBand& band = rail.contact;
+    const Block& block = rail.blocks[static_cast<std::size_t>(band.block)];
+    const int element = block.stations.element_at(x) - back, quad = row * band.columns + band.columns / 2;
+    if (x < 0 || x > end || element < 0 || row < 0 || row >= band.rows || !known.emplace(quad, element).second) return;
+    out.push_back({quad, element, block.stations.centre(element), 0.5 * (band.depth[row] + band.depth[row + 1]),
+                   rail.layer_of(block.material(quad, element))});
   }
   /// The row that has a depth.
   int row_at(double depth) const {
-    const auto below = std::upper_bound(band_.depth.begin(), band_.depth.end(), depth);
-    return static_cast<int>(below - band_.depth.begin()) - 1;
+    const std::vector<double>& rows = rail.contact.depth;
+    return static_cast<int>(std::upper_bound(rows.begin(), rows.end(), depth) - rows.begin()) - 1;
   }
   std::vector<WatchedPoint> points() {
-    std::stable_sort(out_.begin(), out_.end(), [](const WatchedPoint& a, const WatchedPoint& b) { return a.x < b.x; });
-    return std::move(out_);
+    std::stable_sort(out.begin(), out.end(), [](const WatchedPoint& a, const WatchedPoint& b) { return a.x < b.x; });
+    return std::move(out);
   }
-
- private:
-  const SweptBody& rail_;
-  const ContactBand& band_;
-  double end_;
-  std::set<std::pair<int, int>> known_;
-  std::vector<WatchedPoint> out_;
 };
 
 }  // namespace
 
 std::vector<WatchedPoint> watched_points(const CaseSpec& spec, const SweptBody& rail, double end, double semi_axis) {
   constexpr double kRoundOff = 1e-9;
-  PointsOf points(rail, end);
+  PointsOf points{rail, end};
   const std::vector<double> tops = layer_tops(spec.layers);
   for (std::size_t i = 0; i < spec.layers.size(); ++i) {
     const LayerSpec& layer = spec.layers[i];

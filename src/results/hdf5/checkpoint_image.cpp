@@ -124,7 +124,7 @@ void describe(Archive& a, RestartState& m) {
   for (const BodyId id : kBodies) {
     BodyState& body = s.bodies[index_of(id)];
     for (const StateArray& array : kStateArrays)
-      if (array.restart) a.numbers(fmt::format("{}_{}", array.name, body_word(id)).c_str(), body.*array.values);
+      a.numbers(fmt::format("{}_{}", array.name, body_word(id)).c_str(), body.*array.values);
     a.numbers(fmt::format("history_{}", body_word(id)).c_str(), body.history.numbers);
     if (!body.history.numbers.empty())
       a.rows(fmt::format("plastic_places_{}", body_word(id)).c_str(), body.history.places,

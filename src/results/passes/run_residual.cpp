@@ -69,7 +69,7 @@ RunResidual run_residual(const RollingSystem& system, const RollingState& end) {
   RailBefore at_rest;
   at_rest.history = history_of_section(rail, after);
   try {
-    at_rest.u = endless_rail_at_rest(system, at_rest.history);
+    at_rest.u = rail_at_rest(system, at_rest.history, true);
   } catch (const NumericalError& e) {  // the run itself is sound
     out.none = e.what();
     return out;

@@ -64,7 +64,7 @@ CaseSpec case_of_rolls(CaseSpec spec, const std::filesystem::path& folder, const
 RailBefore rail_with(const RollingSystem& system, const PlasticSection& section, bool endless) {
   RailBefore out;
   out.history = history_of_section(system.rail(), section);
-  out.u = endless ? endless_rail_at_rest(system, out.history) : rail_at_rest(system, out.history);
+  out.u = rail_at_rest(system, out.history, endless);
   return out;
 }
 

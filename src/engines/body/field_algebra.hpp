@@ -1,18 +1,9 @@
 #pragma once
-// A vector of the static problem: displacements (or forces) of both bodies and of the axle's height; sums and products
-// of it are in fem/static_share.hpp. Those of single fields below take all entries: constrained ones and padding are
-// zero there.
-#include <array>
-
+// Sums and products of nodal fields, of all entries: constrained ones and padding are zero there.
 #include "core/array.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {
-
-struct StaticVector {
-  std::array<Field, 2> body;  ///< by BodyId
-  double axle = 0;            ///< m or N
-};
 
 /// Fixed order of summation: the same bits for any number of threads.
 inline double dot(const Field& a, const Field& b) {
