@@ -255,7 +255,7 @@ class Drive {
   }
 
   static void blank(TangentialSolution& t, std::size_t cells, const Plane& pressure) {
-    for (Plane* plane : {&t.q_x, &t.q_y, &t.slip_x, &t.slip_y, &t.cell_slip.x, &t.cell_slip.y})
+    for (Plane* plane : {&t.q_x, &t.q_y, &t.slip.x, &t.slip.y, &t.cell_slip.x, &t.cell_slip.y})
       plane->assign(cells, 0.0);
     t.state.assign(cells, ContactState::separated);
     for (std::size_t k = 0; k < cells; ++k)
@@ -320,7 +320,7 @@ class Drive {
     const auto speed = [&](const RollingSolution& s) {
       Plane out(g.size());
       for (std::size_t k = 0; k < out.size(); ++k)
-        out[k] = c.speed * std::hypot(s.tangential.slip_x[k], s.tangential.slip_y[k]);
+        out[k] = c.speed * std::hypot(s.tangential.slip.x[k], s.tangential.slip.y[k]);
       return out;
     };
     Plane slip(g.size(), settings_.first_slip < 0 ? c.speed : 0.0);

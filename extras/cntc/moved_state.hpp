@@ -30,12 +30,10 @@ inline void turn(RollingSolution& s) {
   reverse(s.normal.pressure);
   reverse(s.normal.gap);
   TangentialSolution& t = s.tangential;
-  PlanePair q{std::move(t.q_x), std::move(t.q_y)}, slip{std::move(t.slip_x), std::move(t.slip_y)};
-  for (PlanePair* pair : {&q, &slip, &t.cell_slip}) turn_vectors(*pair);
+  PlanePair q{std::move(t.q_x), std::move(t.q_y)};
+  for (PlanePair* pair : {&q, &t.slip, &t.cell_slip}) turn_vectors(*pair);
   t.q_x = std::move(q.x);
   t.q_y = std::move(q.y);
-  t.slip_x = std::move(slip.x);
-  t.slip_y = std::move(slip.y);
   std::reverse(t.state.begin(), t.state.end());
   for (Plane* plane : {&t.plastic, &t.bound, &t.lost_friction, &t.film_flexibility, &s.temperature}) reverse(*plane);
   for (Plane& flux : s.flux) reverse(flux);
@@ -64,7 +62,7 @@ class Moved {
   RollingSolution of(const RollingSolution& s) const {
     RollingSolution out = s;
     TangentialSolution& t = out.tangential;
-    for (Plane* plane : {&out.normal.pressure, &out.normal.gap, &out.temperature, &t.q_x, &t.q_y, &t.slip_x, &t.slip_y,
+    for (Plane* plane : {&out.normal.pressure, &out.normal.gap, &out.temperature, &t.q_x, &t.q_y, &t.slip.x, &t.slip.y,
                          &t.cell_slip.x, &t.cell_slip.y, &t.plastic, &t.bound, &t.lost_friction, &t.film_flexibility})
       *plane = values(*plane);
     for (Plane& flux : out.flux) flux = values(flux);

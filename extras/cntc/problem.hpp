@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "bem/influence_cache.hpp"
+#include "bem/influence_operator.hpp"
 #include "bem/rolling_contact.hpp"
 #include "cntc/units.hpp"
 #include "halfspace/layered.hpp"

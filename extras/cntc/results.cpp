@@ -41,9 +41,7 @@ PlanePair tangential_displacement(const Solved& s) {
     add_scaled(out.y, 1, s.late[2]);
   }
   if (!s.influence->couples()) return out;
-  PlanePair by_pressure{Plane(g.size()), Plane(g.size())};
-  s.influence->tangential_from_pressure(s.rolling.normal.pressure.data(), by_pressure.x.data(), by_pressure.y.data(),
-                                        g.nx);
+  const PlanePair by_pressure = s.influence->tangential_from_pressure(s.rolling.normal.pressure, g.nx);
   add_scaled(out.x, 1, by_pressure.x);
   add_scaled(out.y, 1, by_pressure.y);
   return out;
@@ -52,12 +50,11 @@ PlanePair tangential_displacement(const Solved& s) {
 Plane normal_displacement(const Solved& s) {
   const std::size_t n = s.on.grid.size();
   const TangentialSolution& t = s.rolling.tangential;
-  Plane out(n), by_traction(n);
+  Plane out(n);
   s.influence->normal(s.rolling.normal.pressure.data(), out.data());
   if (!s.late[0].empty()) add_scaled(out, 1, s.late[0]);
   if (!s.influence->couples()) return out;
-  s.influence->normal_from_traction(t.q_x.data(), t.q_y.data(), by_traction.data());
-  add_scaled(out, 1, by_traction);
+  add_scaled(out, 1, s.influence->normal_from_traction(t.q_x, t.q_y));
   return out;
 }
 
@@ -70,7 +67,7 @@ Plane friction_field(const Solved& s) {
     for (std::size_t k = 0; k < out.size(); ++k) out[k] *= 1 - t.lost_friction[k];
   if (!s.friction.falling.falls() || !t.lost_friction.empty()) return out;
   for (std::size_t k = 0; k < out.size(); ++k)
-    out[k] *= friction_share(s.friction.falling, s.speed * std::hypot(t.slip_x[k], t.slip_y[k])).value;
+    out[k] *= friction_share(s.friction.falling, s.speed * std::hypot(t.slip.x[k], t.slip.y[k])).value;
   return out;
 }
 
@@ -171,7 +168,7 @@ std::vector<int> division(const Problem& p) {
     for (int j = 0; j < g.ny; ++j) {
       const std::size_t k = g.index(i, j);
       const TangentialSolution& t = s.rolling.tangential;
-      const bool slips = t.state[k] == ContactState::slip && (!s.film.yields() || t.slip_x[k] != 0 || t.slip_y[k] != 0);
+      const bool slips = t.state[k] == ContactState::slip && (!s.film.yields() || t.slip.x[k] != 0 || t.slip.y[k] != 0);
       const int in_contact = slips ? (yields(s, k) ? 3 : 2) : 1;
       out[element(g, p.side, i, j)] = s.rolling.normal.pressure[k] > 0 ? in_contact : 0;
     }
@@ -237,9 +234,9 @@ std::vector<double> field(const Problem& p, int number) {
     case kTemperature2:
       return in_order(g, p.side, temperatures(s), 1);
     case kSlipX:
-      return in_order(g, p.side, t.slip_x, slip);
+      return in_order(g, p.side, t.slip.x, slip);
     case kSlipY:
-      return in_order(g, p.side, t.slip_y, p.side * slip);
+      return in_order(g, p.side, t.slip.y, p.side * slip);
     default:
       throw Refused(kOther, fmt::format("field {} is not offered: 1 to 5, 7 to 9, 11, 15, 16, 20 and 21 are", number));
   }

@@ -109,7 +109,7 @@ class Rows {
 
   void blank() {
     TangentialSolution& t = out_.tangential;
-    for (Plane* plane : {&t.q_x, &t.q_y, &t.slip_x, &t.slip_y}) plane->assign(g_.size(), 0.0);
+    for (Plane* plane : {&t.q_x, &t.q_y, &t.slip.x, &t.slip.y}) plane->assign(g_.size(), 0.0);
     t.state.assign(g_.size(), ContactState::separated);
     t.bound = pressure_;
     for (double& value : t.bound) value *= out_.friction;
@@ -142,8 +142,8 @@ class Rows {
       t.state[k] = ContactState::stick;
       if (!(std::hypot(t.q_x[k], t.q_y[k]) > t.bound[k])) continue;
       cut(k);
-      t.slip_x[k] = (u_x - by_x * t.q_x[k]) / g_.dx;
-      t.slip_y[k] = (u_y - by_y * t.q_y[k]) / g_.dx;
+      t.slip.x[k] = (u_x - by_x * t.q_x[k]) / g_.dx;
+      t.slip.y[k] = (u_y - by_y * t.q_y[k]) / g_.dx;
       u_x = by_x * t.q_x[k];
       u_y = by_y * t.q_y[k];
     }
@@ -227,13 +227,13 @@ class Rows {
     const double f_p0 = c_.friction * 1.5 * load_ / (pi * elements_.a * elements_.b);
     t.q_x[k] = f_p0 * along;
     t.q_y[k] = f_p0 * across;
-    t.slip_x[k] = t.slip_y[k] = 0;
+    t.slip.x[k] = t.slip.y[k] = 0;
     t.state[k] = ContactState::stick;
   }
 
   void add_up() {
     TangentialSolution& t = out_.tangential;
-    t.cell_slip = {t.slip_x, t.slip_y};
+    t.cell_slip = t.slip;
     for (int i = 0; i < g_.nx; ++i)
       for (int j = 0; j < g_.ny; ++j) {
         const std::size_t k = g_.index(i, j);
@@ -241,7 +241,7 @@ class Rows {
         t.force_x += area * t.q_x[k];
         t.force_y += area * t.q_y[k];
         t.moment += area * (g_.x(i) * t.q_y[k] - g_.y(j) * t.q_x[k]);
-        t.dissipation += area * (t.q_x[k] * t.slip_x[k] + t.q_y[k] * t.slip_y[k]);
+        t.dissipation += area * (t.q_x[k] * t.slip.x[k] + t.q_y[k] * t.slip.y[k]);
         (t.state[k] == ContactState::slip ? t.slip_area : t.stick_area) += pressure_[k] > 0 ? area : 0;
       }
   }

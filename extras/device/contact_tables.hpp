@@ -85,7 +85,7 @@ struct ContactTables {
   EnforcementTables enforcement;
   SearchLimits search;
   int inner;                ///< columns of the rail that may be chosen
-  int apart;                ///< contact/mortar.hpp: rows_apart()
+  int apart;                ///< independent_distance (contact/mortar.hpp)
   int window, band, patch;  ///< room for: stations of the window, of the band; wheel nodes of a row
   KeptContact kept;
   FoundNodes found;

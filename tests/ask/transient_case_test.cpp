@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "ask/answer.hpp"
-#include "bem/film_capacity.hpp"
 #include "core/faults.hpp"
 #include "reader/case_file.hpp"
 #include "tests/bem/reference_table.hpp"

@@ -64,14 +64,14 @@ void expect_contact(const Patch& p, const RollingContact& c, const RollingSoluti
   EXPECT_NEAR(s.normal.load, kLoad, 1e-5 * kLoad) << what;
   ASSERT_FALSE(s.normal.touches_edge) << what;
   double rigid = 0;
-  for (std::size_t k = 0; k < p.grid.size(); ++k) rigid = std::max(rigid, std::hypot(t.slip_x[k], t.slip_y[k]));
+  for (std::size_t k = 0; k < p.grid.size(); ++k) rigid = std::max(rigid, std::hypot(t.slip.x[k], t.slip.y[k]));
   for (std::size_t k = 0; k < p.grid.size(); ++k) {
     const double g = (c.local_friction.empty() ? c.friction : c.local_friction[k]) * s.normal.pressure[k],
-                 q = std::hypot(t.q_x[k], t.q_y[k]), slip = std::hypot(t.slip_x[k], t.slip_y[k]);
+                 q = std::hypot(t.q_x[k], t.q_y[k]), slip = std::hypot(t.slip.x[k], t.slip.y[k]);
     ASSERT_GE(s.normal.pressure[k], 0) << what;
     ASSERT_LE(q, g * (1 + 1e-9) + 1e-3) << what;
     if (slip > 1e-3 * rigid && g > 0) {
-      ASSERT_GE(t.q_x[k] * t.slip_x[k] + t.q_y[k] * t.slip_y[k], 0.99 * g * slip)
+      ASSERT_GE(t.q_x[k] * t.slip.x[k] + t.q_y[k] * t.slip.y[k], 0.99 * g * slip)
           << what << ": slip along the traction, which is f p";
     }
   }

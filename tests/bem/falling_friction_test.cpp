@@ -155,7 +155,7 @@ TEST(FallingFriction, EveryCellObeysTheLaw) {
         const TangentialSolution& t = s.tangential;
         double largest = 0;
         for (std::size_t k = 0; k < c.grid.size(); ++k) {
-          const double q = std::hypot(t.q_x[k], t.q_y[k]), slip = std::hypot(t.slip_x[k], t.slip_y[k]),
+          const double q = std::hypot(t.q_x[k], t.q_y[k]), slip = std::hypot(t.slip.x[k], t.slip.y[k]),
                        bound = p.friction * s.normal.pressure[k];
           if (t.state[k] == ContactState::stick) {
             EXPECT_LE(q, bound * (1 + 1e-9));
@@ -291,7 +291,7 @@ TEST(FallingFriction, WorkOfAStepIsFrictionAndEnergy) {
     EXPECT_NEAR((t.dissipation * g.dx + energy(t.q_x, t.q_y) - energy(before_x, before_y)) / in, 1, 1e-5);
     for (std::size_t k = 0; k < g.size(); ++k) {
       if (t.state[k] != ContactState::slip) continue;
-      const double share = friction_share(r.law, r.kSpeed * std::hypot(t.slip_x[k], t.slip_y[k])).value;
+      const double share = friction_share(r.law, r.kSpeed * std::hypot(t.slip.x[k], t.slip.y[k])).value;
       EXPECT_NEAR(std::hypot(t.q_x[k], t.q_y[k]) / (share * r.c.kFriction * s.normal.pressure[k]), 1, 1e-5);
       most_fallen = std::min(most_fallen, share);
     }

@@ -98,7 +98,7 @@ TEST(FrictionMemoryRolling, EveryCellObeysTheLaw) {
           lost = 0;
           continue;
         }
-        const double slip = std::hypot(t.slip_x[k], t.slip_y[k]);
+        const double slip = std::hypot(t.slip.x[k], t.slip.y[k]);
         lost = lost_after(law, lost, p.speed * slip, c.grid.dx / p.speed);
         const double q = std::hypot(t.q_x[k], t.q_y[k]), bound = (1 - lost) * p.friction * s.normal.pressure[k];
         if (t.state[k] == ContactState::slip)

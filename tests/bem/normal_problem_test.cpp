@@ -29,15 +29,14 @@ TEST(InfluenceOperator, EqualsDirectSummationForEveryComponent) {
   const InfluenceOperator op(pair, nx, ny, dx, dy);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const std::size_t n = static_cast<std::size_t>(nx) * ny, m = n + ny;
-  Plane p(n), qx(n), qy(n), un(n), tn(n);
-  Plane ux(m), uy(m), nx_(m), ny_(m);
+  const std::size_t n = static_cast<std::size_t>(nx) * ny;
+  Plane p(n), qx(n), qy(n), un(n);
   for (auto* v : {&p, &qx, &qy})
     for (double& e : *v) e = uniform(random);
   op.normal(p.data(), un.data());
-  op.tangential(qx.data(), qy.data(), ux.data(), uy.data(), nx + 1);
-  op.normal_from_traction(qx.data(), qy.data(), tn.data());
-  op.tangential_from_pressure(p.data(), nx_.data(), ny_.data(), nx + 1);
+  const auto [ux, uy] = op.tangential(qx, qy, nx + 1);
+  const Plane tn = op.normal_from_traction(qx, qy);
+  const auto [nx_, ny_] = op.tangential_from_pressure(p, nx + 1);
   for (int i = 0; i <= nx; ++i)
     for (int j = 0; j < ny; ++j) {
       double sn = 0, sx = 0, sy = 0, st = 0, px = 0, py = 0;

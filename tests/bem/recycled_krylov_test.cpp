@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bem/recycled_krylov.hpp"
+#include "bem/gmres.hpp"
 
 namespace railstrata {
 namespace {

@@ -33,11 +33,11 @@ TEST(RollingContact, CoupledSolutionMeetsTheNormalAndTheTangentialConditionsAtOn
   const RollingSolution s = solve_rolling(d.influence, d.grid, c);
   EXPECT_GT(s.outer_iterations, 1);
   const std::size_t n = d.grid.size(), row = static_cast<std::size_t>(d.grid.ny);
-  Plane by_p(n), by_q(n), ux(n + row), uy(n + row), px(n + row), py(n + row);
+  Plane by_p(n);
   d.influence.normal(s.normal.pressure.data(), by_p.data());
-  d.influence.normal_from_traction(s.tangential.q_x.data(), s.tangential.q_y.data(), by_q.data());
-  d.influence.tangential(s.tangential.q_x.data(), s.tangential.q_y.data(), ux.data(), uy.data(), d.grid.nx + 1);
-  d.influence.tangential_from_pressure(s.normal.pressure.data(), px.data(), py.data(), d.grid.nx + 1);
+  const Plane by_q = d.influence.normal_from_traction(s.tangential.q_x, s.tangential.q_y),
+              ux = d.influence.tangential(s.tangential.q_x, s.tangential.q_y, d.grid.nx + 1).x,
+              px = d.influence.tangential_from_pressure(s.normal.pressure, d.grid.nx + 1).x;
   const auto slip = [&](std::size_t k) {  // over the step from the cell ahead
     return s.tangential.creepage_x + (ux[k + row] - ux[k] + px[k + row] - px[k]) / d.grid.dx;
   };

@@ -158,9 +158,8 @@ TEST(Subsurface, LayeredSurfaceStrainsAreTheDerivativesOfTheDisplacements) {
       qy[g.index(i, j)] = 0.3e9 * s * s * s * x;
     }
   const InfluenceOperator op(combined_compliance({}, layered_compliance(body)), g.nx, g.ny, g.dx, g.dy);
-  Plane ux(g.size()), uy(g.size()), vx(g.size()), vy(g.size());
-  op.tangential(qx.data(), qy.data(), ux.data(), uy.data(), g.nx);
-  op.tangential_from_pressure(p.data(), vx.data(), vy.data(), g.nx);
+  auto [ux, uy] = op.tangential(qx, qy, g.nx);
+  const auto [vx, vy] = op.tangential_from_pressure(p, g.nx);
   for (std::size_t k = 0; k < g.size(); ++k) {
     ux[k] += vx[k];
     uy[k] += vy[k];
@@ -297,11 +296,11 @@ TEST(Subsurface, LayeredInteriorObeysEquilibriumAndHookesLawTo1em6) {
 /// Largest difference between the displacement of the surface by waves and by images, over the largest displacement.
 double difference_of_waves_and_images(const StackFixture& f) {
   const InfluenceOperator op(combined_compliance({}, layered_compliance(f.body)), f.g.nx, f.g.ny, f.g.dx, f.g.dy);
-  Plane ux(f.g.size()), uy = ux, vx = ux, vy = ux, uz = ux, vz = ux;
-  op.tangential(f.qx.data(), f.qy.data(), ux.data(), uy.data(), f.g.nx);
-  op.tangential_from_pressure(f.p.data(), vx.data(), vy.data(), f.g.nx);
+  const auto [ux, uy] = op.tangential(f.qx, f.qy, f.g.nx);
+  const auto [vx, vy] = op.tangential_from_pressure(f.p, f.g.nx);
+  Plane uz(f.g.size());
   op.normal(f.p.data(), uz.data());
-  op.normal_from_traction(f.qx.data(), f.qy.data(), vz.data());
+  const Plane vz = op.normal_from_traction(f.qx, f.qy);
   const DisplacementPlane u = Subsurface(f.body, f.g, f.p, f.qx, f.qy).displacement(0);
   double worst = 0;
   for (std::size_t k = 0; k < f.g.size(); ++k)

@@ -167,7 +167,7 @@ TEST(SteadyRolling, ConvergesForEveryTractionAndAxisRatio01To10AndObeysCoulomb) 
           for (std::size_t k = 0; k < g.size(); ++k) {
             const double q = std::hypot(s.q_x[k], s.q_y[k]);
             ASSERT_LE(q, p.traction_bound[k] * (1 + 1e-9) + 1e-3);
-            ASSERT_GE(s.q_x[k] * s.slip_x[k] + s.q_y[k] * s.slip_y[k], -1e-9 * p.traction_bound[k]);
+            ASSERT_GE(s.q_x[k] * s.slip.x[k] + s.q_y[k] * s.slip.y[k], -1e-9 * p.traction_bound[k]);
           }
         }
     for (double creep : {1e-6, 1e-3, 3e-2, 1.0}) {

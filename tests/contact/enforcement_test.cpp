@@ -27,8 +27,7 @@ struct Impact {
     const AxlePose pose{0, 0, lift, 0};
     contact.search(surfaces.rail_field(), surfaces.rolled(pose), pose, 20e-3, 30e-6);
     rows = contact.rows(surfaces.rail_field(), surfaces.rolled(pose), pose);
-    WheelNumbering numbering;
-    numbering.number(rows, surfaces.wheel, before);
+    number_wheel_nodes(rows, surfaces.wheel, before);
     for (std::size_t r = 0; r < rows.rows.size(); ++r) {
       before.rail.velocity.push_back({0.3 * scatter(3 * r), 0.3 * scatter(3 * r + 1), scatter(3 * r + 2)});
       before.rail.inverse_mass.push_back(2e5 * (1 + 0.3 * scatter(r)));

@@ -16,11 +16,10 @@ struct Surfaces {
   /// `ratio`: the wheel's facets over the rail's.
   explicit Surfaces(double ratio = 1.0, double radius_ = 0.43)
       : wheel_h(ratio * h), wheel_width(ratio * width), radius(radius_) {
-    rail.kind = SweepKind::extrude;
     for (int j = -12; j <= 12; ++j) rail.stations.at.push_back(j * h);
     flat(rail, 11, width, 0.0, {0, 1});
-    wheel.kind = SweepKind::revolve;
     wheel.origin = {0, 0, radius};
+    wheel.radius = radius;
     // a ring: fine facets below the axle, eight stations round the rest
     const int fine = static_cast<int>(std::ceil(40e-3 / wheel_h));
     for (int j = -fine; j <= fine; ++j) wheel.stations.at.push_back((j + 0.31) * wheel_h / radius);
@@ -41,7 +40,6 @@ struct Surfaces {
 
   /// Makes a ring of the rail: a cylinder of this radius below the contact.
   void bend_rail(double rail_radius) {
-    rail.kind = SweepKind::revolve;
     rail.origin = {0, 0, -rail_radius};
     rail.contact_at = std::numbers::pi;
     rail.radius = rail_radius;

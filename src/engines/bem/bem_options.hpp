@@ -2,8 +2,6 @@
 // How the half-space engine solves a case.
 #include <functional>
 
-#include "bem/cell_range.hpp"
-#include "bem/influence_cache.hpp"
 #include "bem/rolling_contact.hpp"
 
 namespace railstrata {

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <numbers>
 
 #include "core/faults.hpp"
-#include "geometry/turned_wheel.hpp"
 #include "model/drive_at_contact.hpp"
 #include "model/sliding_waves.hpp"
 #include "model/thermal_body.hpp"
@@ -39,9 +38,8 @@ Touches touches(const PatchGrid& g, const Plane& pressure) {
 
 /// Takes the surface outside of the room away.
 void keep_to_room(const PatchGrid& g, const PatchRoom& room, Plane& gap) {
-  for (int j = 0; j < g.ny; ++j)
-    if (g.y(j) < room.low || g.y(j) > room.high)
-      for (int i = 0; i < g.nx; ++i) gap[g.index(i, j)] = ProfileGap::kNoSurface;
+  for (std::size_t k = 0; k < g.size(); ++k)
+    if (g.y_of(k) < room.low || g.y_of(k) > room.high) gap[k] = ProfileGap::kNoSurface;
 }
 
 std::string describe(const NormalTarget& target) {
@@ -85,9 +83,61 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
   }
 }
 
-/// A little larger than the ellipse of Hertz under the weight, or at the approach; no smaller than what it has to hold.
-PatchGrid grid_for(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                   const NormalTarget& target, const PatchRoom& room) {
+/// Rigid slip of the wheel's surface beyond creepage: each point moves with its local rolling radius, of a rail that
+/// turns too with its own. The part linear in y, -spin y, is left to the spin, which also brings the lateral slip.
+Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidContact& contact, double spin) {
+  Plane slip(g.size());
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    const std::size_t under_axle = g.index(g.nx / 2, static_cast<int>(k) % g.ny);
+    const double radius = gap.radius[under_axle];
+    slip[k] = (contact.rolling_radius - radius) / contact.rolling_radius + spin * g.y_of(k);
+    if (!gap.rail_radius.empty()) slip[k] += gap.rail_radius[under_axle] * contact.rail_turn - 1;
+  }
+  return slip;
+}
+
+CasePatch bodies_of(const CaseSpec& spec) {
+  CasePatch patch;
+  patch.wheel = layered_body(spec, BodyId::wheel);
+  patch.rail = layered_body(spec, BodyId::rail);
+  patch.contact.third_body = third_body(spec);
+  patch.rail_heights = {spec.irregularities, BodyId::rail, spec.geometry.wheel_radius};
+  patch.wheel_heights = {spec.irregularities, BodyId::wheel, spec.geometry.wheel_radius};
+  return patch;
+}
+
+/// Coefficients over y of the rail's own profile.
+Plane friction_across(const CaseSpec& spec, const Placement& placement, const CasePatch& patch) {
+  Plane out(patch.grid.size());
+  const RigidContact& c = placement.contact;
+  const Vec2 tangent{std::cos(c.angle), std::sin(c.angle)}, normal{-tangent.z, tangent.y};
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const double t = patch.grid.y_of(k);
+    const Vec2 on_rail = model_to_rail(placement.track, c.point + t * tangent + patch.profile.rail_height[k] * normal);
+    out[k] = over_table(spec.friction.lateral_table, on_rail.y);
+  }
+  return out;
+}
+
+void fill_heat(const CaseSpec& spec, CasePatch& patch, const HertzContact& estimate) {
+  if (spec.friction.temperature_table.empty() && spec.third_body.temperature_table.empty()) return;
+  patch.contact.heat = ContactHeat{thermal_body(spec, BodyId::rail),       thermal_body(spec, BodyId::wheel),
+                                   spec.friction.rail_temperature.value(), spec.friction.wheel_temperature.value(),
+                                   spec.friction.temperature_table,        spec.third_body.temperature_table};
+  const double diffusivity =
+                   std::max(patch.contact.heat->rail.base.diffusivity(), patch.contact.heat->wheel.base.diffusivity()),
+               peclet = spec.drive.speed * estimate.a / (2 * diffusivity);
+  if (peclet < kLeastPeclet)
+    patch.notes.push_back(
+        fmt::format("the contact moves so slowly that heat spreads sideways (Péclet number {:.2g}; at least {:g} is "
+                    "needed): temperatures, and friction that depends on them, are too high",
+                    peclet, kLeastPeclet));
+}
+
+}  // namespace
+
+PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                     const NormalTarget& target, const PatchRoom& room) {
   const HertzContact estimate = hertz_estimate(spec, placement.contact);
   const double scale = target.approach ? std::sqrt(*target.approach / estimate.approach) : 1.0,
                held = std::max(-room.held_low, room.held_high);
@@ -98,26 +148,6 @@ PatchGrid grid_for(const CaseSpec& spec, const Placement& placement, const BemOp
   const int half_x = cells(1.15 * scale * estimate.a);
   if (spec.geometry.in_line()) return line_grid(half_x, options.cell, *spec.geometry.line_length);
   return centred_grid(half_x, cells(std::max(1.15 * scale * estimate.b, held)), options.cell, options.cell);
-}
-
-/// Rigid slip of the wheel's surface beyond creepage: each point moves with its local rolling radius, of a rail that
-/// turns too with its own. The part linear in y, -spin y, is left to the spin, which also brings the lateral slip.
-Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidContact& contact, double spin) {
-  Plane slip(g.size());
-  for (int i = 0; i < g.nx; ++i)
-    for (int j = 0; j < g.ny; ++j) {
-      const std::size_t under_axle = g.index(g.nx / 2, j);
-      const double radius = gap.radius[under_axle];
-      slip[g.index(i, j)] = (contact.rolling_radius - radius) / contact.rolling_radius + spin * g.y(j);
-      if (!gap.rail_radius.empty()) slip[g.index(i, j)] += gap.rail_radius[under_axle] * contact.rail_turn - 1;
-    }
-  return slip;
-}
-
-}  // namespace
-
-PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  return grid_for(spec, placement, options, {}, {});
 }
 
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
@@ -175,59 +205,23 @@ double normal_load(double weight, double lateral, const RigidContact& contact) {
   return (weight + lateral * std::sin(contact.angle)) / std::cos(contact.angle);
 }
 
-namespace {
-
-CasePatch bodies_of(const CaseSpec& spec) {
-  CasePatch patch;
-  patch.wheel = layered_body(spec, BodyId::wheel);
-  patch.rail = layered_body(spec, BodyId::rail);
-  patch.contact.third_body = third_body(spec);
-  patch.rail_heights = {spec.irregularities, BodyId::rail, spec.geometry.wheel_radius};
-  patch.wheel_heights = {spec.irregularities, BodyId::wheel, spec.geometry.wheel_radius};
-  return patch;
+void refuse_wedged(const char* borne, const RigidContact& contact) {
+  throw CaseError(
+      fmt::format(
+          "no normal force balances the {} at a contact angle of {:.1f} degrees: the wheel is wedged by friction",
+          borne, std::abs(contact.angle) * 180 / std::numbers::pi),
+      "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
 }
-
-/// Coefficients over y of the rail's own profile.
-Plane friction_across(const CaseSpec& spec, const Placement& placement, const CasePatch& patch) {
-  Plane out(patch.grid.size());
-  const RigidContact& c = placement.contact;
-  const Vec2 tangent{std::cos(c.angle), std::sin(c.angle)}, normal{-tangent.z, tangent.y};
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    const double t = patch.grid.y(static_cast<int>(k) % patch.grid.ny);
-    const Vec2 on_rail = model_to_rail(placement.track, c.point + t * tangent + patch.profile.rail_height[k] * normal);
-    out[k] = over_table(spec.friction.lateral_table, on_rail.y);
-  }
-  return out;
-}
-
-void fill_heat(const CaseSpec& spec, CasePatch& patch, const HertzContact& estimate) {
-  if (spec.friction.temperature_table.empty() && spec.third_body.temperature_table.empty()) return;
-  patch.contact.heat = ContactHeat{thermal_body(spec, BodyId::rail),       thermal_body(spec, BodyId::wheel),
-                                   spec.friction.rail_temperature.value(), spec.friction.wheel_temperature.value(),
-                                   spec.friction.temperature_table,        spec.third_body.temperature_table};
-  const double diffusivity =
-                   std::max(patch.contact.heat->rail.base.diffusivity(), patch.contact.heat->wheel.base.diffusivity()),
-               peclet = spec.drive.speed * estimate.a / (2 * diffusivity);
-  if (peclet < kLeastPeclet)
-    patch.notes.push_back(
-        fmt::format("the contact moves so slowly that heat spreads sideways (Péclet number {:.2g}; at least {:g} is "
-                    "needed): temperatures, and friction that depends on them, are too high",
-                    peclet, kLeastPeclet));
-}
-
-}  // namespace
 
 Plane gap_after(const CasePatch& patch, double distance) {
   Plane gap = patch.profile.gap;
   if (patch.rail_heights.none() && patch.wheel_heights.none()) return gap;
   const PatchGrid& g = patch.grid;
-  for (int i = 0; i < g.nx; ++i)
-    for (int j = 0; j < g.ny; ++j) {
-      const std::size_t k = g.index(i, j);
-      if (gap[k] == ProfileGap::kNoSurface) continue;
-      gap[k] -=
-          patch.rail_heights.at(distance + g.x(i), g.y(j)).z + patch.wheel_heights.at(distance + g.x(i), g.y(j)).z;
-    }
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    if (gap[k] == ProfileGap::kNoSurface) continue;
+    const double x = distance + g.x_of(k), y = g.y_of(k);
+    gap[k] -= patch.rail_heights.at(x, y).z + patch.wheel_heights.at(x, y).z;
+  }
   return gap;
 }
 
@@ -257,7 +251,7 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                           const NormalTarget& target, const PatchRoom& room) {
   CasePatch patch = bodies_of(spec);
-  patch.grid = grid_for(spec, placement, options, target, room);
+  patch.grid = first_grid(spec, placement, options, target, room);
   InfluenceCache own;
   fit_grid(placement, target, room, options, options.cache ? *options.cache : own, patch);
   set_problem(spec, placement, target, patch);

@@ -37,8 +37,10 @@ struct CasePatch {
 /// the heights of both bodies, cell by cell.
 Plane gap_after(const CasePatch& patch, double distance);
 
-/// The potential contact area to begin with: a little larger than the ellipse of Hertz.
-PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options);
+/// The potential contact area to begin with: a little larger than the ellipse of Hertz under the weight, or at the
+/// target's approach; no smaller than what it has to hold.
+PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                     const NormalTarget& target = {}, const PatchRoom& room = {});
 
 /// Layers of one body from the case, from the surface down; a graded one cut into uniform ones.
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
@@ -59,6 +61,8 @@ void carry_creepages(double turn, const RigidContact& first, const RigidContact&
 /// The normal force [N] that balances the weight G together with a lateral force T_y on the rail, in the contact plane
 /// at the angle delta: N cos(delta) - T_y sin(delta) = G.
 double normal_load(double weight, double lateral, const RigidContact& contact);
+/// Throws CaseError: there is no such force for what is `borne`, the "weight" or the "load".
+[[noreturn]] void refuse_wedged(const char* borne, const RigidContact& contact);
 
 /// Places the grid and grows it until the frictionless patch under the normal load or approach, with a ring to spare,
 /// lies inside. Throws CaseError as solve_bem.

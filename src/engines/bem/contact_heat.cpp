@@ -49,13 +49,13 @@ Plane friction_flux(const TangentialSolution& s, double speed) {
   return flux;
 }
 
-Plane contact_temperature(const ContactHeat& heat, const PatchGrid& grid, const FluxOfCells& flux,
+Plane contact_temperature(const ContactHeat& heat, const PatchGrid& grid, const Plane& flux, const Plane& made_at,
                           const std::vector<Plane>& before, bool steady, double step, double speed) {
   const auto columns = static_cast<std::size_t>(grid.ny);
   const std::size_t steps = steady ? static_cast<std::size_t>(grid.nx) : before.size() + 1;
   const std::vector<double> response = pulse_response(heat, steps, step, speed);
   const double cold = heat.before_sliding();
-  Plane out(grid.size()), now = flux.value;
+  Plane out(grid.size()), now = flux;
   for (std::size_t k = grid.size(); k-- > 0;) {  // from the leading edge on
     double rise = 0;
     for (std::size_t lag = 1; lag < steps; ++lag) {
@@ -63,10 +63,10 @@ Plane contact_temperature(const ContactHeat& heat, const PatchGrid& grid, const 
       if (steady && ahead >= now.size()) break;
       rise += response[lag] * (steady ? now[ahead] : before[lag - 1][k]);
     }
-    const double made_at = over_table(heat.friction, flux.temperature[k]);
-    const double own = made_at > 0 ? response[0] * now[k] / made_at : 0.0;
+    const double factor = over_table(heat.friction, made_at[k]);
+    const double own = factor > 0 ? response[0] * now[k] / factor : 0.0;
     out[k] = own_temperature(heat.friction, cold + rise, own);
-    if (made_at > 0) now[k] *= over_table(heat.friction, out[k]) / made_at;
+    if (factor > 0) now[k] *= over_table(heat.friction, out[k]) / factor;
   }
   return out;
 }

@@ -26,16 +26,10 @@ struct ContactHeat {
 /// Friction power per area in each cell [W/m²], at least 0.
 Plane friction_flux(const TangentialSolution& s, double speed);
 
-/// Flux in each cell under friction of a temperature, which is not yet that of the flux.
-struct FluxOfCells {
-  const Plane& value;        ///< W/m²
-  const Plane& temperature;  ///< K
-};
-
 /// T of each cell, of the middle of its step of `step` [m], with the flux that friction of this T makes at the same
-/// slip. `before`: flux of the same particles one step earlier, two steps, …; steady rolling has none, its rows are the
-/// particles' way.
-Plane contact_temperature(const ContactHeat& heat, const PatchGrid& grid, const FluxOfCells& flux,
+/// slip. flux: W/m², under friction of the temperature `made_at` [K], which is not yet that of the flux. `before`: flux
+/// of the same particles one step earlier, two steps, …; steady rolling has none, its rows are the particles' way.
+Plane contact_temperature(const ContactHeat& heat, const PatchGrid& grid, const Plane& flux, const Plane& made_at,
                           const std::vector<Plane>& before, bool steady, double step, double speed);
 
 }  // namespace railstrata

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/faults.hpp"
 
@@ -26,14 +27,12 @@ std::vector<ContactPlace> places_of(const Placement& p, double descent) {
 }
 
 void put_in_order(std::vector<ContactPlace>& places) {
-  std::vector<std::size_t> numbers;
-  for (const ContactPlace& p : places) numbers.push_back(p.patch);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  for (ContactPlace& p : places)
-    p.patch = static_cast<std::size_t>(std::lower_bound(numbers.begin(), numbers.end(), p.patch) - numbers.begin());
-  std::sort(places.begin(), places.end(),
-            [](const ContactPlace& a, const ContactPlace& b) { return a.contact.rail_s < b.contact.rail_s; });
+  std::map<std::size_t, std::size_t> number;
+  for (const ContactPlace& p : places) number[p.patch];
+  std::size_t next = 0;
+  for (auto& [old, now] : number) now = next++;
+  for (ContactPlace& p : places) p.patch = number[p.patch];
+  std::ranges::sort(places, {}, [](const ContactPlace& p) { return p.contact.rail_s; });
 }
 
 std::vector<RigidContact> contacts_of(const std::vector<ContactPlace>& places, std::size_t patch) {

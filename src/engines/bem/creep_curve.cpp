@@ -11,15 +11,6 @@
 #include "rules/support.hpp"
 
 namespace railstrata {
-namespace {
-
-void vary(VariedCreepage varied, double creepage, RollingContact& contact) {
-  if (varied == VariedCreepage::longitudinal) contact.x = {creepage, {}};
-  if (varied == VariedCreepage::lateral) contact.y = {creepage, {}};
-  if (varied == VariedCreepage::spin) contact.spin = creepage;
-}
-
-}  // namespace
 
 std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, VariedCreepage varied,
                                          const std::vector<double>& creepages, const BemOptions& options) {
@@ -40,7 +31,9 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
                     "load until it touches at one place; `railstrata bem` solves several patches together");
   std::vector<CreepCurvePoint> curve;
   for (double creepage : creepages) {
-    vary(varied, creepage, patch.contact);
+    if (varied == VariedCreepage::longitudinal) patch.contact.x = {creepage, {}};
+    if (varied == VariedCreepage::lateral) patch.contact.y = {creepage, {}};
+    if (varied == VariedCreepage::spin) patch.contact.spin = creepage;
     const RollingSolution s = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling);
     const TangentialSolution& t = s.tangential;
     const Creepage c{t.creepage_x, t.creepage_y, patch.contact.spin};

@@ -15,18 +15,16 @@ void fill_rigid_slip(const PatchGrid& grid, const TangentialProblem& problem, do
   if (rolls && !whole_cells && turns) out.to_own_place.resize(grid.size());
   if (rolls && whole_cells && turns) out.to_middle_of_step.resize(static_cast<std::size_t>(grid.ny));
   const std::size_t n = grid.size();
-  for (int i = 0; i < grid.nx; ++i)
-    for (int j = 0; j < grid.ny; ++j) {
-      const std::size_t k = grid.index(i, j);
-      const double local =
-          problem.local_spin.empty() ? problem.spin : problem.spin + problem.local_spin[static_cast<std::size_t>(j)];
-      out.rigid[k] = -problem.spin * grid.y(j) + (problem.extra_slip.x.empty() ? 0.0 : problem.extra_slip.x[k]);
-      out.rigid[n + k] = local * (grid.x(i) + ahead) + (problem.extra_slip.y.empty() ? 0.0 : problem.extra_slip.y[k]);
-      if (!out.to_own_place.empty()) out.to_own_place[k] = -local * step / 3;
-      if (!out.to_middle_of_step.empty()) out.to_middle_of_step[static_cast<std::size_t>(j)] = local * step / 3;
-      if (!problem.before.x.empty()) out.history[k] = problem.before.x[k] / step;
-      if (!problem.before.y.empty()) out.history[n + k] = problem.before.y[k] / step;
-    }
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t j = k % static_cast<std::size_t>(grid.ny);
+    const double local = problem.local_spin.empty() ? problem.spin : problem.spin + problem.local_spin[j];
+    out.rigid[k] = -problem.spin * grid.y_of(k) + (problem.extra_slip.x.empty() ? 0.0 : problem.extra_slip.x[k]);
+    out.rigid[n + k] = local * (grid.x_of(k) + ahead) + (problem.extra_slip.y.empty() ? 0.0 : problem.extra_slip.y[k]);
+    if (!out.to_own_place.empty()) out.to_own_place[k] = -local * step / 3;
+    if (!out.to_middle_of_step.empty()) out.to_middle_of_step[j] = local * step / 3;
+    if (!problem.before.x.empty()) out.history[k] = problem.before.x[k] / step;
+    if (!problem.before.y.empty()) out.history[n + k] = problem.before.y[k] / step;
+  }
 }
 
 /// Where the first cells of the rows are, and their parts of the slip.

@@ -11,11 +11,6 @@
 
 namespace railstrata {
 
-struct GmresResult {
-  int iterations = 0;
-  double residual = 0;  ///< 2-norm left
-};
-
 /// Vectors that later solutions of the same size use again.
 struct GmresSpace {
   std::vector<Plane> basis;
@@ -33,24 +28,18 @@ struct GmresSpace {
 inline double orthogonalize(const std::vector<Plane>& basis, std::size_t count, Plane& w, std::vector<double>& parts) {
   const std::size_t n = w.size();
   std::vector<double> dots(pieces_of(n) * count), squares(pieces_of(n));
-  for_pieces(
-      n,
-      [&](std::size_t k, std::size_t begin, std::size_t end) {
-        for (std::size_t i = 0; i < count; ++i)
-          dots[k * count + i] = sum_of(begin, end, [&](std::size_t j) { return basis[i][j] * w[j]; });
-      },
-      count);
+  for_pieces(n, count, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    for (std::size_t i = 0; i < count; ++i)
+      dots[k * count + i] = sum_of(begin, end, [&](std::size_t j) { return basis[i][j] * w[j]; });
+  });
   std::vector<double> h(count, 0.0);
   for (std::size_t k = 0; k < pieces_of(n); ++k)
     for (std::size_t i = 0; i < count; ++i) h[i] += dots[k * count + i];
-  for_pieces(
-      n,
-      [&](std::size_t k, std::size_t begin, std::size_t end) {
-        for (std::size_t i = 0; i < count; ++i)
-          for (std::size_t j = begin; j < end; ++j) w[j] -= h[i] * basis[i][j];
-        squares[k] = sum_of(begin, end, [&](std::size_t j) { return w[j] * w[j]; });
-      },
-      count);
+  for_pieces(n, count, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = begin; j < end; ++j) w[j] -= h[i] * basis[i][j];
+    squares[k] = sum_of(begin, end, [&](std::size_t j) { return w[j] * w[j]; });
+  });
   for (std::size_t i = 0; i < count; ++i) parts[i] += h[i];
   double left = 0;
   for (double s : squares) left += s;
@@ -115,19 +104,11 @@ class HessenbergLeastSquares {
 
 /// y = sum of c_i basis_i
 inline void combine(const std::vector<Plane>& basis, const std::vector<double>& c, Plane& y) {
-  for_pieces(
-      y.size(),
-      [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t j = begin; j < end; ++j) y[j] = 0;
-        for (std::size_t i = 0; i < c.size(); ++i)
-          for (std::size_t j = begin; j < end; ++j) y[j] += c[i] * basis[i][j];
-      },
-      c.size());
-}
-
-/// The direction of the residual, of unit length, after one more column: it lies along Q^T e, Q the rotations so far.
-inline void turn_residual(const Rotation<double>& rotation, const Plane& next, Plane& direction) {
-  for_cells(next.size(), [&](std::size_t i) { direction[i] = rotation.c * next[i] - rotation.s * direction[i]; });
+  for_pieces(y.size(), c.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) y[j] = 0;
+    for (std::size_t i = 0; i < c.size(); ++i)
+      for (std::size_t j = begin; j < end; ++j) y[j] += c[i] * basis[i][j];
+  });
 }
 
 inline double largest_of(const Plane& values) {
@@ -141,8 +122,9 @@ inline double largest_of(const Plane& values) {
 /// preconditioner: A M^-1 y = b, x = M^-1 y, so that the residual is that of x itself; the basis spans y, and one more
 /// application of M^-1 per cycle gives x.
 template <class Apply, class Precondition>
-GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative,
-                  int max_iterations, GmresSpace& space, double close = 0, int restart = 60) {
+void gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative, int max_iterations,
+           GmresSpace& space, double close) {
+  constexpr std::size_t kRestart = 60;  // columns
   const std::size_t n = b.size();
   Plane &r = space.r, &z = space.z, &w = space.w, &y = space.y;
   x.assign(n, 0.0);
@@ -151,35 +133,88 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
   y.resize(n);
   r = b;
   const double norm_b = std::sqrt(dot(b, b));
-  GmresResult result{0, norm_b};
-  if (norm_b == 0) return result;
-  while (result.iterations < max_iterations && result.residual > relative * norm_b) {
-    HessenbergLeastSquares cycle(result.residual);
+  int iterations = 0;
+  double residual = norm_b;
+  while (iterations < max_iterations && residual > relative * norm_b) {
+    HessenbergLeastSquares cycle(residual);
     Plane& first = space.vector(0, n);
-    for_cells(n, [&](std::size_t i) { first[i] = r[i] / result.residual; });
+    for_cells(n, [&](std::size_t i) { first[i] = r[i] / residual; });
     if (close > 0) space.left = first;
     bool all_close = false;
-    while (static_cast<int>(cycle.columns()) < restart && result.iterations < max_iterations &&
-           cycle.residual() > relative * norm_b && !all_close) {
+    while (cycle.columns() < kRestart && iterations < max_iterations && cycle.residual() > relative * norm_b &&
+           !all_close) {
       precondition(space.basis[cycle.columns()], z);
       apply(z, w);
-      ++result.iterations;
+      ++iterations;
       cycle.add(extend_basis(space, cycle.columns()));
       if (!(close > 0)) continue;
-      turn_residual(cycle.last_rotation(), space.basis[cycle.columns()], space.left);
+      // the residual's direction, of unit length, after one more column: along Q^T e, Q the rotations so far
+      const Rotation<double>& turned = cycle.last_rotation();
+      const Plane& next = space.basis[cycle.columns()];
+      for_cells(n, [&](std::size_t i) { space.left[i] = turned.c * next[i] - turned.s * space.left[i]; });
       all_close = cycle.residual() * largest_of(space.left) <= close;
     }
     combine(space.basis, cycle.solution(), y);
     precondition(y, z);
     add_scaled(x, 1, z);
-    result.residual = cycle.residual();
-    if (all_close || result.residual <= relative * norm_b) break;
+    residual = cycle.residual();
+    if (all_close || residual <= relative * norm_b) break;
     // the residual by the recursion drifts from the true one: a restart begins with the latter
     apply(x, w);
     for (std::size_t j = 0; j < n; ++j) r[j] = b[j] - w[j];
-    result.residual = std::sqrt(dot(r, r));
+    residual = std::sqrt(dot(r, r));
   }
-  return result;
 }
+
+/// Solutions of A x = b for several right sides b, one after the other, in one Krylov space: directions that one right
+/// side has searched serve all after it. Generalised conjugate residuals, which reach what GMRES reaches for one right
+/// side [SaadSchultz1986], with the images of all directions kept.
+///
+/// Keeps the directions z_k and the orthonormal w_i of A z_k = sum over i <= k of R_ik w_i. Of one operator.
+class RecycledKrylov {
+ public:
+  /// Until |b - A x| <= relative |b|, or without an end: as far as the directions get. apply(in, out) is A,
+  /// precondition(in, out) an approximate inverse.
+  template <class Apply, class Precondition>
+  void solve(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative) {
+    constexpr std::size_t kMost = 400;  // directions
+    left_ = b;
+    const double goal = relative * std::sqrt(dot(b, b));
+    std::vector<double> parts(columns_.size(), 0.0);
+    double square = columns_.empty() ? dot(left_, left_) : orthogonalize(images_.basis, columns_.size(), left_, parts);
+    while (std::sqrt(square) > goal && columns_.size() < kMost) {
+      const std::size_t k = columns_.size();
+      directions_.emplace_back(b.size());
+      precondition(left_, directions_[k]);
+      images_.w.resize(b.size());
+      apply(directions_[k], images_.w);
+      columns_.push_back(k == 0 ? first_column() : extend_basis(images_, k - 1));
+      parts.push_back(dot(images_.basis[k], left_));
+      add_scaled(left_, -parts[k], images_.basis[k]);
+      square = dot(left_, left_);
+    }
+    x.assign(b.size(), 0.0);
+    for (std::size_t k = parts.size(); k-- > 0;) {
+      const double share = parts[k] / columns_[k][k];
+      for (std::size_t i = 0; i < k; ++i) parts[i] -= share * columns_[k][i];
+      add_scaled(x, share, directions_[k]);
+    }
+  }
+
+  std::size_t directions() const { return columns_.size(); }
+
+ private:
+  std::vector<double> first_column() {
+    const double length = std::sqrt(dot(images_.w, images_.w));
+    Plane& first = images_.vector(0, images_.w.size());
+    for_cells(first.size(), [&](std::size_t i) { first[i] = images_.w[i] / length; });
+    return {length};
+  }
+
+  std::vector<Plane> directions_;
+  std::vector<std::vector<double>> columns_;  // of R
+  GmresSpace images_;
+  Plane left_;
+};
 
 }  // namespace railstrata

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <mutex>
+#include <utility>
 
 #include "core/stop_request.hpp"
 #include "halfspace/line_contact.hpp"
@@ -36,21 +36,51 @@ std::vector<RectangleInfluence> influence_table(const SurfaceCompliance& pair, c
               : rectangle_influence_table(pair, nx, ny, dx, dy);
 }
 
+bool same(const LayeredHalfSpace& a, const LayeredHalfSpace& b) {
+  return a.substrate == b.substrate &&
+         std::ranges::equal(a.layers, b.layers, [](const HalfSpaceLayer& one, const HalfSpaceLayer& other) {
+           return one.thickness == other.thickness && one.material == other.material;
+         });
+}
+
+/// Wherever they lie.
+bool same_cells(const PatchGrid& a, const PatchGrid& b) {
+  return a.nx == b.nx && a.ny == b.ny && a.dx == b.dx && a.dy == b.dy && a.line == b.line;
+}
+
+struct ScalarProduct {
+  const double* s;
+  void operator()(std::size_t first, int count, const PlaneFft::Spectra& z) const {
+    for (int k = 0; k < count; ++k) z[0][k] *= s[first + static_cast<std::size_t>(k)];
+  }
+};
+
+struct SymmetricProduct {
+  const double *xx, *xy, *yy;
+  void operator()(std::size_t first, int count, const PlaneFft::Spectra& z) const {
+    Complex *a = z[0], *b = z[1];
+    for (int k = 0; k < count; ++k) {
+      const std::size_t i = first + static_cast<std::size_t>(k);
+      const Complex u = a[k], v = b[k];
+      a[k] = xx[i] * u + xy[i] * v;
+      b[k] = xy[i] * u + yy[i] * v;
+    }
+  }
+};
+
+// Spectra of tables that are odd in x or y are imaginary; their imaginary parts are kept (nx_hat_, ny_hat_).
+Complex times_i(Complex z) { return {-z.imag(), z.real()}; }
+
 }  // namespace
 
 InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film,
                                      bool line)
-    : fft_(nx, ny),
-      dx_(dx),
-      dy_(dy),
-      film_(film),
-      table_(influence_table(pair, fft_, dx, dy, line)),
-      parts_(std::make_shared<Parts>()) {
+    : fft_(nx, ny), film_(film), table_(influence_table(pair, fft_, dx, dy, line)) {
   make_spectra(table_, couples_at_all(pair));
 }
 
 InfluenceOperator::InfluenceOperator(const InfluenceOperator& whole, int nx, int ny)
-    : fft_(nx, ny), dx_(whole.dx_), dy_(whole.dy_), film_(whole.film_), parts_(std::make_shared<Parts>()) {
+    : fft_(nx, ny), film_(whole.film_) {
   const std::size_t columns = static_cast<std::size_t>(fft_.my() / 2 + 1),
                     columns_of_whole = static_cast<std::size_t>(whole.fft_.my() / 2 + 1);
   for (int i = 0; i <= fft_.mx() / 2; ++i) {
@@ -60,19 +90,14 @@ InfluenceOperator::InfluenceOperator(const InfluenceOperator& whole, int nx, int
   make_spectra(table_, whole.couples());
 }
 
-struct InfluenceOperator::Parts {
-  static constexpr std::size_t kMost = 16;
-  std::mutex mutex;
-  std::vector<std::shared_ptr<const InfluenceOperator>> made;
-};
-
 std::shared_ptr<const InfluenceOperator> InfluenceOperator::part(int nx, int ny) const {
-  const std::lock_guard lock(parts_->mutex);
-  for (const auto& op : parts_->made)
+  constexpr std::size_t kMost = 16;
+  const std::lock_guard lock(parts_mutex_);
+  for (const auto& op : parts_)
     if (op->nx() == nx && op->ny() == ny) return op;
-  if (parts_->made.size() == Parts::kMost) parts_->made.erase(parts_->made.begin());
-  parts_->made.push_back(std::shared_ptr<const InfluenceOperator>(new InfluenceOperator(*this, nx, ny)));
-  return parts_->made.back();
+  if (parts_.size() == kMost) parts_.erase(parts_.begin());
+  parts_.push_back(std::shared_ptr<const InfluenceOperator>(new InfluenceOperator(*this, nx, ny)));
+  return parts_.back();
 }
 
 void InfluenceOperator::make_spectra(std::vector<RectangleInfluence> table, bool couples) {
@@ -107,33 +132,6 @@ void InfluenceOperator::make_spectra(std::vector<RectangleInfluence> table, bool
   }
 }
 
-namespace {
-
-struct ScalarProduct {
-  const double* s;
-  void operator()(std::size_t first, int count, const PlaneFft::Spectra& z) const {
-    for (int k = 0; k < count; ++k) z[0][k] *= s[first + static_cast<std::size_t>(k)];
-  }
-};
-
-struct SymmetricProduct {
-  const double *xx, *xy, *yy;
-  void operator()(std::size_t first, int count, const PlaneFft::Spectra& z) const {
-    Complex *a = z[0], *b = z[1];
-    for (int k = 0; k < count; ++k) {
-      const std::size_t i = first + static_cast<std::size_t>(k);
-      const Complex u = a[k], v = b[k];
-      a[k] = xx[i] * u + xy[i] * v;
-      b[k] = xy[i] * u + yy[i] * v;
-    }
-  }
-};
-
-// Spectra of tables that are odd in x or y are imaginary; their imaginary parts are kept (nx_hat_, ny_hat_).
-Complex times_i(Complex z) { return {-z.imag(), z.real()}; }
-
-}  // namespace
-
 void InfluenceOperator::normal(const double* p, double* u_n) const {
   stop_if_requested();
   fft_.apply({p}, {u_n}, nx(), ScalarProduct{nn_hat_.data()});
@@ -148,17 +146,20 @@ void InfluenceOperator::tangential(const double* q_x, const double* q_y, double*
   fft_.apply({q_x, q_y}, {u_x, u_y}, rows, SymmetricProduct{xx_hat_.data(), xy_hat_.data(), yy_hat_.data()});
 }
 
+PlanePair InfluenceOperator::tangential(const Plane& q_x, const Plane& q_y, int rows) const {
+  PlanePair u{plane_of(rows), plane_of(rows)};
+  tangential(q_x.data(), q_y.data(), u.x.data(), u.y.data(), rows);
+  return u;
+}
+
 void InfluenceOperator::precondition_tangential(const double* u_x, const double* u_y, double* q_x, double* q_y) const {
   fft_.apply({u_x, u_y}, {q_x, q_y}, nx(), SymmetricProduct{inv_xx_.data(), inv_xy_.data(), inv_yy_.data()});
 }
 
-void InfluenceOperator::tangential_from_pressure(const double* p, double* u_x, double* u_y, int rows) const {
-  if (!couples()) {
-    std::fill(u_x, u_x + static_cast<std::ptrdiff_t>(rows) * ny(), 0.0);
-    std::fill(u_y, u_y + static_cast<std::ptrdiff_t>(rows) * ny(), 0.0);
-    return;
-  }
-  fft_.apply({p}, {u_x, u_y}, rows, [this](std::size_t first, int count, const PlaneFft::Spectra& z) {
+PlanePair InfluenceOperator::tangential_from_pressure(const Plane& p, int rows) const {
+  PlanePair u{plane_of(rows), plane_of(rows)};
+  if (!couples()) return u;
+  fft_.apply({p.data()}, {u.x.data(), u.y.data()}, rows, [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
     Complex *a = z[0], *b = z[1];
     for (int k = 0; k < count; ++k) {
       const std::size_t i = first + static_cast<std::size_t>(k);
@@ -167,20 +168,43 @@ void InfluenceOperator::tangential_from_pressure(const double* p, double* u_x, d
       b[k] = -ny_hat_[i] * ip;
     }
   });
+  return u;
 }
 
-void InfluenceOperator::normal_from_traction(const double* q_x, const double* q_y, double* u_n) const {
-  if (!couples()) {
-    std::fill(u_n, u_n + static_cast<std::ptrdiff_t>(nx()) * ny(), 0.0);
-    return;
-  }
-  fft_.apply({q_x, q_y}, {u_n}, nx(), [this](std::size_t first, int count, const PlaneFft::Spectra& z) {
+Plane InfluenceOperator::normal_from_traction(const Plane& q_x, const Plane& q_y) const {
+  Plane u = plane_of(nx());
+  if (!couples()) return u;
+  fft_.apply({q_x.data(), q_y.data()}, {u.data()}, nx(), [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
     Complex *a = z[0], *b = z[1];
     for (int k = 0; k < count; ++k) {
       const std::size_t i = first + static_cast<std::size_t>(k);
       a[k] = times_i(nx_hat_[i] * a[k] + ny_hat_[i] * b[k]);
     }
   });
+  return u;
+}
+
+std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSpace& wheel,
+                                                             const LayeredHalfSpace& rail, const PatchGrid& g,
+                                                             double film) {
+  constexpr std::size_t kEntries = 32;
+  SurfaceCompliance pair;
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto it = entries_.begin(); it != entries_.end(); ++it) {
+      if (!same(it->wheel, wheel) || !same(it->rail, rail)) continue;
+      pair = it->pair;
+      if (!same_cells(it->grid, g) || it->film != film) continue;
+      entries_.splice(entries_.begin(), entries_, it);
+      return it->op;
+    }
+  }
+  if (pair.empty()) pair = combined_compliance(layered_compliance(wheel), layered_compliance(rail));
+  auto op = std::make_shared<const InfluenceOperator>(pair, g.nx, g.ny, g.dx, g.dy, film, g.line);
+  const std::lock_guard lock(mutex_);
+  entries_.push_front({wheel, rail, g, film, std::move(pair), op});
+  if (entries_.size() > kEntries) entries_.pop_back();
+  return op;
 }
 
 }  // namespace railstrata

@@ -1,12 +1,14 @@
 #pragma once
 // Displacements of the contacting surfaces from tractions on a grid, by convolution; and approximate inverses that
 // precondition the solvers.
+#include <list>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "bem/patch_grid.hpp"
 #include "bem/plane_fft.hpp"
-#include "halfspace/boussinesq_cerruti.hpp"
+#include "halfspace/layered.hpp"
 
 namespace railstrata {
 
@@ -23,8 +25,6 @@ class InfluenceOperator {
 
   int nx() const { return fft_.nx(); }
   int ny() const { return fft_.ny(); }
-  double dx() const { return dx_; }
-  double dy() const { return dy_; }
   /// Displacement at (i dx, 0), i = 0 or 1, from the centre of a cell under unit traction.
   const RectangleInfluence& of_one_cell(int i) const { return near_[i]; }
   double film() const { return film_; }              ///< m/Pa
@@ -34,10 +34,11 @@ class InfluenceOperator {
   void normal(const double* p, double* u_n) const;
   /// Rail minus wheel, from tangential tractions. rows = nx, or nx + 1 for one more row of cells ahead of the grid.
   void tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const;
+  PlanePair tangential(const Plane& q_x, const Plane& q_y, int rows) const;
   /// Rail minus wheel, from pressure; zero for equal bodies.
-  void tangential_from_pressure(const double* p, double* u_x, double* u_y, int rows) const;
+  PlanePair tangential_from_pressure(const Plane& p, int rows) const;
   /// Normal elastic displacement by tangential tractions; zero for equal bodies.
-  void normal_from_traction(const double* q_x, const double* q_y, double* u_n) const;
+  Plane normal_from_traction(const Plane& q_x, const Plane& q_y) const;
 
   /// Approximate inverses of `normal` and `tangential`: the inverses on the periodic grid, symmetric positive definite.
   void precondition_normal(const double* u_n, double* p) const;
@@ -47,16 +48,36 @@ class InfluenceOperator {
   std::shared_ptr<const InfluenceOperator> part(int nx, int ny) const;
 
  private:
-  struct Parts;
   InfluenceOperator(const InfluenceOperator& whole, int nx, int ny);
   void make_spectra(std::vector<RectangleInfluence> table, bool couples);
   PlaneFft fft_;
-  double dx_, dy_, film_;
+  double film_;
+  Plane plane_of(int rows) const { return Plane(static_cast<std::size_t>(rows) * static_cast<std::size_t>(ny())); }
   RectangleInfluence near_[2];
   std::vector<RectangleInfluence> table_;  // of the padded plane, without a film: index j + (my/2 + 1) i
-  std::shared_ptr<Parts> parts_;
+  mutable std::mutex parts_mutex_;
+  mutable std::vector<std::shared_ptr<const InfluenceOperator>> parts_;
   std::vector<double> nn_hat_, xx_hat_, xy_hat_, yy_hat_, nx_hat_, ny_hat_;  // nx, ny: imaginary parts
   std::vector<double> inv_nn_, inv_xx_, inv_xy_, inv_yy_;
+};
+
+/// Influence operators of earlier solutions: cases of a sweep share bodies and grid. Safe to share between threads.
+class InfluenceCache {
+ public:
+  /// film: flexibility of a third-body layer, m/Pa.
+  std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail,
+                                               const PatchGrid& grid, double film = 0);
+
+ private:
+  struct Entry {
+    LayeredHalfSpace wheel, rail;
+    PatchGrid grid;
+    double film;
+    SurfaceCompliance pair;
+    std::shared_ptr<const InfluenceOperator> op;
+  };
+  std::mutex mutex_;
+  std::list<Entry> entries_;  // most recently used first
 };
 
 }  // namespace railstrata

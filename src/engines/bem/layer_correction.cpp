@@ -39,7 +39,7 @@ double period_of(const LayeredHalfSpace& body, const PatchGrid& g, double extent
 }
 
 /// sin(k d/2)/(k d/2) at the wave numbers 0, 1, … n - 1 times `unit` for cells of a size d.
-static std::vector<double> steps(int n, double unit, double size) {
+std::vector<double> steps(int n, double unit, double size) {
   std::vector<double> out{1};
   for (int i = 1; i < n; ++i) {
     const double k = unit * i, half = 0.5 * k * size;
@@ -147,7 +147,6 @@ void LayerCorrection::add_waves(const PlaneLoads& loads, const Nodes& node, Plan
   const double scale = 1 / points(), shortest = largest_wave_number(node);
   Planes wide;
   const std::vector<double*> out = cleared(wide, n);
-  static_assert(PlaneFft::kBlock == 1);
   fft_.apply({spread[0].data(), spread[1].data(), spread[2].data()}, out, nx,
              [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
                const int j = static_cast<int>(first / static_cast<std::size_t>(count));
@@ -253,25 +252,23 @@ void LayerCorrection::add(const PlaneLoads& loads, DisplacementPlane& to) const 
   // the images' strain as a displacement from each load: e p (x - x'), and the tilt t q·(x - x')
   double p = 0, px = 0, py = 0;
   double qx = 0, qy = 0, qx_x = 0, qy_y = 0;
-  for (int i = 0; i < grid_.nx; ++i)
-    for (int j = 0; j < grid_.ny; ++j) {
-      const std::size_t k = grid_.index(i, j);
-      p += loads.p[k];
-      px += loads.p[k] * grid_.x(i);
-      py += loads.p[k] * grid_.y(j);
-      qx += loads.q_x[k];
-      qx_x += loads.q_x[k] * grid_.x(i);
-      qy += loads.q_y[k];
-      qy_y += loads.q_y[k] * grid_.y(j);
-    }
+  for (std::size_t k = 0; k < grid_.size(); ++k) {
+    const double x = grid_.x_of(k), y = grid_.y_of(k);
+    p += loads.p[k];
+    px += loads.p[k] * x;
+    py += loads.p[k] * y;
+    qx += loads.q_x[k];
+    qx_x += loads.q_x[k] * x;
+    qy += loads.q_y[k];
+    qy_y += loads.q_y[k] * y;
+  }
   const double share = 1 / points();
-  for (int i = 0; i < grid_.nx; ++i)
-    for (int j = 0; j < grid_.ny; ++j) {
-      const std::size_t k = grid_.index(i, j);
-      to.u_x[k] -= share * slope.x.kU_p * (p * grid_.x(i) - px);
-      to.u_y[k] -= share * slope.y.kU_p * (p * grid_.y(j) - py);
-      to.u_z[k] += share * (slope.x.kW_q * (qx * grid_.x(i) - qx_x) + slope.y.kW_q * (qy * grid_.y(j) - qy_y));
-    }
+  for (std::size_t k = 0; k < grid_.size(); ++k) {
+    const double x = grid_.x_of(k), y = grid_.y_of(k);
+    to.u_x[k] -= share * slope.x.kU_p * (p * x - px);
+    to.u_y[k] -= share * slope.y.kU_p * (p * y - py);
+    to.u_z[k] += share * (slope.x.kW_q * (qx * x - qx_x) + slope.y.kW_q * (qy * y - qy_y));
+  }
 }
 
 }  // namespace railstrata

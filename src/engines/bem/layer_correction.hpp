@@ -4,12 +4,25 @@
 #include <array>
 #include <vector>
 
-#include "bem/interior_planes.hpp"
-#include "bem/patch_grid.hpp"
 #include "bem/plane_fft.hpp"
+#include "bem/subsurface.hpp"
 #include "halfspace/layer_waves.hpp"
 
 namespace railstrata {
+
+inline std::array<Plane*, 6> planes_of(StatePlane& s) { return {&s.e_xx, &s.e_yy, &s.e_xy, &s.s_xz, &s.s_yz, &s.s_zz}; }
+inline std::array<Plane*, 3> planes_of(DisplacementPlane& u) { return {&u.u_x, &u.u_y, &u.u_z}; }
+
+/// Makes all planes of a field n zeros; pointers to their values.
+template <class Planes>
+std::vector<double*> cleared(Planes& s, std::size_t n) {
+  std::vector<double*> out;
+  for (Plane* p : planes_of(s)) {
+    p->assign(n, 0.0);
+    out.push_back(p->data());
+  }
+  return out;
+}
 
 /// The state under unit surface loads at one wave number and depth, in the axes of the wave: displacements times k,
 /// tractions; see layer_waves.hpp for U, W, T, S, V, Q.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "bem/case_patch.hpp"
 #include "model/drive_at_contact.hpp"
 
 namespace railstrata {

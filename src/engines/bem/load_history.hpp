@@ -4,7 +4,6 @@
 // Rows of a rolling history are at rolled distances, from 0 on (times are distances at the case's speed). At a jump
 // (two rows at one place) the first row holds up to there; beyond the end the last row holds. A shift has no length:
 // row k ends at k, and at 0 the bodies are pressed together by the first row's load, with nothing sideways.
-#include <optional>
 #include <vector>
 
 #include "bem/tangential_problem.hpp"

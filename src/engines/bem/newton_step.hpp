@@ -1,15 +1,12 @@
 #pragma once
 // One Newton step of the tangential problem with its sets of sticking and slipping cells. [Kalker1990 ch. 4]
 #include <array>
-#include <cmath>
 #include <vector>
 
-#include "bem/recycled_krylov.hpp"
+#include "bem/gmres.hpp"
 #include "bem/tangential_state.hpp"
 
 namespace railstrata {
-
-inline double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 /// With n = q/|q|, t across it and the slip
 /// s(q, xi) = w(xi) + history - L q, the equations of the sets are

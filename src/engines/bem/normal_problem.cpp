@@ -22,21 +22,7 @@ class ActiveSetSolver {
  public:
   ActiveSetSolver(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap, NormalTarget target,
                   const NormalOptions& options)
-      : influence_(influence),
-        grid_(grid),
-        gap_(gap),
-        target_(target),
-        options_(options),
-        n_(grid.size()),
-        p_(n_, 0.0),
-        displacement_(n_),
-        residual_(n_),
-        z_(n_),
-        d_(n_),
-        Ad_(n_),
-        ones_(n_),
-        active_(n_, 0),
-        tolerance_(options.tolerance) {}
+      : influence_(influence), grid_(grid), gap_(gap), target_(target), options_(options) {}
 
   NormalSolution solve(const Plane& start) {
     if (start.empty())
@@ -73,9 +59,7 @@ class ActiveSetSolver {
   /// directions from such residuals end in 0/0.
   double round_off() const {
     constexpr double kOfLargest = 64 * std::numeric_limits<double>::epsilon();
-    double largest = 0;
-    for (const double u : displacement_) largest = std::max(largest, std::abs(u));
-    return kOfLargest * largest;
+    return kOfLargest * largest_of(displacement_);
   }
 
   bool load_given() const { return target_.load.has_value(); }
@@ -175,29 +159,22 @@ class ActiveSetSolver {
     std::vector<Part> part(pieces_of(n_));
     Part all;
     if (load_given()) {
-      for_pieces(
-          n_,
-          [&](std::size_t k, std::size_t begin, std::size_t end) {
-            part[k].sum =
-                sum_of(begin, end, [&](std::size_t i) { return active_[i] ? gap_[i] + displacement_[i] : 0.0; });
-            part[k].count = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? 1.0 : 0.0; });
-          },
-          2);
+      for_pieces(n_, 2, [&](std::size_t k, std::size_t begin, std::size_t end) {
+        part[k].sum = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? gap_[i] + displacement_[i] : 0.0; });
+        part[k].count = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? 1.0 : 0.0; });
+      });
       for (const Part& p : part) {
         all.sum += p.sum;
         all.count += p.count;
       }
     }
     approach_ = load_given() ? all.sum / all.count : *target_.approach;
-    for_pieces(
-        n_,
-        [&](std::size_t k, std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) {
-            residual_[i] = active_[i] ? approach_ - gap_[i] - displacement_[i] : 0.0;
-            part[k].largest = std::max(part[k].largest, std::abs(residual_[i]));
-          }
-        },
-        2);
+    for_pieces(n_, 2, [&](std::size_t k, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        residual_[i] = active_[i] ? approach_ - gap_[i] - displacement_[i] : 0.0;
+        part[k].largest = std::max(part[k].largest, std::abs(residual_[i]));
+      }
+    });
     for (const Part& p : part) all.largest = std::max(all.largest, p.largest);
     return all.largest;
   }
@@ -227,13 +204,10 @@ class ActiveSetSolver {
       const double bent = dot(d_, Ad_);
       if (!(rho > 0 && bent > 0)) break;  // what is left is round-off
       const double alpha = rho / bent;
-      for_cells(
-          n_,
-          [&](std::size_t i) {
-            p_[i] += alpha * d_[i];
-            displacement_[i] += alpha * Ad_[i];
-          },
-          2);
+      for_cells(n_, 2, [&](std::size_t i) {
+        p_[i] += alpha * d_[i];
+        displacement_[i] += alpha * Ad_[i];
+      });
       left = compute_residual();
     }
     return left;
@@ -266,11 +240,7 @@ class ActiveSetSolver {
     s.approach = approach_;
     s.load = sum(p_) * grid_.cell_area();
     s.iterations = iterations_;
-    for (int i = 0; i < grid_.nx; ++i)
-      for (int j = 0; j < grid_.ny; ++j)
-        if ((i == 0 || i == grid_.nx - 1 || (!grid_.line && (j == 0 || j == grid_.ny - 1))) &&
-            p_[grid_.index(i, j)] > 0)
-          s.touches_edge = true;
+    s.touches_edge = largest_at_rim(p_, grid_) > 0;
     return s;
   }
 
@@ -279,11 +249,12 @@ class ActiveSetSolver {
   const Plane& gap_;
   NormalTarget target_;
   NormalOptions options_;
-  std::size_t n_;
-  Plane p_, displacement_;              // u_n(p)
-  Plane residual_, z_, d_, Ad_, ones_;  // of the conjugate gradients; ones_: preconditioned indicator of active cells
-  Mask active_;
-  double tolerance_;
+  const std::size_t n_ = grid_.size();
+  Plane p_ = Plane(n_), displacement_ = p_;  // u_n(p)
+  // of the conjugate gradients; ones_: preconditioned indicator of active cells
+  Plane residual_ = p_, z_ = p_, d_ = p_, Ad_ = p_, ones_ = p_;
+  Mask active_ = Mask(n_);
+  double tolerance_ = options_.tolerance;
   double approach_ = 0, ones_sum_ = 1;
   int iterations_ = 0;
 };

@@ -7,16 +7,16 @@
 // projected conjugate gradients with an FFT preconditioner. [PolonskyKeer1999, Vollebregt2014]
 #include <optional>
 
+#include "bem/gmres.hpp"
 #include "bem/influence_operator.hpp"
 #include "bem/patch_grid.hpp"
 #include "bem/plane_algebra.hpp"
-#include "bem/recycled_krylov.hpp"
 
 namespace railstrata {
 
 struct NormalTarget {
-  std::optional<double> load;      ///< N
-  std::optional<double> approach;  ///< m; exactly one of the two
+  std::optional<double> load{};      ///< N
+  std::optional<double> approach{};  ///< m; exactly one of the two
 };
 
 struct NormalOptions {

@@ -1,9 +1,13 @@
 #pragma once
 // The potential contact area: a rectangle of equal cells in the contact plane.
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 namespace railstrata {
+
+inline constexpr double kDefaultCell = 0.25e-3;                        ///< m, side of a cell
+inline constexpr double kSmallestCell = 0.02e-3, kLargestCell = 5e-3;  ///< m: what commands and tools take
 
 /// nx x ny cells of size dx x dy; cell (i, j) is centred at (x0 + i dx, y0 + j dy) and has index j + ny i (y fastest,
 /// as in ContactField). Metres. A line contact has one column of cells, as long as the line, and knows no ends of it.
@@ -19,8 +23,18 @@ struct PatchGrid {
   }
   double x(int i) const { return x0 + i * dx; }
   double y(int j) const { return y0 + j * dy; }
+  double x_of(std::size_t cell) const { return x(static_cast<int>(cell) / ny); }
+  double y_of(std::size_t cell) const { return y(static_cast<int>(cell) % ny); }
   double cell_area() const { return dx * dy; }
 };
+
+/// The largest value in the outermost ring of cells, at least 0; of a line at its two ends.
+inline double largest_at_rim(const std::vector<double>& v, const PatchGrid& g) {
+  double most = 0;
+  for (int i = 0; i < g.nx && !g.line; ++i) most = std::max({most, v[g.index(i, 0)], v[g.index(i, g.ny - 1)]});
+  for (int j = 0; j < g.ny; ++j) most = std::max({most, v[g.index(0, j)], v[g.index(g.nx - 1, j)]});
+  return most;
+}
 
 /// Cells centred on the origin: 2 i + 1 by 2 j + 1.
 inline PatchGrid centred_grid(int half_nx, int half_ny, double dx, double dy) {

@@ -1,7 +1,5 @@
 #include "bem/patch_part.hpp"
 
-#include <algorithm>
-
 namespace railstrata {
 namespace {
 

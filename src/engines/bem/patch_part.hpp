@@ -2,7 +2,6 @@
 // The part of a grid that bears tractions: transforms of its planes cost less than those of the whole.
 #include <algorithm>
 #include <cassert>
-#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -1,54 +1,26 @@
-#include "bem/patch_pieces.hpp"
+#include "bem/several_patches.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "contact/patch_extent.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr int kNone = -1;
-
-/// For every cell the number of its connected part, from 0 on; kNone: without pressure.
-std::vector<int> parts_of(const PatchGrid& g, const Plane& pressure, int& count) {
-  std::vector<int> part(g.size(), kNone);
-  std::vector<std::pair<int, int>> open;
-  count = 0;
-  const auto take = [&](int i, int j) {
-    if (i < 0 || j < 0 || i >= g.nx || j >= g.ny) return;
-    const std::size_t k = g.index(i, j);
-    if (!(pressure[k] > 0) || part[k] != kNone) return;
-    part[k] = count;
-    open.emplace_back(i, j);
-  };
-  for (int i = 0; i < g.nx; ++i)
-    for (int j = 0; j < g.ny; ++j) {
-      take(i, j);
-      if (open.empty()) continue;
-      while (!open.empty()) {
-        const auto [x, y] = open.back();
-        open.pop_back();
-        for (const int dx : {-1, 0, 1})
-          for (const int dy : {-1, 0, 1}) take(x + dx, y + dy);
-      }
-      ++count;
-    }
-  return part;
-}
 
 /// A part's centre of pressure and its ends across the rail, m.
 struct PartExtent {
   double force = 0, centre = 0, low = HUGE_VAL, high = -HUGE_VAL;
 };
 
-std::vector<PartExtent> extents_of(const PatchOnWheel& p, const std::vector<int>& part, int count) {
-  std::vector<PartExtent> out(static_cast<std::size_t>(count));
+std::vector<PartExtent> extents_of(const PatchOnWheel& p, const ConnectedRegions& part) {
+  std::vector<PartExtent> out(static_cast<std::size_t>(part.count));
   const PatchGrid& g = p.patch.grid;
-  for (std::size_t k = 0; k < part.size(); ++k) {
-    if (part[k] == kNone) continue;
-    PartExtent& e = out[static_cast<std::size_t>(part[k])];
-    const double y = g.y(static_cast<int>(k) % g.ny), force = p.solution.normal.pressure[k];
+  for (std::size_t k = 0; k < part.of.size(); ++k) {
+    if (part.of[k] == ConnectedRegions::kNone) continue;
+    PartExtent& e = out[static_cast<std::size_t>(part.of[k])];
+    const double y = g.y_of(k), force = p.solution.normal.pressure[k];
     e.force += force;
     e.centre += force * y;
     e.low = std::min(e.low, y - 0.5 * g.dy);
@@ -64,7 +36,7 @@ double power_of(const TangentialSolution& t, std::size_t k) {
 
 /// Empties the cells that are not its own, and counts what is left.
 template <class Own>
-void keep(const PatchGrid& g, Own&& own, RollingSolution& s) {
+void keep(const PatchGrid& g, RollingSolution& s, Own&& own) {
   TangentialSolution& t = s.tangential;
   const double dA = g.cell_area();
   double all = 0, kept = 0;
@@ -77,11 +49,10 @@ void keep(const PatchGrid& g, Own&& own, RollingSolution& s) {
       continue;
     }
     kept += power_of(t, k);
-    const double x = g.x(static_cast<int>(k) / g.ny), y = g.y(static_cast<int>(k) % g.ny);
     s.normal.load += s.normal.pressure[k] * dA;
     t.force_x += t.q_x[k] * dA;
     t.force_y += t.q_y[k] * dA;
-    t.moment += (x * t.q_y[k] - y * t.q_x[k]) * dA;
+    t.moment += (g.x_of(k) * t.q_y[k] - g.y_of(k) * t.q_x[k]) * dA;
     if (t.state[k] == ContactState::stick) t.stick_area += dA;
     if (t.state[k] == ContactState::slip) t.slip_area += dA;
   }
@@ -91,9 +62,8 @@ void keep(const PatchGrid& g, Own&& own, RollingSolution& s) {
 }  // namespace
 
 std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole) {
-  int count = 0;
-  const std::vector<int> part = parts_of(whole.patch.grid, whole.solution.normal.pressure, count);
-  const std::vector<PartExtent> extents = extents_of(whole, part, count);
+  const ConnectedRegions part = connected_regions(whole.patch.grid.ny, whole.solution.normal.pressure, 0);
+  const std::vector<PartExtent> extents = extents_of(whole, part);
   const auto t_of = [&](const RigidContact& c) { return along_plane(whole.contact, c.point); };
   std::vector<std::size_t> place_of;  // of each part
   for (const PartExtent& e : extents) {
@@ -106,10 +76,10 @@ std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole) {
   for (std::size_t c = 0; c < whole.contacts.size(); ++c) {
     if (std::find(place_of.begin(), place_of.end(), c) == place_of.end()) continue;
     PatchPiece piece{whole.contacts[c], whole};
-    keep(
-        whole.patch.grid,
-        [&](std::size_t k) { return part[k] != kNone && place_of[static_cast<std::size_t>(part[k])] == c; },
-        piece.patch.solution);
+    keep(whole.patch.grid, piece.patch.solution, [&](std::size_t k) {
+      const int of = part.of[k];
+      return of != ConnectedRegions::kNone && place_of[static_cast<std::size_t>(of)] == c;
+    });
     out.push_back(std::move(piece));
   }
   if (out.size() > 1) return out;

@@ -30,7 +30,7 @@ void for_each_if(bool threads, std::ptrdiff_t n, Kernel&& kernel) {
 constexpr std::size_t kPiece = 4096;
 inline std::size_t pieces_of(std::size_t n) { return (n + kPiece - 1) / kPiece; }
 template <class Kernel>
-void for_pieces(std::size_t n, Kernel&& kernel, std::size_t values_per_index = 1) {
+void for_pieces(std::size_t n, std::size_t values_per_index, Kernel&& kernel) {
   for_each_if(threads_pay_for_sweep(n * values_per_index), static_cast<std::ptrdiff_t>(pieces_of(n)), [&](int k) {
     const std::size_t begin = static_cast<std::size_t>(k) * kPiece;
     kernel(static_cast<std::size_t>(k), begin, std::min(begin + kPiece, n));
@@ -52,7 +52,7 @@ double sum_of(std::size_t begin, std::size_t end, Term&& term) {
 template <class Term>
 double ordered_sum_of(std::size_t n, Term&& term) {
   std::vector<double> part(pieces_of(n));
-  for_pieces(n, [&](std::size_t k, std::size_t begin, std::size_t end) { part[k] = sum_of(begin, end, term); });
+  for_pieces(n, 1, [&](std::size_t k, std::size_t begin, std::size_t end) { part[k] = sum_of(begin, end, term); });
   double total = 0;
   for (double p : part) total += p;
   return total;
@@ -68,13 +68,14 @@ inline double sum(const Plane& a) {
 
 /// kernel(i) for i in [0, n), in pieces shared between threads.
 template <class Kernel>
-void for_cells(std::size_t n, Kernel&& kernel, std::size_t values_per_index = 1) {
-  for_pieces(
-      n,
-      [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) kernel(i);
-      },
-      values_per_index);
+void for_cells(std::size_t n, std::size_t values_per_index, Kernel&& kernel) {
+  for_pieces(n, values_per_index, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) kernel(i);
+  });
+}
+template <class Kernel>
+void for_cells(std::size_t n, Kernel&& kernel) {
+  for_cells(n, 1, kernel);
 }
 
 /// y += s x

@@ -1,10 +1,8 @@
 #include "bem/plane_fft.hpp"
 
-#include "fft/fft.hpp"
 #include "fft/fft_scratch.hpp"
 
 namespace railstrata {
-
 namespace {
 
 struct WorkTag;
@@ -19,9 +17,7 @@ PlaneFft::PlaneFft(int nx, int ny, int reach_x, int reach_y)
       my_(good_fft_length(2 * reach_y)),
       width_(my_ / 2 + 1),
       groups_((width_ + kGroup - 1) / kGroup),
-      fft_(std::make_unique<Fft>(my_, mx_, kGroup)) {}
-
-PlaneFft::~PlaneFft() = default;
+      fft_(my_, mx_, kGroup) {}
 
 std::vector<double> PlaneFft::spectrum(const std::vector<double>& table, int parity_x, int parity_y) const {
   const int hx = mx_ / 2, hy = my_ / 2;
@@ -35,7 +31,7 @@ std::vector<double> PlaneFft::spectrum(const std::vector<double>& table, int par
       for (int j = 1; j < hy; ++j) r[my_ - j] = parity_y * t[j];
       if (parity_y < 0) r[0] = r[hy] = 0;
     }
-    fft_->rows_forward(whole.data(), count, my_, rows.data() + first * pitch(), pitch());
+    fft_.rows_forward(whole.data(), count, my_, rows.data() + first * pitch(), pitch());
   });
   for (int i = 0; i <= hx; ++i) {  // the other half, by its parity
     Complex* row = rows.data() + static_cast<std::size_t>(i) * pitch();
@@ -49,7 +45,7 @@ std::vector<double> PlaneFft::spectrum(const std::vector<double>& table, int par
   const double scale = 1.0 / (static_cast<double>(mx_) * my_);
   for_each_if(threads_pay(), groups_, [&](int group) {
     Complex* z = fft_scratch<GroupTag>(group_size());
-    fft_->columns_forward(rows.data() + first_of(group), pitch(), mx_, z);
+    fft_.columns_forward(rows.data() + first_of(group), pitch(), mx_, z);
     const int columns = std::min(kGroup, width_ - group * kGroup);
     double* o = out.data() + static_cast<std::size_t>(group) * group_size();
     for (int k = 0; k < columns * mx_; ++k) o[k] = scale * (parity_x * parity_y > 0 ? z[k].real() : z[k].imag());
@@ -61,7 +57,7 @@ PlaneFft::Complex* PlaneFft::rows_in(const std::vector<const double*>& in, std::
   Complex* work = fft_scratch<WorkTag>(planes * plane_size());
   for_rows(in.size(), nx_, [&](std::size_t plane, std::size_t first, int count) {
     Complex* z = work + plane * plane_size() + first * pitch();
-    fft_->rows_forward(in[plane] + first * static_cast<std::size_t>(ny_), count, ny_, z, pitch());
+    fft_.rows_forward(in[plane] + first * static_cast<std::size_t>(ny_), count, ny_, z, pitch());
     for (int i = 0; i < count; ++i, z += pitch()) std::fill(z + width_, z + pitch(), 0.0);
   });
   return work;
@@ -73,8 +69,8 @@ PlaneFft::Complex* PlaneFft::group_buffer(std::size_t planes) const {
 
 void PlaneFft::rows_out_of(Complex* work, const std::vector<double*>& out, int rows_out) const {
   for_rows(out.size(), rows_out, [&](std::size_t plane, std::size_t first, int count) {
-    fft_->rows_backward(work + plane * plane_size() + first * pitch(), pitch(), count, ny_,
-                        out[plane] + first * static_cast<std::size_t>(ny_));
+    fft_.rows_backward(work + plane * plane_size() + first * pitch(), pitch(), count, ny_,
+                       out[plane] + first * static_cast<std::size_t>(ny_));
   });
 }
 

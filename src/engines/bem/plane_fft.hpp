@@ -6,7 +6,6 @@
 // transforms along x, the product with the kernel and the transforms back are done group by group of columns, in cache.
 #include <algorithm>
 #include <complex>
-#include <memory>
 #include <vector>
 
 #include "bem/plane_algebra.hpp"
@@ -16,16 +15,11 @@ namespace railstrata {
 
 class PlaneFft {
  public:
-  static constexpr int kBlock = 1;  ///< columns of wave numbers (same ky) in one call of multiply
-
   /// Pads so that offsets from -nx to nx are free of wrap-around along x, and -(ny-1) to ny-1 along y.
   PlaneFft(int nx, int ny) : PlaneFft(nx, ny, nx, ny) {}
   /// The same for offsets up to reach_x and reach_y - 1, for planes whose inner cells alone carry something; at least
   /// half of nx and ny.
   PlaneFft(int nx, int ny, int reach_x, int reach_y);
-  ~PlaneFft();
-  PlaneFft(const PlaneFft&) = delete;
-  PlaneFft& operator=(const PlaneFft&) = delete;
 
   int nx() const { return nx_; }
   int ny() const { return ny_; }
@@ -57,12 +51,12 @@ class PlaneFft {
     for_each_if(threads_pay(), groups_, [&](int group) {
       const Spectra columns{group_buffer(planes), group_size()};
       for (std::size_t c = 0; c < in.size(); ++c)
-        fft_->columns_forward(work + c * plane_size() + first_of(group), pitch(), nx_, columns[c]);
+        fft_.columns_forward(work + c * plane_size() + first_of(group), pitch(), nx_, columns[c]);
       Spectra z = columns;
       for (int ky = group * kGroup; ky < (group + 1) * kGroup && ky < width_; ++ky, z.first += mx_)
         multiply(static_cast<std::size_t>(ky) * static_cast<std::size_t>(mx_), mx_, z);
       for (std::size_t c = 0; c < out.size(); ++c)
-        fft_->columns_backward(columns[c], rows_out, work + c * plane_size() + first_of(group), pitch());
+        fft_.columns_backward(columns[c], rows_out, work + c * plane_size() + first_of(group), pitch());
     });
     rows_out_of(work, out, rows_out);
   }
@@ -92,7 +86,7 @@ class PlaneFft {
   bool threads_pay() const { return threads_pay_for(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_)); }
 
   int nx_, ny_, mx_, my_, width_, groups_;
-  std::unique_ptr<Fft> fft_;
+  Fft fft_;
 };
 
 /// The table of a kernel of planes of one column, from its values along x: nothing beside it. columns: my/2 + 1.

@@ -197,10 +197,8 @@ ProfileGap gap_to(const WheelSection& wheel_curve, const Profile& rail, const Tr
       const double x = grid.x(i);
       const std::size_t k = grid.index(i, j), mirrored = grid.index(grid.nx - 1 - i, j);
       if (mirrors && mirrored < k) {
-        out.gap[k] = out.gap[mirrored];
-        out.rail_height[k] = out.rail_height[mirrored];
-        out.radius[k] = out.radius[mirrored];
-        if (rail_curve.turns()) out.rail_radius[k] = out.rail_radius[mirrored];
+        for (Plane* plane : {&out.gap, &out.rail_height, &out.radius, &out.rail_radius})
+          if (!plane->empty()) (*plane)[k] = (*plane)[mirrored];
         continue;
       }
       const auto on_wheel = under_axle ? wheel_height.at(x, reach[i], t, guess.value()) : under_axle;

@@ -12,18 +12,10 @@ namespace railstrata {
 
 namespace {
 
-/// Rail minus wheel by pressure on the grid and one row of cells ahead of it.
-PlanePair displacement_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure) {
-  const std::size_t n = grid.size() + static_cast<std::size_t>(grid.ny);
-  PlanePair u{Plane(n), Plane(n)};
-  influence.tangential_from_pressure(pressure.data(), u.x.data(), u.y.data(), grid.nx + 1);
-  return u;
-}
-
 /// Adds the part of the state before that pressure has made, of each cell or of the one ahead of it.
 void add_history_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure,
                              std::size_t ahead, PlanePair& before) {
-  const PlanePair u = displacement_by_pressure(influence, grid, pressure);
+  const PlanePair u = influence.tangential_from_pressure(pressure, grid.nx + 1);
   for_cells(grid.size(), [&](std::size_t i) {
     before.x[i] += u.x[i + ahead];
     before.y[i] += u.y[i + ahead];
@@ -34,7 +26,7 @@ void add_history_by_pressure(const InfluenceOperator& influence, const PatchGrid
 /// before.
 void add_displacement_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure,
                                   TangentialProblem& t) {
-  const PlanePair u = displacement_by_pressure(influence, grid, pressure);
+  const PlanePair u = influence.tangential_from_pressure(pressure, grid.nx + 1);
   const std::size_t n = grid.size(), row = static_cast<std::size_t>(grid.ny);
   const bool steady = t.kind == RollingKind::steady;
   auto& [x, y] = steady ? t.extra_slip : t.before;
@@ -106,31 +98,18 @@ TangentialProblem tangential_part(const InfluenceOperator& influence, const Patc
   return t;
 }
 
-Plane gap_with_displacement_by_traction(const InfluenceOperator& influence, const RollingContact& contact,
-                                        const TangentialSolution& s) {
-  Plane gap(contact.gap.size());
-  influence.normal_from_traction(s.q_x.data(), s.q_y.data(), gap.data());
-  add_scaled(gap, 1, contact.gap);
-  return gap;
+/// q: solution or derivative.
+template <class Tractions>
+Plane gap_with_displacement_by_traction(const InfluenceOperator& influence, const Plane& gap, const Tractions& q) {
+  Plane out = influence.normal_from_traction(q.q_x, q.q_y);
+  add_scaled(out, 1, gap);
+  return out;
 }
 
-double largest_change(const Plane& a, const Plane& b) {
-  double change = 0, peak = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    change = std::max(change, std::abs(a[i] - b[i]));
-    peak = std::max(peak, b[i]);
-  }
-  return change / peak;
-}
-
-/// The largest, over the largest of both; of any sign.
-double difference(const Plane& a, const Plane& b) {
-  double most = 0, peak = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    most = std::max(most, std::abs(a[i] - b[i]));
-    peak = std::max({peak, std::abs(a[i]), std::abs(b[i])});
-  }
-  return peak > 0 ? most / peak : 0;
+double largest_difference(const Plane& a, const Plane& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
 }
 
 /// Takes the next solution of one of the two problems; its iterations are added to those before.
@@ -161,7 +140,7 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
     close_enough.tolerance = std::max(close_enough.tolerance, kGapPerPressure * kSharper * change);
     return solve_normal(
         influence, grid,
-        from.empty() ? contact.gap : gap_with_displacement_by_traction(influence, contact, s.tangential),
+        from.empty() ? contact.gap : gap_with_displacement_by_traction(influence, contact.gap, s.tangential),
         contact.target, close_enough, from);
   };
   s.normal = pressure(start ? start->normal.pressure : Plane{});
@@ -179,7 +158,8 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
                                            further, first ? nullptr : &s.tangential));
     if (settled) return s;
     NormalSolution next = pressure(s.normal.pressure);
-    change = std::max(kSharper * change, largest_change(next.pressure, s.normal.pressure));
+    change = std::max(kSharper * change,
+                      largest_difference(next.pressure, s.normal.pressure) / largest_of(s.normal.pressure));
     replace(s.normal, std::move(next));
   }
   throw NumericalError("the iteration between normal and tangential contact did not converge");
@@ -225,7 +205,7 @@ RollingSolution settle_temperature(const InfluenceOperator& influence, const Pat
   for (int k = 0; k < kMost; ++k) {
     s = solve_as_warm(influence, grid, warm, options, k > 0 ? &s : start);
     const Plane flux = friction_flux(s.tangential, contact.speed);
-    Plane next = contact_temperature(*contact.heat, grid, {flux, now}, contact.flux_before, steady,
+    Plane next = contact_temperature(*contact.heat, grid, flux, now, contact.flux_before, steady,
                                      steady ? grid.dx : contact.step, contact.speed);
     double change = 0;
     for (std::size_t i = 0; i < next.size(); ++i)
@@ -292,14 +272,11 @@ RollingDerivative RollingDerivatives::by(const RollingContact& more, const Rolli
   if (contact_.target.approach) target.approach = slope(*more.target.approach, *less.target.approach);
   RollingDerivative d;
   for (int round = 0; round < kMostRounds; ++round) {
-    Plane gap = gap_alone;
-    if (round > 0) {
-      Plane by_traction(grid_.size());
-      influence_.normal_from_traction(d.tangential.q_x.data(), d.tangential.q_y.data(), by_traction.data());
-      add_scaled(gap, 1, by_traction);
-    }
+    const Plane gap = round > 0 ? gap_with_displacement_by_traction(influence_, gap_alone, d.tangential) : gap_alone;
     NormalSolution next = normal_.by(gap, target);
-    const bool settled = round > 0 && difference(next.pressure, d.normal.pressure) <= kSettled;
+    const double peak = std::max(largest_of(next.pressure), largest_of(d.normal.pressure));
+    const bool settled =
+        round > 0 && (peak == 0 || largest_difference(next.pressure, d.normal.pressure) / peak <= kSettled);
     d.normal = std::move(next);
     d.tangential = tangential_.by(beside(more, d.normal, step), beside(less, d.normal, -step), step);
     if (!influence_.couples() || settled) return d;

@@ -10,7 +10,6 @@
 
 #include <Eigen/LU>
 
-#include "bem/pressure_on_rail.hpp"
 #include "core/faults.hpp"
 #include "core/root.hpp"
 #include "model/drive_at_contact.hpp"
@@ -29,22 +28,56 @@ double modulus_of(const CaseSpec& spec) {
                          {spec.rail_material.young, spec.rail_material.poisson});
 }
 
-PressureOnRail pressure_of(const PatchOnWheel& p) {
-  return {p.contact, p.patch.grid, p.solution.normal.pressure, p.solution.normal.load};
-}
+/// The pressure of a patch, in space; of one that has not been solved yet a force at the rigid contact point.
+struct PressureOnRail {
+  const RigidContact& contact;
+  const PatchGrid& grid;
+  const Plane& pressure;
+  double force;
+
+  Vec3 point(double x, double t) const {
+    return {contact.x + x, contact.point.y + t * std::cos(contact.angle),
+            contact.point.z + t * std::sin(contact.angle)};
+  }
+  /// Calls share(force, place) for every cell that bears.
+  template <class Share>
+  void for_each_share(Share&& share) const {
+    if (pressure.empty()) return share(force, point(0, 0));
+    for (std::size_t k = 0; k < pressure.size(); ++k)
+      if (pressure[k] > 0) share(pressure[k] * grid.cell_area(), point(grid.x_of(k), grid.y_of(k)));
+  }
+  Vec3 centre() const {
+    Vec3 sum;
+    double total = 0;
+    for_each_share([&](double f, Vec3 place) {
+      sum += f * place;
+      total += f;
+    });
+    return total > 0 ? (1 / total) * sum : point(0, 0);
+  }
+  /// The sum of force/distance^power at a place, over pi E*.
+  double at(Vec3 place, int power, double modulus) const {
+    double sum = 0;
+    for_each_share([&](double f, Vec3 from) {
+      const Vec3 d = place - from;
+      sum += f / std::pow(std::hypot(d.x, d.y, d.z), power);
+    });
+    return sum / (std::numbers::pi * modulus);
+  }
+};
 
 /// One patch of the wheel while the load is being shared.
 struct Member {
   Placement placement;
   std::vector<RigidContact> contacts{};
-  PatchRoom room;
-  std::optional<std::size_t> beside_low, beside_high;  ///< the patches that its room ends at
-  HertzContact estimate{};                             ///< under the weight
-  double below = 0;                                    ///< h, m
-  double approach = 0, laid_for = 0;                   ///< m; the approach for which the grid was laid
-  double normal = 0;                                   ///< N, of the last solution; to begin with an estimate
-  double expected = 0;                                 ///< N, of the next
-  double approach_before = 0, normal_before = 0;       ///< of the solution before
+  PatchRoom room{};
+  std::optional<std::size_t> beside_low{}, beside_high{};  ///< the patches that its room ends at
+  HertzContact estimate{};                                 ///< under the weight
+  double below = 0;                                        ///< h, m
+  double approach = 0, laid_for = 0;                       ///< m; the approach for which the grid was laid
+  double normal = 0;                                       ///< N, of the last solution; to begin with an estimate
+  double expected = 0;                                     ///< N, of the next
+  double approach_before = 0, normal_before = 0;           ///< of the solution before
   CasePatch patch{};
   RollingSolution solution{};
 
@@ -73,7 +106,7 @@ std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement,
   for (std::size_t k = 0;; ++k) {
     std::vector<RigidContact> contacts = contacts_of(places, k);
     if (contacts.empty()) break;
-    Member m{.placement = placement, .room = {}, .beside_low = {}, .beside_high = {}};
+    Member m{.placement = placement};
     m.placement.contact = plane_of(placement, contacts, descent);
     m.estimate = hertz_estimate(spec, m.contact());
     m.below = placement.contact.axle_height - m.contact().axle_height;
@@ -116,7 +149,7 @@ class WheelOnPatches {
 
   void settle() {
     const bool pressed = spec_.vehicle.approach.has_value();
-    double& descent = descent_ = pressed ? laid_descent() : first_descent();
+    double& descent = descent_ = first_descent();
     for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
       const Eigen::MatrixXd bent = depressions();
       const double moved = solve_at(descent, bent), close = options_.balance * (pressed ? vertical() : weight_);
@@ -239,22 +272,21 @@ class WheelOnPatches {
     return sum;
   }
 
-  /// Of a given approach: of the wheel on its first contact.
-  double laid_descent() {
-    const double descent = *spec_.vehicle.approach / std::cos(first_.angle);
-    static_cast<void>(lay(descent));
-    return descent;
-  }
-
-  /// Where Hertz's contacts without friction bear the weight.
+  /// Of a given approach that of the wheel on its first contact, else where Hertz's contacts without friction bear the
+  /// weight; lays them there.
   double first_descent() {
+    if (spec_.vehicle.approach) {
+      const double descent = *spec_.vehicle.approach / std::cos(first_.angle);
+      lay(descent);
+      return descent;
+    }
     double low = 0, high = members_.front().estimate.approach;
     while (lay(high) < weight_) high *= 2;
     for (int i = 0; i < 40; ++i) {
       const double middle = 0.5 * (low + high);
       (lay(middle) < weight_ ? low : high) = middle;
     }
-    static_cast<void>(lay(high));
+    lay(high);
     return high;
   }
 
@@ -287,37 +319,31 @@ class WheelOnPatches {
                  shorter = scale * std::min(m.estimate.a, m.estimate.b),
                  longer = scale * std::max(m.estimate.a, m.estimate.b);
     own.cell = std::min(options_.cell, std::max({0.15 * shorter, 0.02 * longer, kSmallestCell}));
-    m.patch = make_case_patch(spec_, m.placement, own, {.load = {}, .approach = m.approach}, m.room);
+    m.patch = make_case_patch(spec_, m.placement, own, {.approach = m.approach}, m.room);
     m.laid_for = m.approach;
     m.solution = {};
   }
 
-  void drive(Member& m) const {
+  void solve(Member& m) const {
     RollingContact& problem = m.patch.contact;
     problem.target.approach = m.approach;
     problem.x = {along_.creepage, {}};
     problem.y = {across_.creepage, {}};
     carry_creepages(turn_about_vertical(spec_, first_), first_, m.contact(), problem);
-  }
-
-  void solve(Member& m) const {
     const bool fresh = m.solution.normal.pressure.empty();
-    m.solution = solve_rolling(*m.patch.influence, m.patch.grid, m.patch.contact, options_.rolling,
-                               fresh ? nullptr : &m.solution);
+    m.solution =
+        solve_rolling(*m.patch.influence, m.patch.grid, problem, options_.rolling, fresh ? nullptr : &m.solution);
   }
 
   /// Solves all patches under the creepages as they stand.
   void solve_all() {
     for (Member& m : members_) {
       if (!m.loaded()) continue;
-      drive(m);
       solve(m);
-      if (m.solution.normal.touches_edge) {
-        m.laid_for = 0;
-        lay_grid(m);
-        drive(m);
-        solve(m);
-      }
+      if (!m.solution.normal.touches_edge) continue;
+      m.laid_for = 0;
+      lay_grid(m);
+      solve(m);
     }
   }
 
@@ -407,10 +433,6 @@ class WheelOnPatches {
   int iterations_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 /// The one patch that has all contacts, after a descent that was found in other planes.
 SharedLoad one_patch(const CaseSpec& spec, const Placement& placement, std::vector<RigidContact> contacts,
                      double descent, const BemOptions& options) {
@@ -421,8 +443,8 @@ SharedLoad one_patch(const CaseSpec& spec, const Placement& placement, std::vect
     out.room = room_of(own.contact, contacts);
     if (contacts.size() == 1 || spec.vehicle.approach) break;
     const double before = descent;
-    const CasePatch patch = make_case_patch(
-        spec, own, options, {.load = normal_load(spec.vehicle.load(), 0, own.contact), .approach = {}}, out.room);
+    const CasePatch patch =
+        make_case_patch(spec, own, options, {.load = normal_load(spec.vehicle.load(), 0, own.contact)}, out.room);
     descent = patch.frictionless.approach / std::cos(own.contact.angle) + placement.contact.axle_height -
               own.contact.axle_height;
     if (std::abs(descent - before) <= kSettled * before) break;
@@ -462,12 +484,15 @@ SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double a
 }
 
 double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& patches, const PatchOnWheel& one) {
+  const auto pressure = [](const PatchOnWheel& p) {
+    return PressureOnRail{p.contact, p.patch.grid, p.solution.normal.pressure, p.solution.normal.load};
+  };
   const RigidContact& c = one.contact;
   const double own =
       std::min(c.curvature_rolling, std::max(c.curvature_wheel_lateral + c.curvature_rail_lateral, 0.02));
   double bent = 0;
   for (const PatchOnWheel& other : patches)
-    if (&other != &one) bent += 2 * pressure_of(other).at(pressure_of(one).centre(), 3, modulus_of(spec));
+    if (&other != &one) bent += 2 * pressure(other).at(pressure(one).centre(), 3, modulus_of(spec));
   return bent / own;
 }
 

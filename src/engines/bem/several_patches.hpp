@@ -46,4 +46,15 @@ SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double a
 /// the sum of 2/(pi E*) ∫ p_j/r_j³ dA over kappa, in the plane the second derivative of the depression.
 double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& patches, const PatchOnWheel& one);
 
+/// One connected part of a patch, or several around one place.
+struct PatchPiece {
+  RigidContact place;  ///< of the profiles, with the contact angle there
+  PatchOnWheel patch;  ///< on the grid and in the plane of the whole, nothing outside of the part
+};
+
+/// The cells with pressure that hang together, by sides or corners, belong to the contact that their centre of pressure
+/// is nearest to. The dissipation of the whole is shared by q·slip of the cells. Of one part: the whole, at the plane's
+/// own place where it holds several contacts, else at that contact.
+std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole);
+
 }  // namespace railstrata

@@ -5,11 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
 
-#include "bem/patch_pieces.hpp"
 #include "bem/several_patches.hpp"
 #include "core/faults.hpp"
 #include "model/drive_at_contact.hpp"
@@ -40,21 +37,19 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
   const double over_time = field.slip_is_distance ? 1.0 : speed;
   field.bound = s.tangential.bound;
   const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
-  for (int i = 0; i < g.nx; ++i)
-    for (int j = 0; j < g.ny; ++j) {
-      const std::size_t k = g.index(i, j);
-      const Vec2 point = contact.point + g.y(j) * tangent + patch.profile.rail_height[k] * normal;
-      field.x[k] = g.x(i);
-      field.y[k] = point.y;
-      field.z[k] = point.z;
-      field.area[k] = g.cell_area();
-      field.p[k] = s.normal.pressure[k];
-      field.q_x[k] = s.tangential.q_x[k];
-      field.q_y[k] = s.tangential.q_y[k];
-      field.slip_x[k] = over_time * s.tangential.cell_slip.x[k];
-      field.slip_y[k] = over_time * s.tangential.cell_slip.y[k];
-      field.state[k] = s.tangential.state[k];
-    }
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    const Vec2 point = contact.point + g.y_of(k) * tangent + patch.profile.rail_height[k] * normal;
+    field.x[k] = g.x_of(k);
+    field.y[k] = point.y;
+    field.z[k] = point.z;
+    field.area[k] = g.cell_area();
+    field.p[k] = s.normal.pressure[k];
+    field.q_x[k] = s.tangential.q_x[k];
+    field.q_y[k] = s.tangential.q_y[k];
+    field.slip_x[k] = over_time * s.tangential.cell_slip.x[k];
+    field.slip_y[k] = over_time * s.tangential.cell_slip.y[k];
+    field.state[k] = s.tangential.state[k];
+  }
 }
 
 /// The one column of a line contact as three, each in the middle of a third of the line.
@@ -114,14 +109,12 @@ double motion_power(const PatchOnWheel& p, double speed) {
   const TangentialSolution& t = p.solution.tangential;
   const auto further = [](const Plane& plane, std::size_t k) { return plane.empty() ? 0.0 : plane[k]; };
   double sum = 0;
-  for (int i = 0; i < g.nx; ++i)
-    for (int j = 0; j < g.ny; ++j) {
-      const std::size_t k = g.index(i, j);
-      const double spin = c.spin + further(c.local_spin, static_cast<std::size_t>(j));
-      const double x = t.creepage_x - c.spin * g.y(j) + further(c.extra_slip.x, k),
-                   y = t.creepage_y + spin * g.x(i) + further(c.extra_slip.y, k);
-      sum += t.q_x[k] * x + t.q_y[k] * y;
-    }
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    const double spin = c.spin + further(c.local_spin, k % static_cast<std::size_t>(g.ny));
+    const double x = t.creepage_x - c.spin * g.y_of(k) + further(c.extra_slip.x, k),
+                 y = t.creepage_y + spin * g.x_of(k) + further(c.extra_slip.y, k);
+    sum += t.q_x[k] * x + t.q_y[k] * y;
+  }
   return sum * g.cell_area() * speed;
 }
 
@@ -132,7 +125,7 @@ SolvedPatch solved_patch(const PatchGrid& grid, const NormalSolution& s, double 
   SolvedPatch out{g.y(g.ny - 1), g.y(0), g.y(0) - 0.5 * g.dy, g.y(g.ny - 1) + 0.5 * g.dy, s.load, s.approach};
   for (std::size_t k = 0; k < s.pressure.size(); ++k) {
     if (!(s.pressure[k] > 0)) continue;
-    const double y = g.y(static_cast<int>(k) % g.ny);
+    const double y = g.y_of(k);
     out.low = std::min(out.low, y - 0.5 * g.dy);
     out.high = std::max(out.high, y + 0.5 * g.dy);
   }
@@ -239,12 +232,12 @@ void solve_under(double normal, double weight, const CaseSpec& spec, const OnePa
     solve(&out.solution);
     if (!out.solution.normal.touches_edge) return;
   } else if (starts_from_neighbour(spec, one, options)) {
-    out.patch = case_patch_on(options.neighbour->grid, spec, one.placement, options, {.load = normal, .approach = {}});
+    out.patch = case_patch_on(options.neighbour->grid, spec, one.placement, options, {.load = normal});
     drive_patch(spec, one, weight, out.patch.contact);
     solve(&options.neighbour->solution);
     if (!reaches_edge(out.patch.grid, out.solution.normal.pressure)) return;
   }
-  out.patch = make_case_patch(spec, one.placement, options, {.load = normal, .approach = {}}, one.room);
+  out.patch = make_case_patch(spec, one.placement, options, {.load = normal}, one.room);
   drive_patch(spec, one, weight, out.patch.contact);
   solve(nullptr);
 }
@@ -277,14 +270,6 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const OnePatch& one, con
   }
 }
 
-[[noreturn]] void refuse_wedged(const RigidContact& contact) {
-  throw CaseError(
-      fmt::format(
-          "no normal force balances the weight at a contact angle of {:.1f} degrees: the wheel is wedged by friction",
-          std::abs(contact.angle) * 180 / std::numbers::pi),
-      "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
-}
-
 SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const double load = spec.vehicle.load();
   check_friction(spec, load, normal_load(load, 0, placement.contact));
@@ -298,7 +283,7 @@ SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const B
     alone = balance_vertical_load(spec, one, options, load);
     alone.contacts = std::move(shared.contacts);
   }
-  if (alone.wedged) refuse_wedged(alone.contact);
+  if (alone.wedged) refuse_wedged("weight", alone.contact);
   shared.load_iterations = alone.load_iterations;
   shared.patches.push_back(std::move(alone));
   return shared;
@@ -395,6 +380,14 @@ BemResult result_of(const CaseSpec& spec, const Placement& placement, const std:
   return r;
 }
 
+/// sign: of the friction on this body, over that on the rail.
+Subsurface interior(const LayeredHalfSpace& body, const BemPatch& patch, double sign) {
+  const ContactField& f = patch.together ? *patch.together : patch.field;
+  Plane q_x = of_cells(patch, f.q_x), q_y = of_cells(patch, f.q_y);
+  for (Plane* q : {&q_x, &q_y}) scale_by(*q, sign);
+  return {body, patch.grid, of_cells(patch, f.p), std::move(q_x), std::move(q_y)};
+}
+
 }  // namespace
 
 std::vector<const BemPatch*> patches_of(const BemResult& r) {
@@ -442,25 +435,8 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   return r;
 }
 
-namespace {
-
-const ContactField& pressed_together(const BemPatch& p) { return p.together ? *p.together : p.field; }
-
-}  // namespace
-
-Subsurface rail_interior(const LayeredHalfSpace& rail, const BemPatch& patch) {
-  const ContactField& f = pressed_together(patch);
-  return {rail, patch.grid, of_cells(patch, f.p), of_cells(patch, f.q_x), of_cells(patch, f.q_y)};
-}
-
-Subsurface wheel_interior(const LayeredHalfSpace& wheel, const BemPatch& patch) {
-  const ContactField& f = pressed_together(patch);
-  Plane q_x = of_cells(patch, f.q_x), q_y = of_cells(patch, f.q_y);
-  for (Plane* q : {&q_x, &q_y})
-    for (double& v : *q) v = -v;
-  return {wheel, patch.grid, of_cells(patch, f.p), std::move(q_x), std::move(q_y)};
-}
-
+Subsurface rail_interior(const LayeredHalfSpace& rail, const BemPatch& patch) { return interior(rail, patch, 1); }
+Subsurface wheel_interior(const LayeredHalfSpace& wheel, const BemPatch& patch) { return interior(wheel, patch, -1); }
 Subsurface rail_interior(const BemResult& r) { return rail_interior(r.rail, r); }
 Subsurface wheel_interior(const BemResult& r) { return wheel_interior(r.wheel, r); }
 

@@ -2,18 +2,25 @@
 
 #include <cassert>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "bem/layer_correction.hpp"
-#include "bem/parity_convolution.hpp"
 #include "core/stop_request.hpp"
 #include "halfspace/line_contact.hpp"
 
 namespace railstrata {
 
 namespace {
+
+using Complex = std::complex<double>;
+
+/// Parity of an influence in x and in y: +1 even, -1 odd.
+struct Parity {
+  int x, y;
+};
 
 constexpr std::size_t kStates = 6;
 constexpr std::array<double InteriorState::*, kStates> kState{&InteriorState::e_xx, &InteriorState::e_yy,
@@ -26,6 +33,36 @@ constexpr Parity kParity[3][kStates] = {{{1, 1}, {1, 1}, {-1, -1}, {-1, 1}, {1, 
 constexpr std::array<double Vec3::*, 3> kAxis{&Vec3::x, &Vec3::y, &Vec3::z};
 constexpr Parity kDisplacementParity[3][3] = {
     {{-1, 1}, {1, -1}, {1, 1}}, {{1, 1}, {-1, -1}, {-1, 1}}, {{-1, -1}, {1, 1}, {1, -1}}};
+
+/// The planes s of `out` = sum over the loads (p, q_x, q_y) of table entry times load, by one FFT: value(entry, load,
+/// s) is the influence at an offset from a cell. The table holds the quadrant x, y >= 0 alone; the parities complete
+/// it. A spectrum is real where both parities agree, else imaginary with its imaginary part kept: hence the two
+/// products below.
+template <std::size_t N, class Table, class Planes, class Value>
+void convolve(const PlaneFft& fft, const PlaneLoads& loads, const Table& table, const Parity (&parity)[3][N],
+              Planes& out, Value&& value) {
+  Plane hat[3][N];
+  Plane values(table.size());
+  for (std::size_t load = 0; load < 3; ++load)
+    for (std::size_t s = 0; s < N; ++s) {
+      for (std::size_t i = 0; i < table.size(); ++i) values[i] = value(table[i], load, s);
+      hat[load][s] = fft.spectrum(values, parity[load][s].x, parity[load][s].y);
+    }
+  const std::vector<const double*> in{loads.p.data(), loads.q_x.data(), loads.q_y.data()};
+  fft.apply(in, cleared(out, loads.p.size()), fft.nx(), [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
+    for (int k = 0; k < count; ++k) {
+      const Complex load[3] = {z[0][k], z[1][k], z[2][k]};
+      for (std::size_t s = 0; s < N; ++s) {
+        Complex sum = 0;
+        for (std::size_t l = 0; l < 3; ++l) {
+          const double h = hat[l][s][first + static_cast<std::size_t>(k)];
+          sum += parity[l][s].x * parity[l][s].y > 0 ? h * load[l] : Complex(-h * load[l].imag(), h * load[l].real());
+        }
+        z[s][k] = sum;
+      }
+    }
+  });
+}
 
 }  // namespace
 
@@ -52,7 +89,7 @@ StatePlane Subsurface::plane(double depth) const {
   const int nx = fft.mx() / 2 + 1, ny = fft.my() / 2 + 1;
   const auto table = grid_.line ? in_first_column(strip_interior_table(body_.substrate, depth, nx, grid_.dx), ny)
                                 : rectangle_interior_table(body_.substrate, depth, nx, ny, grid_.dx, grid_.dy);
-  convolve(fft, {loads_.p.data(), loads_.q_x.data(), loads_.q_y.data()}, table, kParity, cleared(out, grid_.size()),
+  convolve(fft, loads_, table, kParity, out,
            [](const InteriorInfluence& t, std::size_t load, std::size_t s) { return t[load].*kState[s]; });
   straighten_steps(depth, out);
   if (layered_) {
@@ -72,8 +109,7 @@ DisplacementPlane Subsurface::displacement(double depth) const {
   const PlaneFft fft(grid_.nx, grid_.ny, reach_x_, reach_y_);
   const auto table =
       rectangle_displacement_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
-  convolve(fft, {loads_.p.data(), loads_.q_x.data(), loads_.q_y.data()}, table, kDisplacementParity,
-           cleared(out, grid_.size()),
+  convolve(fft, loads_, table, kDisplacementParity, out,
            [](const InteriorDisplacement& t, std::size_t load, std::size_t axis) { return t[load].*kAxis[axis]; });
   if (layered_) {
     stop_if_requested();

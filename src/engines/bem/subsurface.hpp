@@ -8,11 +8,32 @@
 #include <memory>
 #include <vector>
 
-#include "bem/interior_planes.hpp"
 #include "bem/patch_grid.hpp"
+#include "bem/plane_algebra.hpp"
+#include "halfspace/interior.hpp"
 #include "halfspace/layered.hpp"
 
 namespace railstrata {
+
+/// Pa, in every cell, in the body's own axes.
+struct PlaneLoads {
+  Plane p, q_x, q_y;
+};
+
+/// The state (halfspace/interior.hpp) in every cell of the grid at one depth. Axes: x rolling, y lateral, z into the
+/// body.
+struct StatePlane {
+  double depth = 0;
+  Plane e_xx, e_yy, e_xy, s_xz, s_yz, s_zz;
+  InteriorState at(std::size_t k) const { return {e_xx[k], e_yy[k], e_xy[k], s_xz[k], s_yz[k], s_zz[k]}; }
+};
+
+/// Displacement [m] in every cell of the grid at one depth, u_z into the body. The half-space is at rest far away;
+/// below a line contact it is nowhere, and the displacement NaN.
+struct DisplacementPlane {
+  double depth = 0;
+  Plane u_x, u_y, u_z;
+};
 
 struct InteriorPoint {
   Vec3 displacement;  ///< m

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -13,13 +12,6 @@ namespace railstrata {
 
 namespace {
 
-double largest_at_rim(const Plane& v, const PatchGrid& g) {
-  double most = 0;
-  for (int i = 0; i < g.nx && !g.line; ++i) most = std::max({most, v[g.index(i, 0)], v[g.index(i, g.ny - 1)]});
-  for (int j = 0; j < g.ny; ++j) most = std::max({most, v[g.index(0, j)], v[g.index(g.nx - 1, j)]});
-  return most;
-}
-
 bool lies_in(const PatchGrid& g, double x, double y) {
   return x >= g.x0 && x <= g.x(g.nx - 1) && y >= g.y0 && y <= g.y(g.ny - 1);
 }
@@ -27,9 +19,8 @@ bool lies_in(const PatchGrid& g, double x, double y) {
 /// without: a grid whose cells do not count; may be null.
 StressPeak peak_of(const Plane& v, const PatchGrid& g, double depth, const PatchGrid* without) {
   std::size_t k = 0;
-  for (int i = 0; i < g.nx; ++i)
-    for (int j = 0; j < g.ny; ++j)
-      if (v[g.index(i, j)] > v[k] && !(without && lies_in(*without, g.x(i), g.y(j)))) k = g.index(i, j);
+  for (std::size_t c = 0; c < v.size(); ++c)
+    if (v[c] > v[k] && !(without && lies_in(*without, g.x_of(c), g.y_of(c)))) k = c;
   const int i = static_cast<int>(k) / g.ny, j = static_cast<int>(k) % g.ny;
   StressPeak peak{v[k], g.x(i), g.y(j), depth, largest_at_rim(v, g)};
   const auto refine = [&](std::size_t before, std::size_t after, double size, double& place) {
@@ -134,8 +125,7 @@ class GridSearch {
 /// Goes outside of the grid where its rim has a good share of a maximum, and deeper where one lies at the lower end.
 class PeakSearch {
  public:
-  using Coarsen = std::function<std::unique_ptr<Subsurface>()>;
-  PeakSearch(const Subsurface& body, Coarsen coarsen) : grid_(body.grid()), near_(body), coarsen_(std::move(coarsen)) {}
+  explicit PeakSearch(const Subsurface& body) : body_(body), near_(body) {}
 
   ZonePeaks at(double depth, bool below) {
     return widening([&](GridSearch& grid, Wanted) { return grid.at(depth, below); });
@@ -167,8 +157,8 @@ class PeakSearch {
     const Wanted wanted = beyond(best);
     if (!wanted.any()) return best;
     if (!far_) {
-      far_body_ = coarsen_();
-      far_.emplace(*far_body_, &grid_);
+      far_body_ = body_.coarsened();
+      far_.emplace(*far_body_, &body_.grid());
     }
     const ZonePeaks outside = search(*far_, wanted);
     const auto take = [](StressPeak& peak, const StressPeak& other) {
@@ -180,9 +170,8 @@ class PeakSearch {
     return best;
   }
 
-  const PatchGrid& grid_;
+  const Subsurface& body_;
   GridSearch near_;
-  Coarsen coarsen_;
   std::unique_ptr<Subsurface> far_body_;
   std::optional<GridSearch> far_;
 };
@@ -190,7 +179,7 @@ class PeakSearch {
 }  // namespace
 
 SubsurfacePeaks Subsurface::peaks(SearchDepths depths) const {
-  PeakSearch search(*this, [this] { return coarsened(); });
+  PeakSearch search(*this);
   SubsurfacePeaks out;
   out.surface = search.at(0, true);
   double top = 0;

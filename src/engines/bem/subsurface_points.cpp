@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "bem/layer_correction.hpp"
@@ -43,10 +43,6 @@ struct Around {
   }
 };
 
-bool has_cells_around(const PatchGrid& g, const Vec3& at) {
-  return at.x >= g.x(1) && at.x <= g.x(g.nx - 2) && (g.line || (at.y >= g.y(1) && at.y <= g.y(g.ny - 2)));
-}
-
 /// Lengths of the grid beyond its rim, and points of a transform with layers: what lies farther feels a point load, and
 /// costs minutes and memory without end.
 constexpr double kFarthest = 10, kMostPoints = 2e7;
@@ -63,7 +59,10 @@ double length_of(const PatchGrid& grid) { return std::max(grid.nx * grid.dx, gri
 
 }  // namespace
 
-bool Subsurface::covers(const Vec3& at) const { return has_cells_around(grid_, at); }
+bool Subsurface::covers(const Vec3& at) const {
+  const PatchGrid& g = grid_;
+  return at.x >= g.x(1) && at.x <= g.x(g.nx - 2) && (g.line || (at.y >= g.y(1) && at.y <= g.y(g.ny - 2)));
+}
 
 Sym3 Subsurface::stress_at(const StatePlane& s, const Vec3& at, bool below_interface) const {
   const Around near(grid_, at);
@@ -99,12 +98,11 @@ std::unique_ptr<Subsurface> Subsurface::coarsened() const {
   g.y0 += middle_y;
   const auto means = [&](const Plane& v) {
     Plane out(g.size(), 0.0);
-    for (int i = 0; i < grid_.nx; ++i)
-      for (int j = 0; j < grid_.ny; ++j) {
-        const auto x = static_cast<int>(std::lround((grid_.x(i) - g.x0) / g.dx)),
-                   y = static_cast<int>(std::lround((grid_.y(j) - g.y0) / g.dy));
-        out[g.index(x, y)] += v[grid_.index(i, j)] / cells;
-      }
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const auto x = static_cast<int>(std::lround((grid_.x_of(k) - g.x0) / g.dx)),
+                 y = static_cast<int>(std::lround((grid_.y_of(k) - g.y0) / g.dy));
+      out[g.index(x, y)] += v[k] / cells;
+    }
     return out;
   };
   return std::make_unique<Subsurface>(body_, g, means(loads_.p), means(loads_.q_x), means(loads_.q_y),
@@ -138,8 +136,8 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
   if (more_x > 0 || more_y > 0) return widened(more_x, more_y)->at(points, below_interface);
 
   std::vector<std::size_t> order(points.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a].z < points[b].z; });
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return points[k].z; });
   std::vector<InteriorPoint> out(points.size());
   StatePlane s;
   DisplacementPlane u;

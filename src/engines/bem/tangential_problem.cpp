@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "bem/cell_slip.hpp"
 #include "bem/newton_step.hpp"
@@ -34,7 +31,7 @@ class Solver {
   TangentialSolution solve(const TangentialSolution* start) {
     for (std::size_t i = 0; i < s_.n; ++i) s_.set[i] = s_.problem.traction_bound[i] > 0 ? kStick : kOutside;
     check_forces();
-    if (start) adopt(*start);
+    if (start) s_.adopt(*start, true);
     s_.update_slip();
     if (start && fill_new_cells(*start)) s_.update_slip();
     int changed = update_sets();
@@ -84,24 +81,6 @@ class Solver {
           s_.varying && s_.problem.third_body.yields() ? "third_body.yield_shear" : "drive.friction_coefficient");
   }
 
-  /// Takes over the traction of a similar problem. Its traction bound differs: cells that slipped are put on the new
-  /// bound, sticking ones at most on it.
-  void adopt(const TangentialSolution& start) {
-    for (std::size_t i = 0; i < s_.n; ++i) {
-      if (s_.set[i] == kOutside) continue;
-      const double y = start.q_y[i] / s_.problem.lateral_share, size = magnitude(start.q_x[i], y);
-      double g = s_.bound[i];
-      const bool slips = start.state[i] == ContactState::slip && size > 0;
-      if (s_.varying && slips) s_.carried[i] = g = std::min(g, size);
-      const double scale = slips || size > g ? g / size : 1.0;
-      s_.q[i] = scale * start.q_x[i];
-      s_.q[s_.n + i] = scale * y;
-      if (slips) s_.set[i] = kSlip;
-    }
-    if (s_.problem.x.force) s_.creepage[0] = start.creepage_x;
-    if (s_.problem.y.force) s_.creepage[1] = s_.problem.lateral_share * start.creepage_y;
-  }
-
   /// Cells that have come into contact since: as if alone. Left without traction they would mislead the first Newton
   /// step.
   bool fill_new_cells(const TangentialSolution& start) {
@@ -139,24 +118,21 @@ class Solver {
       double wrong = 0, rigid = 0;  // squares
     };
     std::vector<Largest> part(pieces_of(s_.n));
-    for_pieces(
-        s_.n,
-        [&](std::size_t k, std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) {
-            if (s_.set[i] == kOutside) continue;
-            const double x = s_.given.rigid[i] + s_.creepage[0], y = s_.given.rigid[s_.n + i] + s_.creepage[1],
-                         g = s_.bound[i];
-            const double across = (s_.slip[i] * s_.q[s_.n + i] - s_.lateral_slip(i) * s_.q[i]) / g;
-            const double against = std::min(0.0, s_.slip[i] * s_.q[i] + s_.slip[s_.n + i] * s_.q[s_.n + i]) / g;
-            part[k].rigid = std::max({part[k].rigid, x * x + y * y,
-                                      1e-4 * (s_.given.history[i] * s_.given.history[i] +
-                                              s_.given.history[s_.n + i] * s_.given.history[s_.n + i])});
-            part[k].wrong = std::max(
-                part[k].wrong, s_.set[i] == kStick ? s_.slip[i] * s_.slip[i] + s_.slip[s_.n + i] * s_.slip[s_.n + i]
-                                                   : across * across + against * against);
-          }
-        },
-        2);
+    for_pieces(s_.n, 2, [&](std::size_t k, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (s_.set[i] == kOutside) continue;
+        const double x = s_.given.rigid[i] + s_.creepage[0], y = s_.given.rigid[s_.n + i] + s_.creepage[1],
+                     g = s_.bound[i];
+        const double across = (s_.slip[i] * s_.q[s_.n + i] - s_.lateral_slip(i) * s_.q[i]) / g;
+        const double against = std::min(0.0, s_.slip[i] * s_.q[i] + s_.slip[s_.n + i] * s_.q[s_.n + i]) / g;
+        part[k].rigid = std::max({part[k].rigid, x * x + y * y,
+                                  1e-4 * (s_.given.history[i] * s_.given.history[i] +
+                                          s_.given.history[s_.n + i] * s_.given.history[s_.n + i])});
+        part[k].wrong = std::max(part[k].wrong, s_.set[i] == kStick
+                                                    ? s_.slip[i] * s_.slip[i] + s_.slip[s_.n + i] * s_.slip[s_.n + i]
+                                                    : across * across + against * against);
+      }
+    });
     Largest all;
     for (const Largest& p : part) all = {std::max(all.wrong, p.wrong), std::max(all.rigid, p.rigid)};
     scale_ = std::sqrt(all.rigid);
@@ -206,24 +182,21 @@ class Solver {
     s.q_x.assign(s_.q.begin(), s_.q.begin() + half);
     s.q_y.assign(s_.q.begin() + half, s_.q.end());
     for (double& q : s.q_y) q = s_.traction_y(q);
-    s.slip_x.assign(s_.n, 0.0);
-    s.slip_y.assign(s_.n, 0.0);
+    s.slip = {Plane(s_.n, 0.0), Plane(s_.n, 0.0)};
     s.state.assign(s_.n, ContactState::separated);
     s.creepage_x = s_.creepage[0];
     s.creepage_y = s_.slip_y(s_.creepage[1]);
     const double dA = s_.grid.cell_area();
-    for (int i = 0; i < s_.grid.nx; ++i)
-      for (int j = 0; j < s_.grid.ny; ++j) {
-        const std::size_t k = s_.grid.index(i, j);
-        if (s_.set[k] == kOutside) continue;
-        s.state[k] = s_.set[k] == kStick ? ContactState::stick : ContactState::slip;
-        (s_.set[k] == kStick ? s.stick_area : s.slip_area) += dA;
-        if (s_.set[k] == kSlip) {
-          s.slip_x[k] = s_.slip[k];
-          s.slip_y[k] = s_.slip_y(s_.lateral_slip(k));
-        }
-        s.moment += (s_.grid.x(i) * s.q_y[k] - s_.grid.y(j) * s.q_x[k]) * dA;
+    for (std::size_t k = 0; k < s_.n; ++k) {
+      if (s_.set[k] == kOutside) continue;
+      s.state[k] = s_.set[k] == kStick ? ContactState::stick : ContactState::slip;
+      (s_.set[k] == kStick ? s.stick_area : s.slip_area) += dA;
+      if (s_.set[k] == kSlip) {
+        s.slip.x[k] = s_.slip[k];
+        s.slip.y[k] = s_.slip_y(s_.lateral_slip(k));
       }
+      s.moment += (s_.grid.x_of(k) * s.q_y[k] - s_.grid.y_of(k) * s.q_x[k]) * dA;
+    }
     s.force_x = sum(s.q_x) * dA;
     s.force_y = sum(s.q_y) * dA;
     const StepSlip steps = step_slip();
@@ -260,15 +233,13 @@ TangentialProblem taken(const PatchPart& part, const TangentialProblem& p) {
 }
 
 constexpr Plane TangentialSolution::*kSolutionPlanes[] = {
-    &TangentialSolution::q_x,     &TangentialSolution::q_y,
-    &TangentialSolution::slip_x,  &TangentialSolution::slip_y,
-    &TangentialSolution::plastic, &TangentialSolution::lost_friction,
-    &TangentialSolution::bound,   &TangentialSolution::film_flexibility};
+    &TangentialSolution::q_x,           &TangentialSolution::q_y,   &TangentialSolution::plastic,
+    &TangentialSolution::lost_friction, &TangentialSolution::bound, &TangentialSolution::film_flexibility};
 
 TangentialSolution taken(const PatchPart& part, const TangentialSolution& s) {
   TangentialSolution out = s;
   for (Plane TangentialSolution::*plane : kSolutionPlanes) out.*plane = part.take(s.*plane);
-  out.cell_slip = part.take(s.cell_slip);
+  for (PlanePair* pair : {&out.slip, &out.cell_slip}) *pair = part.take(*pair);
   out.state = part.take(s.state);
   return out;
 }
@@ -276,32 +247,23 @@ TangentialSolution taken(const PatchPart& part, const TangentialSolution& s) {
 /// On the whole grid: nothing bears friction outside the part.
 TangentialSolution put_back(const PatchPart& part, TangentialSolution s) {
   for (Plane TangentialSolution::*plane : kSolutionPlanes) s.*plane = part.put(s.*plane);
-  s.cell_slip = part.put(s.cell_slip);
+  for (PlanePair* pair : {&s.slip, &s.cell_slip}) *pair = part.put(*pair);
   s.state = part.put(s.state, ContactState::separated);
   return s;
 }
 
 /// Displacement by the film's flexibility beyond the influence operator's.
-void add_film(const TangentialSolution& s, Plane& u_x, Plane& u_y) {
+void add_film(const TangentialSolution& s, PlanePair& u) {
   for (std::size_t k = 0; k < s.film_flexibility.size(); ++k) {
-    u_x[k] += s.film_flexibility[k] * s.q_x[k];
-    u_y[k] += s.film_flexibility[k] * s.q_y[k];
+    u.x[k] += s.film_flexibility[k] * s.q_x[k];
+    u.y[k] += s.film_flexibility[k] * s.q_y[k];
   }
 }
 
 /// A solution in a problem beside its own: sets stand, slipping cells are on their bound.
 void take_over(const TangentialSolution& s, TangentialState& state) {
-  for (std::size_t i = 0; i < state.n; ++i) {
-    if (s.state[i] == ContactState::separated) continue;
-    const double y = s.q_y[i] / state.problem.lateral_share, size = magnitude(s.q_x[i], y);
-    const bool slips = s.state[i] == ContactState::slip && size > 0;
-    const double scale = slips ? state.bound[i] / size : 1.0;
-    state.set[i] = slips ? kSlip : kStick;
-    state.q[i] = scale * s.q_x[i];
-    state.q[state.n + i] = scale * y;
-  }
-  if (state.problem.x.force) state.creepage[0] = s.creepage_x;
-  if (state.problem.y.force) state.creepage[1] = state.problem.lateral_share * s.creepage_y;
+  for (std::size_t i = 0; i < state.n; ++i) state.set[i] = s.state[i] == ContactState::separated ? kOutside : kStick;
+  state.adopt(s, false);
   state.update_slip();
 }
 
@@ -363,8 +325,7 @@ TangentialDerivative TangentialDerivatives::by(const TangentialProblem& more_who
   for (std::size_t k = 0; k < n; ++k) {
     d.q_x[k] = turned[k] + slope(up.q[k], down.q[k]);
     d.q_y[k] = here.traction_y(turned[n + k]) + slope(up.traction_y(up.q[n + k]), down.traction_y(down.q[n + k]));
-    d.moment += (grid.x(static_cast<int>(k) / grid.ny) * d.q_y[k] - grid.y(static_cast<int>(k) % grid.ny) * d.q_x[k]) *
-                grid.cell_area();
+    d.moment += (grid.x_of(k) * d.q_y[k] - grid.y_of(k) * d.q_x[k]) * grid.cell_area();
   }
   d.force_x = sum(d.q_x) * grid.cell_area();
   d.force_y = sum(d.q_y) * grid.cell_area();
@@ -403,14 +364,11 @@ Plane rolled_on(const PatchGrid& grid, const Plane& values) {
 
 void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
                       RollingConditions& next) {
-  const std::size_t n = grid.size(), row = static_cast<std::size_t>(grid.ny);
-  Plane ux(n + row), uy(n + row);
-  influence.tangential(before.q_x.data(), before.q_y.data(), ux.data(), uy.data(), grid.nx + 1);
-  add_film(before, ux, uy);
+  next.before = influence.tangential(before.q_x, before.q_y, grid.nx + 1);
+  add_film(before, next.before);
+  for (Plane* u : {&next.before.x, &next.before.y}) u->erase(u->begin(), u->begin() + grid.ny);
   next.kind = RollingKind::transient;
   next.step = grid.dx;
-  next.before.x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
-  next.before.y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
   next.plastic_before = rolled_on(grid, before.plastic);
   next.lost_before = rolled_on(grid, before.lost_friction);
   next.traction_before = {rolled_on(grid, before.q_x), rolled_on(grid, before.q_y)};
@@ -419,10 +377,8 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
               RollingConditions& next) {
   next.kind = RollingKind::shift;
-  next.before.x.resize(grid.size());
-  next.before.y.resize(grid.size());
-  influence.tangential(before.q_x.data(), before.q_y.data(), next.before.x.data(), next.before.y.data(), grid.nx);
-  add_film(before, next.before.x, next.before.y);
+  next.before = influence.tangential(before.q_x, before.q_y, grid.nx);
+  add_film(before, next.before);
   next.plastic_before = before.plastic;
 }
 

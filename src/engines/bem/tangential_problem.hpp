@@ -85,7 +85,7 @@ struct TangentialOptions {
 
 struct TangentialSolution {
   Plane q_x, q_y;                   ///< Pa, on the rail
-  Plane slip_x, slip_y;             ///< relative to V (shift: m), of the slipping cells, along their traction; over the
+  PlanePair slip;                   ///< relative to V (shift: m), of the slipping cells, along their traction; over the
                                     ///< step that ends there
   PlanePair cell_slip;              ///< the same at the middle of each cell (slip_of_cells)
   std::vector<ContactState> state;  ///< a cell whose third body yields slips

@@ -1,9 +1,6 @@
 #include "bem/tangential_state.hpp"
 
-#include "bem/largest_influence.hpp"
-
 namespace railstrata {
-
 namespace {
 
 /// Of each cell of the patch, beyond what the influence operator has.
@@ -23,6 +20,30 @@ GivenSlip scaled(GivenSlip given, double lateral_share, std::size_t n) {
   for (Plane* plane : {&given.to_own_place, &given.to_middle_of_step})
     for (double& value : *plane) value *= lateral_share;
   return given;
+}
+
+/// Largest eigenvalue [m/Pa] of the displacement by tangential traction, rail minus wheel, where `inside` > 0: that of
+/// a traction of one sign over the whole patch. By powers of the operator, from below; the tenth has it to a
+/// thousandth.
+double largest_tangential_influence(const InfluenceOperator& influence, const Plane& inside) {
+  constexpr int kPowers = 10;
+  const std::size_t n = inside.size();
+  Plane q_x(n), q_y(n);
+  for (std::size_t i = 0; i < n; ++i) q_x[i] = q_y[i] = inside[i] > 0 ? 1.0 : 0.0;
+  double largest = 0;
+  for (int power = 0; power < kPowers; ++power) {
+    const double size = std::sqrt(dot(q_x, q_x) + dot(q_y, q_y));
+    if (!(size > 0)) return 0;
+    scale_by(q_x, 1 / size);
+    scale_by(q_y, 1 / size);
+    const PlanePair u = influence.tangential(q_x, q_y, influence.nx());
+    largest = dot(q_x, u.x) + dot(q_y, u.y);
+    for (std::size_t i = 0; i < n; ++i) {
+      q_x[i] = inside[i] > 0 ? u.x[i] : 0.0;
+      q_y[i] = inside[i] > 0 ? u.y[i] : 0.0;
+    }
+  }
+  return largest;
 }
 
 }  // namespace
@@ -124,6 +145,22 @@ TangentialState::TangentialState(const InfluenceOperator& influence, const Patch
   varying.emplace(grid, problem, given);
   carried = varying->at_rest();
   bound = carried.data();
+}
+
+void TangentialState::adopt(const TangentialSolution& start, bool capped) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (set[i] == kOutside) continue;
+    const double y = start.q_y[i] / problem.lateral_share, size = magnitude(start.q_x[i], y);
+    double g = bound[i];
+    const bool slips = start.state[i] == ContactState::slip && size > 0;
+    if (varying && slips) carried[i] = g = std::min(g, size);
+    const double scale = slips || (capped && size > g) ? g / size : 1.0;
+    q[i] = scale * start.q_x[i];
+    q[n + i] = scale * y;
+    if (slips) set[i] = kSlip;
+  }
+  if (problem.x.force) creepage[0] = start.creepage_x;
+  if (problem.y.force) creepage[1] = problem.lateral_share * start.creepage_y;
 }
 
 void TangentialState::update_slip() {

@@ -85,21 +85,18 @@ struct TangentialState {
   /// kernel(i) for every cell; each stands for the values of two planes.
   template <class Kernel>
   void for_both(Kernel&& kernel) const {
-    for_cells(n, kernel, 2);
+    for_cells(n, 2, kernel);
   }
   using Components = std::array<double, 2>;
   /// The same, and the sums of a pair of planes after it.
   template <class Kernel>
   Components for_both_summed(const double* pair, Kernel&& kernel) const {
     std::vector<Components> part(pieces_of(n));
-    for_pieces(
-        n,
-        [&](std::size_t k, std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) kernel(i);
-          part[k] = {sum_of(begin, end, [&](std::size_t i) { return pair[i]; }),
-                     sum_of(begin, end, [&](std::size_t i) { return pair[n + i]; })};
-        },
-        2);
+    for_pieces(n, 2, [&](std::size_t k, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) kernel(i);
+      part[k] = {sum_of(begin, end, [&](std::size_t i) { return pair[i]; }),
+                 sum_of(begin, end, [&](std::size_t i) { return pair[n + i]; })};
+    });
     Components total{0, 0};
     for (const Components& p : part) {
       total[0] += p[0];
@@ -128,6 +125,9 @@ struct TangentialState {
   double traction_y(double of_state) const { return problem.lateral_share * of_state; }
   double slip_y(double of_state) const { return of_state / problem.lateral_share; }
 
+  /// Takes over the tractions of a similar problem in the cells of the patch, and the creepages of given forces. Its
+  /// traction bound differs: cells that slipped are put on the new bound, with `capped` sticking ones at most on it.
+  void adopt(const TangentialSolution& start, bool capped);
   void update_slip();
   /// A bound that varies takes the slip along the traction; cells that stick are bound by its value at rest.
   void follow_slip();

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -32,27 +30,22 @@ double largest_normal_load(const LoadHistory& history, double friction, const Ri
   return share < c ? std::min(alone * c / (c - share), kMostOfNormal * alone) : kMostOfNormal * alone;
 }
 
-/// A tenth of the tolerance: the next step corrects the force error of this one within one cell, so the first creepage
-/// from rest would err by twenty times the force's tolerance over friction.
-RollingOptions sharper(RollingOptions options) {
-  options.tangential.tolerance *= 0.1;
-  return options;
-}
-
 class Course {
  public:
   Course(const CaseSpec& spec, const Placement& placement, const BemOptions& options)
       : spec_(spec),
         placement_(placement),
-        options_(sharper(options.rolling)),
+        options_(options.rolling),
         history_(spec, placement.contact),
         patch_(make_case_patch(
             spec, placement, options,
             {.load = largest_normal_load(history_,
                                          spec.friction.lateral_coefficient.value_or(spec.drive.friction_coefficient),
-                                         placement.contact),
-             .approach = {}})),
+                                         placement.contact)})),
         rolling_(patch_.contact) {
+    // the next step corrects the force error of this one within one cell, so the first creepage from rest would err by
+    // twenty times the force's tolerance over friction
+    options_.tangential.tolerance *= 0.1;
     if (!patch_.grid.line)
       require_one_plane(placement, patch_.frictionless.approach, "transient.kind",
                         "a transient is solved in one contact plane only: remove transient.kind");
@@ -75,10 +68,10 @@ class Course {
   }
 
  private:
-  double place(int step) const { return history_.end() * step / state_.steps; }
-
   /// Rolling steps are whole cells; the history ends within half a cell of the last step.
-  double place_at_end(int step) const { return history_.rolls() ? step * patch_.grid.dx : place(step); }
+  double place_at_end(int step) const {
+    return history_.rolls() ? step * patch_.grid.dx : history_.end() * step / state_.steps;
+  }
 
   void require_a_cell() const {
     const double cell = patch_.grid.dx;
@@ -93,8 +86,7 @@ class Course {
   /// What rolls steadily from the start on finds no height there.
   void require_flat_start() const {
     if (spec_.transient.start != TransientStart::steady) return;
-    const Plane smooth = patch_.profile.gap, gap = gap_after(patch_, 0);
-    if (gap != smooth)
+    if (gap_after(patch_, 0) != patch_.profile.gap)
       throw CaseError("start = \"steady\" on an [[irregularity]]: nothing rolls steadily there",
                       "start before it, or give start = \"rest\"", "transient.start");
   }
@@ -105,8 +97,8 @@ class Course {
     for (int step = 0; step <= state_.steps; ++step) {
       const double at = place_at_end(step);
       last = solve_normal(*patch_.influence, patch_.grid, gap_after(patch_, at),
-                          {.load = normal_load(history_.at(at).load, 0, placement_.contact), .approach = {}},
-                          options_.normal, last.pressure);
+                          {.load = normal_load(history_.at(at).load, 0, placement_.contact)}, options_.normal,
+                          last.pressure);
       if (reaches_edge(patch_.grid, last.pressure)) return false;
     }
     return true;
@@ -238,11 +230,7 @@ class Course {
       if (std::abs(normal_load(load, lateral, rigid) - *c.target.load) * std::cos(rigid.angle) <= kTolerance * load)
         return;
     }
-    throw CaseError(
-        fmt::format(
-            "no normal force balances the load at a contact angle of {:.1f} degrees: the wheel is wedged by friction",
-            std::abs(rigid.angle) * 180 / std::numbers::pi),
-        "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
+    refuse_wedged("load", rigid);
   }
 
   /// Line contact: the displacement of distant points under a changing force, and the creepage of such a step, are not
@@ -260,6 +248,21 @@ class Course {
   std::optional<double> force_before_;  // along the rail
 };
 
+/// N, at most, of friction and film in series.
+double capacity(const CasePatch& patch, const NormalOptions& options, double normal) {
+  const Plane pressure =
+      solve_normal(*patch.influence, patch.grid, patch.contact.gap, {.load = normal}, options).pressure;
+  double sum = 0;
+  for (const double p : pressure)
+    sum += std::min(patch.contact.friction * p, patch.contact.third_body.under(p, 1).yield_shear);
+  return sum * patch.grid.cell_area();
+}
+
+/// A row's place; of two rows at one place, a jump, just behind it.
+double place_of(const std::vector<double>& places, std::size_t row) {
+  return row > 0 && places[row] == places[row - 1] ? std::nextafter(places[row], HUGE_VAL) : places[row];
+}
+
 }  // namespace
 
 int transient_steps(const CaseSpec& spec, const Placement& placement, double cell) {
@@ -270,6 +273,30 @@ TransientState solve_transient(const CaseSpec& spec, const Placement& placement,
                                const TransientObserver& observer) {
   require_support(uses::kHalfSpaces, spec);
   return Course(spec, placement, options).run(observer);
+}
+
+void require_film_carries(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  const ThirdBody film = third_body(spec);
+  if (spec.transient.kind == TransientKind::none || !film.yields() || film.hardening > 0) return;
+  const LoadHistory history(spec, placement.contact);
+  const double largest = normal_load(history.largest_load(), 0, placement.contact);
+  std::vector<double> places = history.places();
+  if (places.empty()) places.push_back(0);
+  const CasePatch patch = make_case_patch(spec, placement, options, {.load = largest});
+  for (std::size_t row = 0; row < places.size(); ++row) {
+    const LoadedMoment m = history.at(place_of(places, row));
+    const double wanted = std::hypot(m.x.force.value_or(0), m.y.force.value_or(0));
+    if (wanted == 0) continue;
+    const double normal = normal_load(m.load, m.y.force.value_or(0), placement.contact),
+                 available = capacity(patch, options.rolling.normal, normal);
+    if (wanted < available) continue;
+    throw CaseError(fmt::format("row {} of the transient wants {:.4g} kN of friction; a film that yields at {:.4g} MPa "
+                                "carries at most {:.4g} kN under its load",
+                                row + 1, 1e-3 * wanted, 1e-6 * film.yield_shear, 1e-3 * available),
+                    "lower the force, raise third_body.yield_shear, or give creepages or displacements, which also "
+                    "allow full sliding",
+                    "third_body.yield_shear");
+  }
 }
 
 }  // namespace railstrata

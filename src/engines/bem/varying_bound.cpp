@@ -61,14 +61,7 @@ double inside_of_patch(double length, double step) {
 }  // namespace
 
 VaryingBound::VaryingBound(const PatchGrid& grid, const TangentialProblem& problem, const GivenSlip& given)
-    : grid_(grid),
-      problem_(problem),
-      given_(given),
-      along_(grid.size(), 0.0),
-      rest_(grid.size()),
-      wanted_(grid.size()),
-      by_slip_(grid.size()),
-      change_(grid.size()) {
+    : grid_(grid), problem_(problem), given_(given) {
   if (problem.third_body.yields()) {
     plastic_.assign(grid.size(), 0.0);
     yields_.assign(grid.size(), 0);
@@ -93,13 +86,14 @@ void VaryingBound::require_unique_slip(const TangentialProblem& problem, double 
   }
 }
 
-double VaryingBound::before(const Plane& now, const Plane& history, int i, std::size_t k) const {
+double VaryingBound::before(const Plane& now, const Plane& history, std::size_t k) const {
   if (problem_.kind != RollingKind::steady) return history.empty() ? 0.0 : history[k];
-  return i + 1 < grid_.nx ? now[k + static_cast<std::size_t>(grid_.ny)] : 0.0;
+  const std::size_t ahead = k + static_cast<std::size_t>(grid_.ny);
+  return ahead < now.size() ? now[ahead] : 0.0;
 }
 
-FilmStep VaryingBound::follow_film(int i, std::size_t k, double length) {
-  const double at_rest = rest_[k], plastic = before(plastic_, problem_.plastic_before, i, k);
+FilmStep VaryingBound::follow_film(std::size_t k, double length) {
+  const double at_rest = rest_[k], plastic = before(plastic_, problem_.plastic_before, k);
   const ThirdBody& law = problem_.film.empty() ? problem_.third_body : problem_.film[k];
   const FilmStep film = yield_or_slide(law, at_rest, plastic, std::max(0.0, along_[k]) * length);
   rest_[k] = yield_or_slide(law, at_rest, plastic, 0).bound;
@@ -109,13 +103,13 @@ FilmStep VaryingBound::follow_film(int i, std::size_t k, double length) {
   return {film.bound, film.by_slip, film.plastic - plastic, film.slides};
 }
 
-void VaryingBound::follow_cell(int i, std::size_t k, double length, double inside) {
+void VaryingBound::follow_cell(std::size_t k, double length, double inside) {
   const double bound = problem_.traction_bound[k], V = problem_.speed, time = inside / V,
-               lost = lost_.empty() ? 0.0 : before(lost_, problem_.lost_before, i, k);
+               lost = lost_.empty() ? 0.0 : before(lost_, problem_.lost_before, k);
   const FallingFriction& law = problem_.falling;
   const RememberedShare at_rest = remembered_share(law, lost, 0, time);
   rest_[k] = at_rest.share.value * bound;
-  const FilmStep film = plastic_.empty() ? FilmStep{rest_[k], 0, 0, true} : follow_film(i, k, length);
+  const FilmStep film = plastic_.empty() ? FilmStep{rest_[k], 0, 0, true} : follow_film(k, length);
   const double slip = film.slides ? std::max(0.0, along_[k] - film.plastic / length) : 0.0;
   const RememberedShare now = slip > 0 ? remembered_share(law, lost, slip * V, time) : at_rest;
   wanted_[k] = film.slides ? now.share.value * bound : film.bound;
@@ -128,12 +122,10 @@ void VaryingBound::follow_cell(int i, std::size_t k, double length, double insid
 void VaryingBound::follow() {
   const double step = step_length(grid_, problem_);
   const bool film = problem_.third_body.thickness > 0;  // weights of first cells then are shares of the step
-  for (int i = grid_.nx - 1; i >= 0; --i)
-    for (int j = 0; j < grid_.ny; ++j) {
-      const std::size_t k = grid_.index(i, j);
-      const double length = given_.first_step.empty() ? step : given_.first_step[k];
-      follow_cell(i, k, length, film ? length : inside_of_patch(length, step));
-    }
+  for (std::size_t k = grid_.size(); k-- > 0;) {        // from the leading edge on
+    const double length = given_.first_step.empty() ? step : given_.first_step[k];
+    follow_cell(k, length, film ? length : inside_of_patch(length, step));
+  }
 }
 
 void VaryingBound::change() {

@@ -39,17 +39,18 @@ class VaryingBound {
   const Plane& lost() const { return lost_; }                  ///< share; empty without a memory
 
  private:
-  double before(const Plane& now, const Plane& history, int i, std::size_t k) const;
+  double before(const Plane& now, const Plane& history, std::size_t k) const;
   /// length: of the cell's step [m]; inside: what of it a particle is in the patch.
-  void follow_cell(int i, std::size_t k, double length, double inside);
+  void follow_cell(std::size_t k, double length, double inside);
   /// Like yield_or_slide, `plastic` only what this step adds.
-  FilmStep follow_film(int i, std::size_t k, double length);
+  FilmStep follow_film(std::size_t k, double length);
   void change_of_film();
   void change_of_memory();
   const PatchGrid& grid_;
   const TangentialProblem& problem_;
   const GivenSlip& given_;
-  Plane along_, rest_, wanted_, by_slip_, change_, plastic_;
+  Plane along_ = Plane(grid_.size()), rest_ = along_, wanted_ = along_, by_slip_ = along_, change_ = along_;
+  Plane plastic_;      // with a film that yields
   Plane lost_, kept_;  // with a memory; kept_: what is left of a change of what was lost before
   Mask yields_;        // the film is the lower bound; with a film that yields
   Mask taken_over_;    // friction is, from the film within the cell's step: what lies ahead no longer matters

@@ -3,8 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vec.hpp"
-
 namespace railstrata {
 
 enum class ContactState : std::uint8_t { separated = 0, stick = 1, slip = 2 };

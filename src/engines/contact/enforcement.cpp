@@ -1,18 +1,17 @@
 #include "contact/enforcement.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace railstrata {
 
-void WheelNumbering::number(const MortarRows& rows, const ContactSurface& wheel, ContactSystem& system) {
+void number_wheel_nodes(const MortarRows& rows, const ContactSurface& wheel, ContactSystem& system) {
   const std::ptrdiff_t node_stride = static_cast<std::ptrdiff_t>(wheel.stride) * 3;
-  mark_.resize(static_cast<std::size_t>(wheel.columns) * wheel.stride, -1);
+  system.mark.resize(static_cast<std::size_t>(wheel.columns) * wheel.stride, -1);
   auto slot = [&](std::ptrdiff_t index) -> int& {
     const std::ptrdiff_t k = index - wheel.first_line;
     assert(k >= 0 && k < node_stride * wheel.columns && k % node_stride < wheel.stride);
-    return mark_[k / node_stride * wheel.stride + k % node_stride];
+    return system.mark[k / node_stride * wheel.stride + k % node_stride];
   };
   system.wheel_nodes.clear();
   system.weight_node.resize(rows.weights.size());
@@ -29,36 +28,33 @@ void WheelNumbering::number(const MortarRows& rows, const ContactSurface& wheel,
 
 namespace {
 
-// Velocities gained by an impulse [N s, model frame] on one of the nodes.
-void apply_impulse(ContactSide& side, std::size_t node, Vec3 impulse) {
-  side.velocity[node] += side.inverse_mass[node] * impulse;
-}
-
 class Sweeper {
  public:
   Sweeper(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
           SurfaceTractions& tractions)
-      : rows_(rows), dt_(dt), options_(options), law_(row_law(options, dt)), sys_(system), tractions_(tractions) {
+      : rows_(rows), options_(options), law_(row_law(options, dt)), sys_(system), tractions_(tractions) {
     system.slips.assign(rows.rows.size(), 0);
     system.at_start.clear();
     if (law_.film > 0)
       for (std::size_t r = 0; r < rows.rows.size(); ++r) system.at_start.push_back(row_start(node(r)));
   }
 
-  Vec3 relative_velocity(std::size_t r) const { return relative(r, sys_.rail.velocity, sys_.wheel.velocity); }
-  Vec3 relative(std::size_t r, const std::vector<Vec3>& rail, const std::vector<Vec3>& wheel) const {
+  Vec3 relative_velocity(std::size_t r) const {
     const ContactRow& row = rows_.rows[r];
-    Vec3 w = -rail[r];
-    for (int k = row.first; k < row.first + row.count; ++k) w += rows_.weights[k].m * wheel[sys_.weight_node[k]];
+    Vec3 w = -sys_.rail.velocity[r];
+    for (int k = row.first; k < row.first + row.count; ++k)
+      w += rows_.weights[k].m * sys_.wheel.velocity[sys_.weight_node[k]];
     return w;
   }
   // The impulse of a traction on the rail [Pa] over the step, to the nodes of both bodies.
   void apply_traction(std::size_t r, Vec3 traction) {
     const ContactRow& row = rows_.rows[r];
-    const Vec3 impulse = dt_ * row.area * traction;
-    apply_impulse(sys_.rail, r, impulse);
-    for (int k = row.first; k < row.first + row.count; ++k)
-      apply_impulse(sys_.wheel, sys_.weight_node[k], -rows_.weights[k].m * impulse);
+    const Vec3 impulse = law_.dt * row.area * traction;
+    sys_.rail.velocity[r] += sys_.rail.inverse_mass[r] * impulse;
+    for (int k = row.first; k < row.first + row.count; ++k) {
+      const int node = sys_.weight_node[k];
+      sys_.wheel.velocity[node] += sys_.wheel.inverse_mass[node] * (-rows_.weights[k].m * impulse);
+    }
   }
   // Velocity gained per unit traction.
   double compliance(std::size_t r) const {
@@ -66,7 +62,7 @@ class Sweeper {
     double c = sys_.rail.inverse_mass[r];
     for (int k = row.first; k < row.first + row.count; ++k)
       c += rows_.weights[k].m * rows_.weights[k].m * sys_.wheel.inverse_mass[sys_.weight_node[k]];
-    return dt_ * row.area * c;
+    return law_.dt * row.area * c;
   }
 
   // Projected Gauss-Seidel: row after row tau <- P(tau + w/d), P the projection on p >= 0 and the friction disc. With d
@@ -88,7 +84,7 @@ class Sweeper {
         change = std::max(change, relax(r, diagonal[r]));
       }
       ++sys_.sweeps;
-      if (change * dt_ < options_.tolerance) break;
+      if (change * law_.dt < options_.tolerance) break;
     }
   }
 
@@ -119,7 +115,6 @@ class Sweeper {
   }
 
   const MortarRows& rows_;
-  double dt_;
   const EnforcementOptions& options_;
   RowLaw law_;
   ContactSystem& sys_;

@@ -43,20 +43,15 @@ struct ContactSystem {
   std::vector<int> weight_node;             ///< per weight of the rows, position in wheel_nodes
   ContactSide rail, wheel;
   int sweeps = 0;  ///< that the multipliers took
-  // room for enforce_contact, kept so that a step allocates nothing
+  // room for what follows, kept so that a step allocates nothing
+  std::vector<int> mark;           ///< of number_wheel_nodes, by node of the wheel's surface; -1
   std::vector<double> compliance;  ///< of the rows, (m/s)/Pa
   std::vector<char> slips;         ///< of the rows, the law's verdict in the last sweep
   std::vector<RowStart> at_start;  ///< of the rows, before the step; with a film only
 };
 
 /// Numbers the wheel nodes of the rows, each once: fills wheel_nodes and weight_node.
-class WheelNumbering {
- public:
-  void number(const MortarRows& rows, const ContactSurface& wheel, ContactSystem& system);
-
- private:
-  std::vector<int> mark_;
-};
+void number_wheel_nodes(const MortarRows& rows, const ContactSurface& wheel, ContactSystem& system);
 
 /// Tractions of the rail's surface nodes, [column * stations + station].
 class SurfaceTractions {

@@ -144,10 +144,6 @@ int& MortarContact::facet_index(int column, int station) {
   return facet_of_[static_cast<std::size_t>(w) * rail_.columns + column];
 }
 
-MortarContact::FacetsAroundNode MortarContact::facets_around(int c, int j) {
-  return {facet_index(c - 1, j - 1), facet_index(c, j - 1), facet_index(c - 1, j), facet_index(c, j)};
-}
-
 void MortarContact::choose_node(int c, int j) {
   chosen_column_.push_back(c);
   chosen_station_.push_back(j);
@@ -247,7 +243,8 @@ const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel,
     row.first = static_cast<int>(result_.weights.size());
     row.normal = rail_normal(c, j);
     row.on_wheel = yaw_back(wheel_.yaw, row.normal);
-    const FacetsAroundNode around = facets_around(c, j);
+    // facets of which the node is the corner (1, 1), (0, 1), (1, 0), (0, 0)
+    const int around[] = {facet_index(c - 1, j - 1), facet_index(c, j - 1), facet_index(c - 1, j), facet_index(c, j)};
     const auto hit = [&](int q, int g) -> const Hit& { return hits_[around[q]][g]; };
     const int ring = wheel_.stations.nodes();
     const WheelPatch patch = wheel_patch(hit, ring);

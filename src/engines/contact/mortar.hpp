@@ -65,9 +65,8 @@ class MortarContact {
               double gap_limit);
   /// Gaps and weights of the chosen nodes at the present positions. The result is reused by the next call.
   /// In groups that share no wheel node, one after the other: nodes of equal remainder of column and station by
-  /// rows_apart(). So sweeps over the rows may go through a group in any order, or in threads.
+  /// independent_distance. So sweeps over the rows may go through a group in any order, or in threads.
   const MortarRows& rows(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model);
-  int rows_apart() const { return apart_; }
 
   /// A facet of the rail with a chosen node at one of its corners.
   struct Facet {
@@ -82,8 +81,6 @@ class MortarContact {
  private:
   using Hit = mortar_law::Hit;
   using WheelPatch = mortar_law::WheelPatch;
-  using FacetHits = std::array<Hit, 4>;         // at the Gauss points of a rail facet
-  using FacetsAroundNode = std::array<int, 4>;  // in facets_: the node is their corner (1,1), (0,1), (1,0), (0,0)
 
   Vec3 rail_point(const Field& u, int column, int station, double weight_y, double weight_x) const;
   Vec3 rail_normal(int column, int station) const;
@@ -102,7 +99,6 @@ class MortarContact {
 
   void update_hits(const Field& u_rail, const Field& u_wheel, const AxlePose& pose);
   int& facet_index(int column, int station);
-  FacetsAroundNode facets_around(int column, int station);
   void choose_node(int column, int station);
   void append_weights(const WheelPatch& patch, double area);
 
@@ -118,9 +114,9 @@ class MortarContact {
   int apart_ = 1;                               // columns or stations between rows that share no wheel node
   std::vector<char> near_, edge_;               // nodes of the window, [station * inner_columns_ + column - 1]
   std::vector<int> chosen_column_, chosen_station_;
-  std::vector<Facet> facets_, before_;  // of this search and of the one before
-  std::vector<int> facet_of_;           // index in facets_ or -1, over the window and a station more at either end
-  std::vector<FacetHits> hits_;
+  std::vector<Facet> facets_, before_;    // of this search and of the one before
+  std::vector<int> facet_of_;             // index in facets_ or -1, over the window and a station more at either end
+  std::vector<std::array<Hit, 4>> hits_;  // at the Gauss points of facets_
   MortarRows result_;
   std::vector<double> sum_;  // weights of a row over its wheel patch
 };

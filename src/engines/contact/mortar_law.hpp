@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/rotation.hpp"
@@ -81,8 +80,8 @@ RAILSTRATA_POINTWISE AxlePose in_wheel_axes(const Surface& wheel, const AxlePose
 }
 
 /// Number of the values at the front of a sorted array that are not above x; below(x, value): x < value.
-template <class Values, class X, class Below>
-RAILSTRATA_POINTWISE int count_up_to(const Values& values, int count, X x, Below below) {
+template <class Values, class Below>
+RAILSTRATA_POINTWISE int count_up_to(const Values& values, int count, double x, Below below) {
   int first = 0;
   while (count > 0) {
     const int half = count / 2;
@@ -97,8 +96,8 @@ RAILSTRATA_POINTWISE int count_up_to(const Values& values, int count, X x, Below
 }
 
 /// The same, looked for at `guess` first, and one further either way.
-template <class Values, class X, class Below>
-RAILSTRATA_POINTWISE int count_up_to(const Values& values, int count, X x, Below below, int guess) {
+template <class Values, class Below>
+RAILSTRATA_POINTWISE int count_up_to(const Values& values, int count, double x, int guess, Below below) {
   for (const int n : {guess, guess + 1, guess - 1})
     if (n > 0 && n < count && !below(x, values[n - 1]) && below(x, values[n])) return n;
   return count_up_to(values, count, x, below);
@@ -127,10 +126,8 @@ RAILSTRATA_POINTWISE int wheel_station(const Surface& wheel, double theta, doubl
   const int stations = wheel.stations.nodes();
   if (!std::isfinite(theta)) return weight = 0, 0;  // guards end such a run
   theta -= kPeriod * std::floor((theta - at[0]) / kPeriod);
-  const int j = std::max(count_up_to(
-                             at, stations, theta, [](double x, double v) { return x < v; }, guess + 1) -
-                             1,
-                         0);  // round-off may leave theta below the first station
+  const int found = count_up_to(at, stations, theta, guess + 1, [](double x, double v) { return x < v; });
+  const int j = std::max(found - 1, 0);  // round-off may leave theta below the first station
   const double next = j + 1 < stations ? at[j + 1] : at[0] + kPeriod;
   weight = (theta - at[j]) / (next - at[j]);
   return j;
@@ -146,9 +143,7 @@ RAILSTRATA_POINTWISE Hit facet_below(const Surface& wheel, const AxlePose& pose,
   const double theta = std::atan2(arm.x, -arm.z) + pose.psi - correction.x / radius;
   h.station = wheel_station(wheel, theta, h.weight_t, guess.station);
   const double y = arm.y - correction.y;
-  h.column = count_up_to(
-                 wheel.node, wheel.columns, y, [](double v, Vec2 n) { return v < n.y; }, guess.column + 1) -
-             1;
+  h.column = count_up_to(wheel.node, wheel.columns, y, guess.column + 1, [](double v, Vec2 n) { return v < n.y; }) - 1;
   h.inside = h.column >= 1 && h.column < wheel.columns - 2;
   h.column = h.column < 0 ? 0 : h.column > wheel.columns - 2 ? wheel.columns - 2 : h.column;
   const Vec2 a = wheel.node[h.column], b = wheel.node[h.column + 1];
@@ -270,13 +265,8 @@ int independent_distance(const Surface& rail, const Surface& wheel) {
       out = std::min(out, s.stations.at[j + 1] - s.stations.at[j]);
     return out;
   };
-  const auto radius = [](const Surface& s) {
-    double out = s.kind == SweepKind::extrude ? 1.0 : 0.0;
-    for (int c = 0; s.kind == SweepKind::revolve && c < s.columns; ++c) out = std::max(out, std::abs(s.node[c].z));
-    return out;
-  };
   const double ratio =
-      std::max(across(wheel, false) / across(rail, true), radius(wheel) * along(wheel) / (radius(rail) * along(rail)));
+      std::max(across(wheel, false) / across(rail, true), wheel.radius * along(wheel) / (rail.radius * along(rail)));
   constexpr double kMost = 64;  // farther than any patch: the rows stand one after the other
   return static_cast<int>(std::ceil(std::min(2 * kFarPoint + 2.04 * ratio, kMost)));
 }

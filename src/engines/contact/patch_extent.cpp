@@ -25,11 +25,13 @@ double distance_by_force(double of_others, double third, double h, double length
   return d;
 }
 
-template <class T, class P>
-Chord chord(int n, double noise, bool at_points, T&& t, P&& p) {
+/// Of the n points first_index, first_index + apart, … at their places.
+Chord chord(const ContactField& f, int n, int first_index, int apart, const std::vector<double>& place) {
+  const auto t = [&](int i) { return place[first_index + i * apart]; };
+  const auto p = [&](int i) { return f.p[first_index + i * apart]; };
   int first = -1, last = -1;
   for (int i = 0; i < n; ++i)
-    if (p(i) > noise) {
+    if (p(i) > f.p_noise) {
       if (first < 0) first = i;
       last = i;
     }
@@ -42,8 +44,8 @@ Chord chord(int n, double noise, bool at_points, T&& t, P&& p) {
     c.begin = last > first ? vanishing_place(t(first + 1), p(first + 1), t(first), p(first), t(first - 1))
                            : 0.5 * (t(first) + t(first - 1));
   constexpr int kThird = 2;
-  if (!at_points || last - first < 2 * kThird || first == 0 || last + 1 == n) return c;
-  if (!(p(first + kThird) > noise && p(last - kThird) > noise)) return c;
+  if (!f.at_points || last - first < 2 * kThird || first == 0 || last + 1 == n) return c;
+  if (!(p(first + kThird) > f.p_noise && p(last - kThird) > f.p_noise)) return c;
   const auto distance = [&](int outermost, int inward) {
     const int third = outermost + kThird * inward;
     double force = 0;
@@ -56,12 +58,6 @@ Chord chord(int n, double noise, bool at_points, T&& t, P&& p) {
   return {std::clamp(begin, t(first - 1), t(first + 1)), std::clamp(end, t(last - 1), t(last + 1)), true};
 }
 
-Chord chord_across(const ContactField& f, int station) {
-  const auto at = [&](int c) { return station * f.columns + c; };
-  return chord(
-      f.columns, f.p_noise, f.at_points, [&](int c) { return f.y[at(c)]; }, [&](int c) { return f.p[at(c)]; });
-}
-
 }  // namespace
 
 double vanishing_place(double t_in, double p_in, double t_last, double p_last, double t_out) {
@@ -70,11 +66,7 @@ double vanishing_place(double t_in, double p_in, double t_last, double p_last, d
   return t_out > t_last ? std::min(t_last + distance, t_out) : std::max(t_last + distance, t_out);
 }
 
-Chord chord_along(const ContactField& f, int column) {
-  const auto at = [&](int s) { return s * f.columns + column; };
-  return chord(
-      f.stations, f.p_noise, f.at_points, [&](int s) { return f.x[at(s)]; }, [&](int s) { return f.p[at(s)]; });
-}
+Chord chord_along(const ContactField& f, int column) { return chord(f, f.stations, column, f.columns, f.x); }
 
 PatchExtent patch_extent(const ContactField& f) {
   PatchExtent out;
@@ -86,35 +78,36 @@ PatchExtent patch_extent(const ContactField& f) {
     out.last = c;
   }
   for (int s = 0; s < f.stations; ++s)
-    if (const Chord across = chord_across(f, s); across.length() > out.width) {
+    if (const Chord across = chord(f, f.columns, s * f.columns, 1, f.y); across.length() > out.width) {
       out.width = across.length();
       out.widest = across;
     }
   return out;
 }
 
-int contact_regions(const ContactField& f) {
-  std::vector<char> open(static_cast<std::size_t>(f.size()));
-  for (int i = 0; i < f.size(); ++i) open[i] = f.p[i] > f.p_noise && f.p[i] > 0;
-  int regions = 0;
+ConnectedRegions connected_regions(int columns, const std::vector<double>& p, double least) {
+  ConnectedRegions out{std::vector<int>(p.size(), ConnectedRegions::kNone), 0};
+  const int size = static_cast<int>(p.size());
   std::vector<int> front;
-  for (int start = 0; start < f.size(); ++start) {
-    if (!open[start]) continue;
-    ++regions;
-    open[start] = 0;
-    front.assign(1, start);
+  const auto take = [&](int i) {
+    if (!(p[i] > least) || out.of[i] != ConnectedRegions::kNone) return;
+    out.of[i] = out.count;
+    front.push_back(i);
+  };
+  for (int start = 0; start < size; ++start) {
+    take(start);
+    if (front.empty()) continue;
     while (!front.empty()) {
-      const int column = front.back() % f.columns, station = front.back() / f.columns;
+      const int column = front.back() % columns, station = front.back() / columns;
       front.pop_back();
-      for (int s = std::max(station - 1, 0); s <= std::min(station + 1, f.stations - 1); ++s)
-        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, f.columns - 1); ++c)
-          if (const int i = s * f.columns + c; open[i]) {
-            open[i] = 0;
-            front.push_back(i);
-          }
+      for (int s = std::max(station - 1, 0); s <= station + 1 && s * columns < size; ++s)
+        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, columns - 1); ++c) take(s * columns + c);
     }
+    ++out.count;
   }
-  return regions;
+  return out;
 }
+
+int contact_regions(const ContactField& f) { return connected_regions(f.columns, f.p, std::max(f.p_noise, 0.0)).count; }
 
 }  // namespace railstrata

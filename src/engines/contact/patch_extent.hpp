@@ -42,7 +42,16 @@ struct PatchOnWay {
   double lowering = 0;           ///< m, of the axle below where the wheel would touch the smooth rail without load
 };
 
-/// Connected regions of points in contact: a wheel that bridges a hollow has two. Points touch at corners too.
+/// For every point, columns next to each other, the number of its connected region from 0 on, or kNone: p is not above
+/// `least`. Points touch at corners too.
+struct ConnectedRegions {
+  static constexpr int kNone = -1;
+  std::vector<int> of;
+  int count = 0;
+};
+ConnectedRegions connected_regions(int columns, const std::vector<double>& p, double least);
+
+/// Connected regions of points in contact: a wheel that bridges a hollow has two.
 int contact_regions(const ContactField& field);
 
 }  // namespace railstrata

@@ -8,7 +8,6 @@ ContactSurface contact_surface(const SweptBody& body, const BodyLayout& layout, 
   ContactSurface c;
   const Block& block = body.blocks[body.contact.block];
   const BlockLayout& lay = layout.blocks[body.contact.block];
-  c.kind = body.kind;
   c.origin = body.origin;
   c.contact_at = body.contact_at;
   c.rises = body.rises();
@@ -23,7 +22,7 @@ ContactSurface contact_surface(const SweptBody& body, const BodyLayout& layout, 
     c.sagitta.push_back(curve(0.5 * (c.s[n] + c.s[n + 1])).position - 0.5 * (c.node[n] + c.node[n + 1]));
     c.width.push_back(std::abs(c.s[n + 1] - c.s[n]));
   }
-  if (c.kind == SweepKind::revolve) {
+  if (body.kind == SweepKind::revolve) {
     c.radius = 0;
     for (const Vec2& n : c.node) c.radius = std::max(c.radius, std::abs(n.z));
   }

@@ -24,7 +24,6 @@ struct SurfaceIndex {
 };
 
 struct ContactSurface {
-  SweepKind kind = SweepKind::extrude;
   Vec3 origin;
   double contact_at = 0;  ///< SweptBody::contact_at
   double radius = 1;      ///< m, of a revolved surface, the largest: metres per unit of the sweep coordinate

@@ -75,7 +75,7 @@ void ContactStep::find_rows(long step, RollingBodies& bodies, const BodyStates& 
 }
 
 void ContactStep::gather(const RollingBodies& bodies, const BodyStates& states, const StepScope& scope) {
-  numbering_.number(*rows_, bodies[kWheel].surface, system_);
+  number_wheel_nodes(*rows_, bodies[kWheel].surface, system_);
   system_.rail.clear();
   for (const ContactRow& r : rows_->rows)
     add_node(bodies[kRail], states[kRail], r.rail, {r.column, r.station}, scope, system_.rail);

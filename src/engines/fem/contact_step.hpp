@@ -54,7 +54,6 @@ class ContactStep {
   SearchWindow window_;
   const EnforcementOptions& options_;
   const MortarRows* rows_ = nullptr;
-  WheelNumbering numbering_;
   ContactSystem system_;
   std::vector<NodeTraction> kept_;
   ContactForces forces_;

@@ -6,7 +6,6 @@
 #include "ask/half_space_need.hpp"
 #include "ask/judge.hpp"
 #include "ask/solve_settings.hpp"
-#include "bem/film_capacity.hpp"
 #include "core/stop_request.hpp"
 #include "judge/bem_summary.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bem/cell_range.hpp"
+#include "bem/patch_grid.hpp"
 #include "contact/contact_field.hpp"
 #include "reader/case_file.hpp"
 #include "result/summary.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Passes of wheels over a rail that yields as jobs, by either method. The files are those of passes/pass_files.hpp,
 // with report.html at the end.
-#include "bem/cell_range.hpp"
+#include "bem/patch_grid.hpp"
 #include "jobs/job.hpp"
 #include "reader/case_file.hpp"
 

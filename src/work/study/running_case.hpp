@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bem/influence_cache.hpp"
+#include "bem/influence_operator.hpp"
 #include "study/study_plan.hpp"
 
 namespace railstrata {
