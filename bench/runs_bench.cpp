@@ -10,7 +10,6 @@
 
 #include "ask/answer.hpp"
 #include "core/parallel.hpp"
-#include "fatigue/half_space_track.hpp"
 #include "fatigue/shakedown_summary.hpp"
 #include "passes/rail_passes.hpp"
 #include "result/stress_cycles.hpp"
@@ -66,14 +65,14 @@ struct Solved {
 void stress_cycles(benchmark::State& state) {
   const Solved s(state);
   const std::vector<CycleRow> rows = cycle_rows(s.result.rail, 0.5 * shorter_axis(measure_patch(s.result.field)));
-  timed(state, 0, [&] { benchmark::DoNotOptimize(rail_cycles(s.result, s.result, rows)); });
+  timed(state, 0, [&] { benchmark::DoNotOptimize(half_space_cycles(s.result, BodyId::rail, s.result, rows)); });
   state.counters["rows"] = static_cast<double>(rows.size());
 }
 
 void factors(benchmark::State& state) {
   const Solved s(state);
   const std::vector<CycleRow> rows = cycle_rows(s.result.rail, 0.5 * shorter_axis(measure_patch(s.result.field)));
-  const StressHistory history = rail_cycles(s.result, s.result, rows);
+  const StressHistory history = half_space_cycles(s.result, BodyId::rail, s.result, rows);
   const RowStrength strength = row_strength(s.spec, BodyId::rail, history);
   timed(state, 0, [&] { benchmark::DoNotOptimize(shakedown({history, strength.shear, {}, {}})); });
 }
@@ -81,7 +80,7 @@ void factors(benchmark::State& state) {
 void fatigue(benchmark::State& state) {
   const Solved s(state);
   const std::vector<CycleRow> rows = cycle_rows(s.result.rail, 0.5 * shorter_axis(measure_patch(s.result.field)));
-  const StressHistory history = rail_cycles(s.result, s.result, rows);
+  const StressHistory history = half_space_cycles(s.result, BodyId::rail, s.result, rows);
   const RowStrength strength = row_strength(s.spec, BodyId::rail, history);
   timed(state, 0, [&] { benchmark::DoNotOptimize(section_fatigue(s.spec, BodyId::rail, history, strength)); });
 }

@@ -12,7 +12,7 @@
 #include "io/provenance.hpp"
 #include "reader/case_file.hpp"
 #include "record/unit.hpp"
-#include "report/plots.hpp"
+#include "report/pictures.hpp"
 #include "text/text_file.hpp"
 #include "text/units.hpp"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "damage/shakedown.hpp"
-#include "fatigue/one_track.hpp"
+#include "fatigue/shakedown_summary.hpp"
 #include "result/stress_cycles.hpp"
 #include "single_track/history_stress.hpp"
 #include "tests/damage/hertz_stress.hpp"

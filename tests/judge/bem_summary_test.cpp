@@ -143,7 +143,7 @@ TEST(RailDepthLine, StartsAtTheTractionsAndKeepsThemAcrossTheInterface) {
   spec.layers.push_back({});
   spec.layers[0].material.young = 2 * 210e9;
   const BemResult r = solve_bem(spec, place(spec, {}), cells(0.5e-3));
-  const DepthLine line = rail_depth_line(r, 0, 0, 6e-3);
+  const StressSection line = rail_depth_line(r, 0, 0, 6e-3);
   const double p_here = *std::max_element(r.field.p.begin(), r.field.p.end());
   EXPECT_EQ(line.depth.front(), 0);
   EXPECT_NEAR(line.stress.front().zz / -p_here, 1, 1e-3) << "compression is negative";
@@ -169,7 +169,7 @@ TEST(RailDepthLine, ShearAtTheSurfaceIsTheTractionOnTheRail) {
   spec.drive.friction_coefficient = 0.5;
   const BemResult r = solve_bem(spec, place(spec, {}), cells(0.5e-3));
   const std::size_t k = r.grid.index(r.grid.nx / 2, r.grid.ny / 2);
-  const DepthLine line = rail_depth_line(r, 0, 0, 6e-3);
+  const StressSection line = rail_depth_line(r, 0, 0, 6e-3);
   EXPECT_LT(r.field.q_x[k], -1e6);
   EXPECT_NEAR(line.stress.front().xz / r.field.q_x[k], 1, 1e-3);
 }
@@ -180,9 +180,9 @@ TEST(RailDepthLine, TurningIntoTheModelFrameKeepsTheInvariants) {
   CaseSpec spec;
   spec.geometry.lateral_shift = 1.5e-3;
   BemResult r = solve_bem(spec, place(spec, {}), cells(1e-3));
-  const DepthLine tilted = rail_depth_line(r, 0, 0, 4e-3);
+  const StressSection tilted = rail_depth_line(r, 0, 0, 4e-3);
   r.contact.angle = 0;
-  const DepthLine level = rail_depth_line(r, 0, 0, 4e-3);
+  const StressSection level = rail_depth_line(r, 0, 0, 4e-3);
   for (std::size_t i = 0; i < level.depth.size(); ++i) {
     EXPECT_NEAR(von_mises(tilted.stress[i]) / von_mises(level.stress[i]), 1, 1e-12);
     EXPECT_NEAR(principal_stresses(tilted.stress[i]).x, principal_stresses(level.stress[i]).x, 1e-9 * 1e9);

@@ -65,7 +65,7 @@ TEST(CellErrors, HoldForNinetyFivePerCentOfFiftyCases) {
     const CaseSpec spec = case_of(row.name);
     const BemResult result = solved(spec, 1e-3 * row.at("cell_mm"));
     Summary s = bem_contact_summary(spec, result);
-    s.rail = bem_rail_stress(result, s.contact);
+    s.rail = bem_stress(result, BodyId::rail, s.contact);
     for (const auto& [column, number] : barred(s))
       if (row.value.contains(column) && !std::isnan(number.error) && !std::isnan(row.at(column)))
         found[column].push_back(std::abs(number.value - row.at(column) / factor_of(column)) / number.error);
@@ -116,7 +116,7 @@ TEST(CellErrors, AreAbsentWhereNoLawWasMade) {
     const CaseSpec spec = case_of(settings);
     const BemResult result = solved(spec, 1e-3);
     Summary s = bem_contact_summary(spec, result);
-    s.rail = bem_rail_stress(result, s.contact);
+    s.rail = bem_stress(result, BodyId::rail, s.contact);
     for (const auto& [column, number] : barred(s)) EXPECT_TRUE(std::isnan(number.error)) << settings << ": " << column;
   }
 }

@@ -1,4 +1,4 @@
-#include "judge/run_advice.hpp"
+#include "judge/plausibility.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,6 @@
 #include <numbers>
 
 #include "core/faults.hpp"
-#include "fatigue/half_space_track.hpp"
-#include "fatigue/sliding_map.hpp"
 #include "judge/verdict.hpp"
 #include "tests/result/crossed_cylinders.hpp"
 

@@ -1,4 +1,4 @@
-#include "passage/force_spectrum.hpp"
+#include "passage/passage.hpp"
 
 #include <gtest/gtest.h>
 

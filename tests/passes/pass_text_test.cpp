@@ -1,4 +1,4 @@
-#include "passes/pass_text.hpp"
+#include "passes/pass_series.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "passes/pressed_profile.hpp"
+#include "passes/rail_passes.hpp"
 
 #include <gtest/gtest.h>
 

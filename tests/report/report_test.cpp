@@ -7,7 +7,6 @@
 
 #include "io/provenance.hpp"
 #include "report/assets.hpp"
-#include "report/base64.hpp"
 #include "report/checks.hpp"
 #include "report/page.hpp"
 #include "report/payload.hpp"

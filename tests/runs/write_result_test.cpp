@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/faults.hpp"
-#include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
 #include "record/csv.hpp"
 #include "result/patch.hpp"

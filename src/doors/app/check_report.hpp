@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "judge/run_advice.hpp"
+#include "judge/plausibility.hpp"
 #include "reader/case_file.hpp"
 #include "runs/run_estimate.hpp"
 

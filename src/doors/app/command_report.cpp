@@ -21,7 +21,7 @@
 #include "record/json.hpp"
 #include "record/output_file.hpp"
 #include "report/passes_page.hpp"
-#include "report/read_run.hpp"
+#include "report/report.hpp"
 #include "runs/write_report.hpp"
 
 namespace railstrata {

@@ -13,11 +13,10 @@
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "io/provenance.hpp"
-#include "io/result_doubts.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
-#include "report/comparison_picture.hpp"
+#include "report/pictures.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {

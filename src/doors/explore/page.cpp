@@ -17,8 +17,6 @@
 #include "io/provenance.hpp"
 #include "record/escaped_text.hpp"
 #include "record/json.hpp"
-#include "report/base64.hpp"
-#include "report/page_parts.hpp"
 #include "report/result_reference.hpp"
 #include "result/patch.hpp"
 #include "spec/case_spec.hpp"
@@ -153,8 +151,7 @@ Json reported_json(const ReportRun& run) {
     if (run.result.summary.contains(key)) summary[key] = run.result.summary[key];
   Json out{{"summary", summary}, {"x", rounded(line.x)}, {"p", rounded(line.p)}, {"q_x", rounded(line.q_x)}};
   if (!run.result.field.p.empty()) out["patch"] = pressed_json(run.result.field);
-  if (const auto found = run.sections.find("rail_longitudinal"); found != run.sections.end())
-    out["section"] = depth_json(found->second);
+  if (const CsvTable* section = run.table("rail_longitudinal_section")) out["section"] = depth_json(*section);
   return out;
 }
 

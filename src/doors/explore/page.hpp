@@ -4,7 +4,7 @@
 #include <string>
 
 #include "reader/case_file.hpp"
-#include "report/framed_page.hpp"
+#include "report/page.hpp"
 #include "report/report.hpp"
 
 namespace railstrata {

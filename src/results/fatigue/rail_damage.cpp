@@ -1,7 +1,5 @@
 #include "fatigue/rail_damage.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -20,23 +18,28 @@ Strip strip_of(const Profile& rail, const TrackGeometry& track, const RigidConta
 
 }  // namespace
 
-const std::vector<double>& RailDamage::depth(WearLaw law) const {
+const std::vector<double>& ProfileWear::depth(WearLaw law) const {
   return law == WearLaw::usfd ? usfd : law == WearLaw::kth ? kth : archard;
 }
 
-RailDamage undamaged(const Profile& rail, double cell) {
-  RailDamage out;
-  const double length = rail.s_max() - rail.s_min();
+ProfileWear unworn(const Profile& profile, double cell) {
+  ProfileWear out;
+  const double length = profile.s_max() - profile.s_min();
   const auto n = static_cast<std::size_t>(std::ceil(length / cell));
   out.cell = length / static_cast<double>(n);
   for (std::size_t i = 0; i < n; ++i) {
-    out.s.push_back(rail.s_min() + (static_cast<double>(i) + 0.5) * out.cell);
-    const Vec2 p = rail.at(out.s.back()).position;
+    out.s.push_back(profile.s_min() + (static_cast<double>(i) + 0.5) * out.cell);
+    const Vec2 p = profile.at(out.s.back()).position;
     out.y.push_back(p.y);
     out.z.push_back(p.z);
   }
-  for (auto* a : {&out.passages, &out.friction_energy, &out.usfd, &out.archard, &out.kth, &out.rcf_damage})
-    a->assign(n, 0.0);
+  for (auto* a : {&out.usfd, &out.archard, &out.kth}) a->assign(n, 0.0);
+  return out;
+}
+
+RailDamage undamaged(const Profile& rail, double cell) {
+  RailDamage out{unworn(rail, cell), {}, {}, {}};
+  for (auto* a : {&out.passages, &out.friction_energy, &out.rcf_damage}) a->assign(out.s.size(), 0.0);
   return out;
 }
 
@@ -93,7 +96,7 @@ void spread_aside(RailDamage& d, double deviation) {
     spread_aside(*a, d.cell, deviation);
 }
 
-double worn_area(const RailDamage& damage, const std::vector<double>& depth) {
+double worn_area(const ProfileWear& damage, const std::vector<double>& depth) {
   return damage.cell * std::accumulate(depth.begin(), depth.end(), 0.0);
 }
 

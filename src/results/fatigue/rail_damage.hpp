@@ -17,18 +17,25 @@ namespace railstrata {
 /// m, beyond which the wear of one profile says nothing of the rail's: the contact has long moved.
 inline constexpr double kMostWearOfOneProfile = 1e-3;
 
-struct RailDamage {
+/// Wear of rail or wheel by position.
+struct ProfileWear {
   double cell = 0;                         ///< m, length of a cell along the profile
-  std::vector<double> s, y, z;             ///< m, middles of the cells; y, z in the rail's own frame
-  std::vector<double> passages;            ///< of wheels whose patch covers the cell
-  std::vector<double> friction_energy;     ///< J/m²
-  std::vector<double> usfd, archard, kth;  ///< m; NaN where rolled over without the data they need
-  std::vector<double> rcf_damage;          ///< sum of the damage function of the patches over the cell
+  std::vector<double> s, y, z;             ///< m, middles of the cells; y, z in the profile's own frame
+  std::vector<double> usfd, archard, kth;  ///< m, of the wheel m per m rolled; NaN where rolled over without the data
+                                           ///< they need
   /// The wear depth by one of the laws.
   const std::vector<double>& depth(WearLaw law) const;
 };
 
-/// No damage yet. The profile is cut into cells of at most `cell` [m].
+struct RailDamage : ProfileWear {
+  std::vector<double> passages;         ///< of wheels whose patch covers the cell
+  std::vector<double> friction_energy;  ///< J/m²
+  std::vector<double> rcf_damage;       ///< sum of the damage function of the patches over the cell
+};
+
+/// No wear yet. The profile is cut into cells of at most `cell` [m].
+ProfileWear unworn(const Profile& profile, double cell);
+/// No damage yet, on such cells.
 RailDamage undamaged(const Profile& rail, double cell);
 
 /// Arc lengths on a profile.
@@ -36,9 +43,9 @@ struct Strip {
   double from = 0, to = 0;
 };
 
-/// Calls with every cell that the strip touches and the length within it [m]; `damage` has cells of one length.
-template <class Damage, class Use>
-void for_cells(const Damage& damage, const Strip& strip, const Use& use) {
+/// Calls with every cell that the strip touches and the length within it [m].
+template <class Use>
+void for_cells(const ProfileWear& damage, const Strip& strip, const Use& use) {
   const double begin = damage.s.front() - 0.5 * damage.cell;
   const auto last = static_cast<std::ptrdiff_t>(damage.s.size()) - 1;
   const auto cell_at = [&](double s) {
@@ -74,8 +81,8 @@ void spread_aside(std::vector<double>& cells, double cell, double deviation);
 /// All that the damage has.
 void spread_aside(RailDamage& damage, double deviation);
 
-/// m²: the sum over the cells of a depth [m].
-double worn_area(const RailDamage& damage, const std::vector<double>& depth);
+/// m²: the sum over the cells of a depth [m]; of the wheel m² per m rolled.
+double worn_area(const ProfileWear& damage, const std::vector<double>& depth);
 
 /// The wear depth of every cell [m]: neighbouring cells that wheels have rolled over exchange a quarter of their
 /// difference, at least once, until a peak of one cell has a standard deviation of 1 mm; the area stays.

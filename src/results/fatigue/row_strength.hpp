@@ -1,14 +1,17 @@
 #pragma once
-// Strength and stiffness of the rows of a section, from the case.
+// Strength and stiffness of the rows of a section, from the case, and the fatigue of its points.
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "core/body_id.hpp"
 #include "damage/stress_history.hpp"
+#include "result/summary.hpp"
 #include "spec/case_fwd.hpp"
 
 namespace railstrata {
+
+struct StrengthSpec;  // spec/strength_spec.hpp
 
 /// Per row of a stress history. A zone without a strength has NaN: it is taken to stay elastic.
 struct RowStrength {
@@ -20,6 +23,8 @@ struct RowStrength {
   bool any() const;                            ///< of a strength
 };
 
+/// Whether `says` is true of the body, or of a layer on it.
+bool any_zone(const CaseSpec& spec, BodyId body, const std::function<bool(const StrengthSpec&)>& says);
 /// Whether a case gives a strength of a body, or of a layer on it.
 bool strength_given(const CaseSpec& spec, BodyId body);
 /// Whether a body is one of those that the case asks about (run.judged).
@@ -40,5 +45,13 @@ ProcessStress largest_process_stress(const CaseSpec& spec, BodyId body);
 
 /// Pa, in shear, at a depth, of an interface above or below it; below the end of a table its last value.
 std::function<double(double depth, bool below_interface)> shear_strength_by_depth(const CaseSpec& spec, BodyId body);
+
+// ---- fatigue below the surface, brittle layers and interfaces of a section, as far as the case gives constants
+/// Whether a case gives anything that a body's fatigue is computed from: limits, toughness, bonds.
+bool fatigue_given(const CaseSpec& spec, BodyId body);
+
+/// `strength`: row_strength of the same rows. Parameters without constants are left out.
+BodyFatigue section_fatigue(const CaseSpec& spec, BodyId body, const StressHistory& history,
+                            const RowStrength& strength);
 
 }  // namespace railstrata

@@ -10,6 +10,7 @@
 #include "fatigue/row_strength.hpp"
 #include "material/steels.hpp"
 #include "model/thermal_body.hpp"
+#include "model/zone.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {
@@ -43,11 +44,11 @@ Cells cells_of(const ContactField& f, int column) {
   return out;
 }
 
-/// Material of a body's running surface: its first layer, or the body itself.
+/// The zone of a body's running surface: its first layer, or the body itself.
+int surface_zone(const CaseSpec& spec, BodyId body) { return layers_on(spec, body).empty() ? 0 : 1; }
+
 const MaterialSpec& surface_material(const CaseSpec& spec, BodyId body) {
-  for (const LayerSpec& layer : spec.layers)
-    if (layer.on == body) return layer.material;
-  return body == BodyId::rail ? spec.rail_material : spec.wheel_material;
+  return zone_material(spec, body, surface_zone(spec, body));
 }
 
 /// Pa, as a pressure; NaN where the case does not give it.
@@ -62,9 +63,7 @@ double hardness_of(const StrengthSpec& s) {
 double surface_shear_strength(const CaseSpec& spec) {
   StressHistory top;
   top.depth = {0};
-  top.zone = {0};
-  for (const LayerSpec& layer : spec.layers)
-    if (layer.on == BodyId::rail) top.zone = {1};
+  top.zone = {surface_zone(spec, BodyId::rail)};
   return row_strength(spec, BodyId::rail, top).shear.front();
 }
 

@@ -1,21 +1,26 @@
 #include "fatigue/wheel_damage.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <numeric>
+
+#include "spec/case_spec.hpp"
 
 namespace railstrata {
+namespace {
 
-const std::vector<double>& WheelDamage::depth(WearLaw law) const {
-  return law == WearLaw::usfd ? usfd : law == WearLaw::kth ? kth : archard;
+template <class Damage>
+void finish(const CollectiveSpec& collective, Damage& damage) {
+  for (auto* depth : {&damage.usfd, &damage.archard, &damage.kth})
+    for (double& d : *depth) d *= collective.wear_factor;
+  spread_aside(damage, collective.lateral_deviation);
 }
 
+}  // namespace
+
 WheelDamage unworn_wheel(const Profile& wheel, double cell) {
-  const RailDamage cells = undamaged(wheel, cell);
-  WheelDamage out{cells.cell, cells.s, cells.y, cells.z, {}, {}, {}, {}};
-  for (auto* a : {&out.share, &out.usfd, &out.archard, &out.kth}) a->assign(out.s.size(), 0.0);
+  WheelDamage out{unworn(wheel, cell), {}};
+  out.share.assign(out.s.size(), 0.0);
   return out;
 }
 
@@ -41,8 +46,25 @@ void spread_aside(WheelDamage& d, double deviation) {
   for (auto* a : {&d.share, &d.usfd, &d.archard, &d.kth}) spread_aside(*a, d.cell, deviation);
 }
 
-double worn_area(const WheelDamage& damage, const std::vector<double>& depth) {
-  return damage.cell * std::accumulate(depth.begin(), depth.end(), 0.0);
+RailDamage rail_damage(const CaseSpec& spec, std::span<const WheelKind> kinds, const Placement& placement,
+                       double cell) {
+  RailDamage out = undamaged(placement.rail, cell);
+  for (const WheelKind& kind : kinds)
+    for (const PatchDamage& patch : kind.patches)
+      add_passages(out, placement.rail, placement.track, patch, kind.passages);
+  finish(spec.collective, out);
+  return out;
+}
+
+WheelDamage wheel_damage(const CaseSpec& spec, std::span<const WheelKind> kinds, const Placement& placement,
+                         double cell) {
+  WheelDamage out = unworn_wheel(placement.wheel, cell);
+  double all = 0;
+  for (const WheelKind& kind : kinds) all += kind.passages;
+  for (const WheelKind& kind : kinds)
+    for (const PatchDamage& patch : kind.patches) add_distance(out, patch, kind.passages / all);
+  finish(spec.collective, out);
+  return out;
 }
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #pragma once
-// Damage of a wheel by the same passages, by position across its tread.
+// Damage of a wheel by the same passages, by position across its tread; and that of rail and wheel by many kinds of
+// wheels, each so often.
 //
 // Rolling is steady: a point of the tread passes the patch as a point of the rail does, once a turn, and so wears by
 // the same integral of the patch along x with the constants of its own material (StreamlineRow::wheel_depth). A turn is
@@ -10,20 +11,17 @@
 //
 // A position is the arc length s along the wheel's own profile. A streamline's strip lies as far from the contact point
 // as on the tangent; its worn area, depth times width, is spread over the cells there and kept.
+#include <span>
 #include <vector>
 
 #include "fatigue/rail_damage.hpp"
-#include "geometry/placement.hpp"
+#include "model/model.hpp"
+#include "spec/case_fwd.hpp"
 
 namespace railstrata {
 
-struct WheelDamage {
-  double cell = 0;                         ///< m, length of a cell along the profile
-  std::vector<double> s, y, z;             ///< m, middles of the cells, in the wheel's own frame
-  std::vector<double> share;               ///< of the distance during which the cell is in a patch of some load
-  std::vector<double> usfd, archard, kth;  ///< m per m rolled; NaN where rolled on without the data they need
-  /// The wear depth by one of the laws.
-  const std::vector<double>& depth(WearLaw law) const;
+struct WheelDamage : ProfileWear {
+  std::vector<double> share;  ///< of the distance during which the cell is in a patch of some load
 };
 
 /// No damage yet. The profile is cut into cells of at most `cell` [m].
@@ -35,7 +33,18 @@ void add_distance(WheelDamage& damage, const PatchDamage& patch, double share);
 /// As spread_aside of a rail (fatigue/rail_damage.hpp).
 void spread_aside(WheelDamage& damage, double deviation);
 
-/// m² per m rolled: the sum over the cells of a depth [m per m].
-double worn_area(const WheelDamage& damage, const std::vector<double>& depth);
+/// The patches of a kind of wheels.
+struct WheelKind {
+  double passages = 1;
+  std::span<const PatchDamage> patches;
+};
+
+/// Their sums, times collective.wear_factor, spread by collective.lateral_deviation. placement: of the case (profile,
+/// track); `cell` [m]: length of the cells.
+RailDamage rail_damage(const CaseSpec& spec, std::span<const WheelKind> kinds, const Placement& placement, double cell);
+
+/// Damage of one wheel that runs the kinds in proportion to their passages.
+WheelDamage wheel_damage(const CaseSpec& spec, std::span<const WheelKind> kinds, const Placement& placement,
+                         double cell);
 
 }  // namespace railstrata

@@ -6,12 +6,10 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -71,10 +69,15 @@ class Writer {
     T sample{};
     table(name, sample, all.data(), all.size(), visit);
   }
-  /// Rows that older formats lack.
+  /// Rows that older formats lack, where there are any to write.
   template <class T, class Visit>
-  void later_rows(const char* name, std::vector<T>& all, Visit&& visit) {
-    rows(name, all, visit);
+  void later_rows(const char* name, std::vector<T>& all, Visit&& visit, bool any = true) {
+    if (any) rows(name, all, visit);
+  }
+  /// The same of further columns of rows that are there.
+  template <class T, class Visit>
+  void later_columns(const char* name, std::vector<T>& all, Visit&& visit, bool any = true) {
+    if (any) rows(name, all, visit);
   }
   template <class T, class Visit>
   void row(const char* name, T& value, Visit&& visit) {
@@ -156,8 +159,16 @@ class Reader {
     for (T& one : all) take(one, next, visit);
   }
   template <class T, class Visit>
-  void later_rows(const char* name, std::vector<T>& all, Visit&& visit) {
+  void later_rows(const char* name, std::vector<T>& all, Visit&& visit, bool = true) {
     if (H5Lexists(at_, name, H5P_DEFAULT) > 0) rows(name, all, visit);
+  }
+  template <class T, class Visit>
+  void later_columns(const char* name, std::vector<T>& all, Visit&& visit, bool = true) {
+    if (H5Lexists(at_, name, H5P_DEFAULT) <= 0) return;
+    T sample{};
+    const auto [values, count] = table(name, sample, visit);
+    const double* next = values.data();
+    for (std::size_t k = 0; k < std::min(count, all.size()); ++k) take(all[k], next, visit);
   }
   template <class T, class Visit>
   void row(const char* name, T& value, Visit&& visit) {

@@ -27,18 +27,8 @@ constexpr auto visit_sym = [](auto& s, auto&& on) {
   on("xz", s.xz);
 };
 constexpr auto visit_plasticity = [](auto& p, auto&& on) {
-  on("strain_xx", p.strain.xx);
-  on("strain_yy", p.strain.yy);
-  on("strain_zz", p.strain.zz);
-  on("strain_xy", p.strain.xy);
-  on("strain_yz", p.strain.yz);
-  on("strain_xz", p.strain.xz);
-  on("back_xx", p.backstress.xx);
-  on("back_yy", p.backstress.yy);
-  on("back_zz", p.backstress.zz);
-  on("back_xy", p.backstress.xy);
-  on("back_yz", p.backstress.yz);
-  on("back_xz", p.backstress.xz);
+  visit_sym(p.strain, [&](const char* name, auto& v) { on(("strain_" + std::string(name)).c_str(), v); });
+  visit_sym(p.backstress, [&](const char* name, auto& v) { on(("back_" + std::string(name)).c_str(), v); });
   on("accumulated", p.accumulated);
 };
 constexpr auto visit_traction = [](auto& t, auto&& on) {
@@ -94,17 +84,24 @@ constexpr auto visit_history = [](auto& h, auto&& on) {
   on("lateral_creepage", h.lateral_creepage);
   on("axle_y", h.axle_y);
 };
+constexpr auto visit_way = [](auto& h, auto&& on) {
+  on("height", h.way.height);
+  on("lowering", h.way.lowering);
+  on("length", h.way.length);
+  on("width", h.way.width);
+  on("patches", h.way.patches);
+  on("p_max_x", h.way.p_max_x);
+  on("von_mises", h.stress.von_mises);
+  on("von_mises_x", h.stress.x);
+  on("von_mises_depth", h.stress.depth);
+};
 constexpr auto visit_facet = [](auto& f, auto&& on) {
   on("column", f.column);
   on("station", f.station);
-  on("x0", f.correction[0].x);
-  on("y0", f.correction[0].y);
-  on("x1", f.correction[1].x);
-  on("y1", f.correction[1].y);
-  on("x2", f.correction[2].x);
-  on("y2", f.correction[2].y);
-  on("x3", f.correction[3].x);
-  on("y3", f.correction[3].y);
+  for (std::size_t k = 0; k < 4; ++k) {
+    on(fmt::format("x{}", k).c_str(), f.correction[k].x);
+    on(fmt::format("y{}", k).c_str(), f.correction[k].y);
+  }
 };
 
 template <class Archive>
@@ -152,14 +149,14 @@ void describe(Archive& a, BandSample& b) {
   a.row("size", b,
         [](auto& v, auto&& on) { on("columns", v.columns), on("rows", v.rows), on("stations", v.stations); });
   a.numbers("along", b.along);
-  if (Archive::reading || !b.element.empty())
-    a.later_rows("element", b.element, [](auto& v, auto&& on) { on("element", v); });
+  a.later_rows(
+      "element", b.element, [](auto& v, auto&& on) { on("element", v); }, !b.element.empty());
   if (!b.element.empty() && b.element.size() != static_cast<std::size_t>(b.stations))
     throw Damage{"elements are not those of the stations"};
   a.rows("stress", b.stress, visit_sym);
   a.rows("plasticity", b.plastic, visit_plasticity);
   a.rows("displacement", b.displacement, visit_vec);
-  if (Archive::reading || !b.below.empty()) a.later_rows("below", b.below, visit_vec);
+  a.later_rows("below", b.below, visit_vec, !b.below.empty());
 }
 
 template <class Archive>
@@ -197,29 +194,14 @@ template <class Archive>
 void describe_points(Archive& a, std::vector<HistoryRow>& history) {
   std::vector<WatchedStress> all;
   for (const HistoryRow& row : history) all.insert(all.end(), row.points.begin(), row.points.end());
-  if (Archive::reading || !all.empty())
-    a.later_rows("watched_points", all, [](auto& v, auto&& on) {
-      visit_sym(v.stress, on);
-      on("plastic_strain", v.plastic_strain);
-    });
+  const auto visit = [](auto& v, auto&& on) { visit_sym(v.stress, on), on("plastic_strain", v.plastic_strain); };
+  a.later_rows("watched_points", all, visit, !all.empty());
   if (!Archive::reading || all.empty() || history.empty()) return;
   if (all.size() % history.size() != 0) throw Damage{"the points of the way are not those of the history"};
   const std::size_t points = all.size() / history.size();
   for (std::size_t k = 0; k < history.size(); ++k)
     history[k].points.assign(all.begin() + static_cast<std::ptrdiff_t>(k * points),
                              all.begin() + static_cast<std::ptrdiff_t>((k + 1) * points));
-}
-
-template <class Archive>
-void describe_interface(Archive& a, std::vector<HistoryRow>& history) {
-  const bool apart =
-      std::any_of(history.begin(), history.end(), [](const HistoryRow& h) { return h.interface.slip > 0; });
-  std::vector<HistoryRow> rows = Archive::reading ? std::vector<HistoryRow>{} : history;
-  if (Archive::reading || apart)
-    a.later_rows("interface_history", rows,
-                 [](auto& h, auto&& on) { on("opening", h.interface.opening), on("slip", h.interface.slip); });
-  if (Archive::reading)
-    for (std::size_t k = 0; k < std::min(rows.size(), history.size()); ++k) history[k].interface = rows[k].interface;
 }
 
 template <class Archive>
@@ -246,35 +228,14 @@ void describe(Archive& a, RunResult& r) {
   std::vector<double> foot{r.preload.foot_z};
   a.later_rows("preload_foot", foot, [](auto& z, auto&& on) { on("foot_z", z); });
   if (Archive::reading && !foot.empty()) r.preload.foot_z = foot.front();
-  std::vector<HistoryRow> on_track = Archive::reading ? std::vector<HistoryRow>{} : r.history;
-  a.later_rows("track_history", on_track,
-               [](auto& h, auto&& on) { on("foot_z", h.foot_z), on("sleeper_z", h.sleeper_z); });
-  if (Archive::reading)
-    for (std::size_t k = 0; k < std::min(on_track.size(), r.history.size()); ++k) {
-      r.history[k].foot_z = on_track[k].foot_z;
-      r.history[k].sleeper_z = on_track[k].sleeper_z;
-    }
-  const bool over_heights =
-      std::any_of(r.history.begin(), r.history.end(), [](const HistoryRow& h) { return h.way.patches > 0; });
-  std::vector<HistoryRow> on_way = Archive::reading ? std::vector<HistoryRow>{} : r.history;
-  if (Archive::reading || over_heights)
-    a.later_rows("way_history", on_way, [](auto& h, auto&& on) {
-      on("height", h.way.height);
-      on("lowering", h.way.lowering);
-      on("length", h.way.length);
-      on("width", h.way.width);
-      on("patches", h.way.patches);
-      on("p_max_x", h.way.p_max_x);
-      on("von_mises", h.stress.von_mises);
-      on("von_mises_x", h.stress.x);
-      on("von_mises_depth", h.stress.depth);
-    });
-  if (Archive::reading)
-    for (std::size_t k = 0; k < std::min(on_way.size(), r.history.size()); ++k) {
-      r.history[k].way = on_way[k].way;
-      r.history[k].stress = on_way[k].stress;
-    }
-  describe_interface(a, r.history);
+  a.later_columns("track_history", r.history,
+                  [](auto& h, auto&& on) { on("foot_z", h.foot_z), on("sleeper_z", h.sleeper_z); });
+  const auto any = [&](auto&& says) { return std::any_of(r.history.begin(), r.history.end(), says); };
+  a.later_columns("way_history", r.history, visit_way, any([](const HistoryRow& h) { return h.way.patches > 0; }));
+  a.later_columns(
+      "interface_history", r.history,
+      [](auto& h, auto&& on) { on("opening", h.interface.opening), on("slip", h.interface.slip); },
+      any([](const HistoryRow& h) { return h.interface.slip > 0; }));
   describe_points(a, r.history);
   each(a, "positions", r.positions, [](auto& part, PositionSamples& p) {
     part.row("wanted", p, [](auto& v, auto&& on) { on("position", v.position); });

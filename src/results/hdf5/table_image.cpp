@@ -4,6 +4,7 @@
 #include <hdf5_hl.h>
 
 #include <array>
+#include <sstream>
 #include <string_view>
 
 #include "hdf5/hdf5_handle.hpp"
@@ -83,15 +84,17 @@ void add_numbers(hid_t file, const std::string& name, const std::string& unit, c
   add_text(set, kUnits, unit);
 }
 
+void add_axis(hid_t file, const TableAxis& axis) {
+  add_numbers(file, axis.name, axis.unit, {axis.at.size()}, axis.at);
+  const TableHandle set(H5Dopen2(file, axis.name.c_str(), H5P_DEFAULT), H5Dclose);
+  checked(H5DSset_scale(set, axis.name.c_str()));
+}
+
 /// What a scaled table has besides: ends of the asked axes, stiffnesses, in the attribute the largest size, load and
 /// friction.
 void fill_scaling(hid_t file, const ForceTable& table, const TableScaling& scaling) {
   add_values(file, kScaled, {scaling.largest_size, scaling.load, scaling.friction});
-  for (const TableAxis& axis : scaling.asked) {
-    add_numbers(file, axis.name, axis.unit, {axis.at.size()}, axis.at);
-    const TableHandle set(H5Dopen2(file, axis.name.c_str(), H5P_DEFAULT), H5Dclose);
-    checked(H5DSset_scale(set, axis.name.c_str()));
-  }
+  for (const TableAxis& axis : scaling.asked) add_axis(file, axis);
   std::vector<hsize_t> size;
   for (std::size_t k = kScaledAxes; k < table.axes.size(); ++k) size.push_back(table.axes[k].at.size());
   if (size.empty()) size.push_back(1);
@@ -104,9 +107,7 @@ void fill(hid_t file, const ForceTable& table, const TableRemarks& remarks) {
   for (const TableAxis& axis : table.axes) {
     names += (names.empty() ? "" : ",") + axis.name;
     size.push_back(axis.at.size());
-    add_numbers(file, axis.name, axis.unit, {axis.at.size()}, axis.at);
-    const TableHandle set(H5Dopen2(file, axis.name.c_str(), H5P_DEFAULT), H5Dclose);
-    checked(H5DSset_scale(set, axis.name.c_str()));
+    add_axis(file, axis);
   }
   add_text(file, kAxes, names);
   for (const auto& [name, text] : remarks) add_text(file, name.c_str(), text);
@@ -172,11 +173,8 @@ void read_scaling(hid_t file, ForceTable& table) {
 
 ForceTable table_in(hid_t file) {
   ForceTable out;
-  std::string names = text_of(file, kAxes);
-  while (!names.empty()) {
-    const std::size_t comma = names.find(',');
-    const std::string name = names.substr(0, comma);
-    names = comma == std::string::npos ? "" : names.substr(comma + 1);
+  std::istringstream axes(text_of(file, kAxes));
+  for (std::string name; std::getline(axes, name, ',');) {
     const TableHandle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
     out.axes.push_back({name, text_of(set, kUnits), numbers_of(set)});
   }

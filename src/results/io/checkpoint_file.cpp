@@ -70,8 +70,11 @@ std::string read_bytes(const fs::path& file) {
   return std::move(bytes).str();
 }
 
-/// `name`: of the file, in the message.
-std::string bytes_for(const std::string& name, const CheckpointOrigin& origin, const RunState& run) {
+}  // namespace
+
+std::string sealed_checkpoint(std::string_view image) { return header_of(image).append(image); }
+
+std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run, const std::string& name) {
   try {
     std::string bytes = checkpoint_image(origin, run, kHeader);
     header_of(std::string_view(bytes).substr(kHeader)).copy(bytes.data(), kHeader);
@@ -81,14 +84,6 @@ std::string bytes_for(const std::string& name, const CheckpointOrigin& origin, c
         fmt::format("cannot make {}: {}", name, d.what),
         "free memory; `railstrata run --resume` goes on from the checkpoint before it, if there is one");
   }
-}
-
-}  // namespace
-
-std::string sealed_checkpoint(std::string_view image) { return header_of(image).append(image); }
-
-std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run) {
-  return bytes_for("a checkpoint", origin, run);
 }
 
 Checkpoint checkpoint_of(std::string_view bytes, const fs::path& file) {
@@ -106,7 +101,7 @@ fs::path previous_checkpoint_file(const fs::path& folder) { return folder / "che
 void write_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, const RunState& run) {
   const GivesMemoryBack at_the_end;
   const fs::path file = checkpoint_file(folder);
-  write_whole_file(file, bytes_for(file.string(), origin, run), previous_checkpoint_file(folder));
+  write_whole_file(file, checkpoint_bytes(origin, run, file.string()), previous_checkpoint_file(folder));
 }
 
 FoundCheckpoint read_checkpoint(const fs::path& folder, const std::string& case_sha256) {

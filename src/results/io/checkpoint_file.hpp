@@ -20,9 +20,10 @@ inline constexpr int kCheckpointFormat = 7;
 /// Those from this one on are read too; 6 has no sleepers.
 inline constexpr int kOldestCheckpointFormat = 6;
 
-/// The file's bytes, and back. checkpoint_of throws CaseError with the fault in the bytes; `file`: their name in the
-/// message.
-std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run);
+/// The file's bytes, and back. checkpoint_bytes throws EnvironmentError, checkpoint_of CaseError with the fault in the
+/// bytes; `name`, `file`: their name in the message.
+std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run,
+                             const std::string& name = "a checkpoint");
 Checkpoint checkpoint_of(std::string_view bytes, const std::filesystem::path& file);
 
 /// An HDF5 image behind the text of 512 bytes that vouches for it.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "fatigue/shakedown_summary.hpp"
-#include "fatigue/sliding_map.hpp"
 #include "fatigue/streamlines.hpp"
 #include "result/summary.hpp"
 

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
 #include "io/checkpoint_file.hpp"
 #include "record/escaped_text.hpp"
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "geometry/turned_wheel.hpp"
 #include "record/output_file.hpp"
@@ -13,17 +15,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kSpacing = 0.5e-3, kReach = 80e-3;
+constexpr double kSpacing = 0.5e-3, kReach = 80e-3;  // m, the latter to either side of the contact
+constexpr double kSurfaceSpacing = 1e-3, kHalfLength = 0.1;
+constexpr int kStations = 21, kAngles = 181;
+
+/// Points of a profile so far apart.
+std::vector<ProfilePoint> outline(const Profile& profile, double contact_s, double spacing) {
+  const double begin = std::max(profile.s_min(), contact_s - kReach),
+               end = std::min(profile.s_max(), contact_s + kReach);
+  const int pieces = static_cast<int>(std::ceil((end - begin) / spacing));
+  std::vector<ProfilePoint> out;
+  for (int k = 0; k <= pieces; ++k) out.push_back(profile.at(k == pieces ? end : begin + (end - begin) * k / pieces));
+  return out;
+}
 
 /// Points of a profile, `depth` below its surface, in the model frame; `half_width`: of the profile's own y.
 template <class ToModel>
 Json curve(const Profile& profile, double contact_s, double depth, double half_width, ToModel&& to_model) {
-  const double begin = std::max(profile.s_min(), contact_s - kReach),
-               end = std::min(profile.s_max(), contact_s + kReach);
-  const int pieces = static_cast<int>(std::ceil((end - begin) / kSpacing));
   Json points = Json::array();
-  for (int k = 0; k <= pieces; ++k) {
-    const ProfilePoint p = profile.at(k == pieces ? end : begin + (end - begin) * k / pieces);
+  for (const ProfilePoint& p : outline(profile, contact_s, kSpacing)) {
     if (std::abs(p.position.y) > half_width) continue;
     const Vec2 point = to_model(p.position - depth * p.outward);
     points.push_back({point.y, point.z});
@@ -50,6 +60,17 @@ Json hertz_json(const HertzContact& hertz) {
 HertzContact hertz_under(CaseSpec spec, const LoadedContact& patch) {
   spec.vehicle.set_load(patch.load);
   return hertz_estimate(spec, patch.contact);
+}
+
+VtkQuads swept(const std::vector<ProfilePoint>& line, int stations, const std::function<Vec3(Vec2, int)>& at) {
+  VtkQuads mesh;
+  const auto n = static_cast<long long>(line.size());
+  for (int s = 0; s < stations; ++s)
+    for (const ProfilePoint& p : line) mesh.points.push_back(at(p.position, s));
+  for (long long s = 0; s + 1 < stations; ++s)
+    for (long long k = 0; k + 1 < n; ++k)
+      mesh.cells.push_back({s * n + k, (s + 1) * n + k, (s + 1) * n + k + 1, s * n + k + 1});
+  return mesh;
 }
 
 }  // namespace
@@ -112,6 +133,33 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement, const std::
 void write_geometry(const std::filesystem::path& file, const CaseSpec& spec, const Placement& placement,
                     const std::vector<LoadedContact>& patches) {
   write_whole_file(file, geometry_json(spec, placement, patches).dump() + "\n");
+}
+
+VtkQuads rail_surface(const Placement& placement, double wheel_x) {
+  return swept(outline(placement.rail, placement.contact.rail_s, kSurfaceSpacing), kStations, [&](Vec2 p, int s) {
+    const Vec2 q = rail_to_model(placement.track, p);
+    const double along = kHalfLength * (2.0 * s / (kStations - 1) - 1), radius = placement.track.rail_radius + q.z;
+    if (!std::isfinite(radius)) return Vec3{wheel_x + along, q.y, q.z};
+    const double angle = along / std::max(std::abs(radius), kHalfLength / std::numbers::pi);
+    return Vec3{wheel_x + std::abs(radius) * std::sin(angle), q.y, q.z - radius * (1 - std::cos(angle))};
+  });
+}
+
+VtkQuads wheel_surface(const Placement& placement, double wheel_x) {
+  const RigidContact& c = placement.contact;
+  const TurnedWheel turned(placement.wheel, placement.track);
+  return swept(outline(placement.wheel, c.wheel_s, kSurfaceSpacing), kAngles, [&](Vec2 p, int s) {
+    const double radius = placement.track.wheel_radius - p.z, t = 2 * std::numbers::pi * s / (kAngles - 1);
+    const double along = radius * std::sin(t);
+    const Vec2 section = turned.section({p.y, placement.track.wheel_radius - radius * std::cos(t)});
+    return Vec3{wheel_x - c.x + along * std::cos(c.yaw) - section.y * std::sin(c.yaw),
+                c.wheel_offset_y + section.y * std::cos(c.yaw) + along * std::sin(c.yaw), c.wheel_offset_z + section.z};
+  });
+}
+
+void write_placed_surfaces(const std::filesystem::path& folder, const Placement& placement, double wheel_x) {
+  write_vtp(folder / "rail_surface.vtp", rail_surface(placement, wheel_x));
+  write_vtp(folder / "wheel_surface.vtp", wheel_surface(placement, wheel_x));
 }
 
 }  // namespace railstrata

@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "model/model.hpp"
+#include "record/vtk.hpp"
 
 namespace railstrata {
 
@@ -26,5 +27,14 @@ nlohmann::ordered_json geometry_json(const CaseSpec& spec, const Placement& plac
                                      const std::vector<LoadedContact>& patches = {});
 void write_geometry(const std::filesystem::path& file, const CaseSpec& spec, const Placement& placement,
                     const std::vector<LoadedContact>& patches = {});
+
+// ---- running surfaces of wheel and rail where they stand, for pictures around the results
+/// The rail's profile over 200 mm below the wheel, and the wheel's turned all the way round its axle; undeformed, model
+/// frame, wheel's axle at wheel_x [m].
+VtkQuads rail_surface(const Placement& placement, double wheel_x);
+VtkQuads wheel_surface(const Placement& placement, double wheel_x);
+
+/// rail_surface.vtp and wheel_surface.vtp.
+void write_placed_surfaces(const std::filesystem::path& folder, const Placement& placement, double wheel_x);
 
 }  // namespace railstrata

@@ -15,6 +15,30 @@ namespace railstrata {
 inline constexpr const char *kReferenceFolder = "half_space", *kSeriesFolder = "patch_series",
                             *kPositionFolder = "position_";
 
+// ---- the profile files of a case, kept with its results: inputs/<name>. case.toml there names them by these relative
+// paths, so that the folder can be moved and computed again when the files it was made from are gone.
+inline constexpr const char* kInputsFolder = "inputs";
+
+struct KeptInput {
+  std::filesystem::path source;  ///< where the case has it
+  std::string kept;              ///< its copy, relative to the result folder: "inputs/wheel.csv"
+};
+
+/// The profile files of the case (built-in profiles are none) and the names of their copies in `folder`: their own, or
+/// "wheel-2.csv" where another file of that name is there; a copy that is there already is found again. Throws
+/// EnvironmentError if a file cannot be read.
+std::vector<KeptInput> kept_inputs(const LoadedCase& loaded, const std::filesystem::path& folder);
+
+/// Copies what is not there yet. Throws EnvironmentError for the disk.
+void copy_inputs(const std::vector<KeptInput>& inputs, const std::filesystem::path& folder);
+
+/// case.toml of a result: every option with its value, profile files by the names of their copies.
+std::string kept_case(const LoadedCase& loaded, const std::vector<KeptInput>& inputs);
+
+/// Every option with its value, profile files by the SHA-256 of their content: the same wherever the files lie.
+std::string case_by_content(const LoadedCase& loaded);
+
+// ---- the folder
 /// Makes the folder, holds it and tries to write in it. With `begun` several may work together in one that it calls
 /// theirs, or that is empty. Throws CaseError when it is held or holds files and `force` is not set, EnvironmentError
 /// when it cannot be made or written.
@@ -28,7 +52,7 @@ void clear_old_results(const std::filesystem::path& folder);
 /// Throws CaseError if write_origin() would replace the file that the case was read from.
 void require_apart(const std::filesystem::path& folder, const LoadedCase& loaded);
 
-/// Copies of the profile files (io/kept_inputs.hpp), case.toml with every option written out, case.original.toml as
+/// Copies of the profile files, case.toml with every option written out, case.original.toml as
 /// it was given, provenance.json. Each file is whole or not there.
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
                   const std::vector<std::string>& command_line, int threads);
@@ -42,13 +66,6 @@ void remove_parts(const std::filesystem::path& folder, PartsOf whom);
 /// SHA-256 over the resolved case but for run.device and the content of the profile files it names, wherever they lie:
 /// what a checkpoint must agree with.
 std::string case_identity(const LoadedCase& loaded);
-
-/// The same as of a folder's own case.toml: folders from before 0.2.0 keep no copies of their profiles, and their
-/// checkpoints carry identity_by_path.
-std::string identity_in_folder(const std::filesystem::path& folder, const LoadedCase& loaded);
-
-/// SHA-256 over the resolved case with the absolute paths of its profile files, and their content.
-std::string identity_by_path(const LoadedCase& loaded);
 
 /// The "#" lines of a case's tables: program, case, axes and signs.
 std::vector<std::string> table_origin(const LoadedCase& loaded);

@@ -10,6 +10,7 @@
 #include "result/rolling_mean.hpp"
 #include "result/stress_maxima.hpp"
 #include "result/stress_sections.hpp"
+#include "result/transient_row.hpp"
 
 namespace railstrata {
 
@@ -38,7 +39,7 @@ void write_patch_tables(const std::filesystem::path& folder, const std::vector<s
 /// depth_line.csv: the six stresses, von Mises and the principal stresses against depth; of a run with plasticity the
 /// accumulated plastic strain, plastic strains and backstresses, here and in the sections.
 void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
-                      const DepthLine& line);
+                      const StressSection& line);
 
 /// <body>_longitudinal_section.csv (plane y = const) and <body>_cross_section.csv (plane x = const): cell centres x, y,
 /// depth, the six stresses to 1e-3 MPa, von Mises, the largest principal stress and the material; rows of one depth
@@ -69,5 +70,31 @@ struct PointRow {
   WatchedStress at;
 };
 Columns<PointRow> point_columns(bool yields);
+
+// ---- files that grow while a transient is followed: history.csv, a row a step, and the patch on its way
+/// history.csv of half-spaces (RecordLog). Columns that do not apply to what is followed are left out: a shift has
+/// displacements and no creepages, what rolls the other way round.
+Columns<TransientRow> transient_columns(bool rolls, bool timed);
+
+/// A cell in contact, in a state of the patch on its way.
+struct FilmCell {
+  int step;
+  double distance;  ///< m
+  PatchPoint point;
+};
+
+/// patch_film.csv: cells in contact in a number of states (of finite elements nodes in frames, `distance` the wheel's
+/// position), for the film of the page: at most some 80 cells along a side, pressures and tractions to a tenth of an
+/// MPa.
+class PatchFilm {
+ public:
+  PatchFilm(const std::filesystem::path& file, const std::vector<std::string>& provenance);
+  void add(int step, double distance, const ContactField& field);
+  /// The rows of an earlier film whose steps come before `end`.
+  void keep(const CsvTable& earlier, int end);
+
+ private:
+  RecordLog<FilmCell> log_;
+};
 
 }  // namespace railstrata

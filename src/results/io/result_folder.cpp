@@ -4,15 +4,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <utility>
 
 #include "core/engine.hpp"
 #include "core/faults.hpp"
+#include "core/text.hpp"
 #include "io/folder_kind.hpp"
+#include "io/provenance.hpp"
 #include "io/result_files.hpp"
 #include "record/csv.hpp"
 
@@ -81,11 +84,6 @@ ContactField patch_of(const CsvTable& table) {
   return f;
 }
 
-std::string text_at(const nlohmann::json& summary, const std::string& path) {
-  const nlohmann::json::json_pointer at(path);
-  return summary.contains(at) && summary[at].is_string() ? summary[at].get<std::string>() : "";
-}
-
 const char* kind_of(const nlohmann::json& v) {
   if (v.is_string()) return "a text";
   if (v.is_boolean()) return "true or false";
@@ -118,24 +116,101 @@ void require_kinds(const nlohmann::json& summary, const fs::path& file) {
                              fmt::join(engine_words(), " and ")));
 }
 
+constexpr const char* kContradicted = "summary_contradicted";
+
+fs::path folder_of_origin(const fs::path& folder) {
+  const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
+  std::error_code error;
+  const bool position = full.filename().string().starts_with("position_");
+  return position && !fs::exists(full / "provenance.json", error) ? full.parent_path() : full;
+}
+
+std::array<int, 3> numbers_of(const std::string& version) {
+  std::array<int, 3> n{};
+  static_cast<void>(std::sscanf(version.c_str(), "%d.%d.%d", &n[0], &n[1], &n[2]));
+  return n;
+}
+
+void doubt_version(const nlohmann::json& origin, std::vector<ResultDoubt>& out) {
+  const std::string theirs = text_at(origin, "/version"), ours = build_info().version;
+  if (theirs == ours || theirs.empty()) return;
+  const bool newer = numbers_of(theirs) > numbers_of(ours);
+  out.push_back(
+      {"other_version",
+       fmt::format("written by RailStrata {}, {} than this one ({}): {}", theirs, newer ? "newer" : "older", ours,
+                   newer ? "its files may contain more or other data than this program reads"
+                         : "this program may give other numbers"),
+       false});
+}
+
+void doubt_case(const nlohmann::json& origin, const fs::path& folder, std::vector<ResultDoubt>& out) {
+  const std::string then = text_at(origin, "/case_sha256");
+  std::error_code error;
+  if (then.empty() || !fs::exists(folder / "case.toml", error)) return;
+  if (sha256_of_file(folder / "case.toml") == then) return;
+  out.push_back({"case_edited",
+                 "case.toml was changed after the run (its SHA-256 is not that of provenance.json): the numbers do not "
+                 "belong to the options shown",
+                 true});
+}
+
+void doubt_checks(const ResultFolder& result, std::vector<ResultDoubt>& out) {
+  for (const KeptCheck& c : checks_of(result.summary))
+    if (c.said_ok && !c.ok)
+      out.push_back(
+          {kContradicted,
+           fmt::format("summary.json reports that the check {} holds, but its value is {:.4g}, its limit {:.4g}: it "
+                       "was changed after the run",
+                       c.name, c.value, c.limit),
+           true});
+}
+
+/// Both files come from one computation. `tolerance`: how far the two numbers may be apart, relative.
+void doubt_number(const ResultFolder& result, const char* path, double scale, const char* what, double of_patch,
+                  double tolerance, std::vector<ResultDoubt>& out) {
+  const double said = result.number(path);
+  if (!std::isfinite(said) || std::abs(of_patch - said) <= tolerance * std::abs(said)) return;
+  out.push_back({kContradicted,
+                 fmt::format("summary.json has {} {:.6g}, but patch.csv gives {:.6g}: one of them was changed, is "
+                             "incomplete or comes from another run",
+                             what, scale * said, scale * of_patch),
+                 true});
+}
+
+void doubt_patch(const ResultFolder& result, std::vector<ResultDoubt>& out) {
+  constexpr double kRoundOff = 1e-9;   // of a table in MPa and mm
+  constexpr double kOneNormal = 0.05;  // the sum takes the pressures of a curved surface as parallel
+  const PatchMeasures patch = measure_patch(result.field);
+  doubt_number(result, "/contact/p_max_Pa", 1e-6, "p_max [MPa]", patch.p_max, kRoundOff, out);
+  doubt_number(result, "/contact/q_max_point_Pa", 1e-6, "q_max of a point [MPa]", patch.q_max_point, kRoundOff, out);
+  doubt_number(result, "/contact/normal_force_N", 1e-3, "a normal force [kN] of", patch.force_z, kOneNormal, out);
+}
+
 }  // namespace
 
-double ResultFolder::number(const std::string& path) const {
+double number_at(const nlohmann::json& object, const std::string& path) {
   const nlohmann::json::json_pointer at(path);
-  return summary.contains(at) && summary[at].is_number() ? summary[at].get<double>()
-                                                         : std::numeric_limits<double>::quiet_NaN();
+  return object.contains(at) && object[at].is_number() ? object[at].get<double>() : kNotApplicable;
+}
+
+std::string text_at(const nlohmann::json& object, const std::string& path) {
+  const nlohmann::json::json_pointer at(path);
+  return object.contains(at) && object[at].is_string() ? object[at].get<std::string>() : "";
+}
+
+std::vector<nlohmann::json> objects_of(const nlohmann::json& object, const char* list) {
+  std::vector<nlohmann::json> out;
+  if (!object.contains(list) || !object[list].is_array()) return out;
+  for (const nlohmann::json& entry : object[list])
+    if (entry.is_object()) out.push_back(entry);
+  return out;
 }
 
 std::vector<KeptCheck> checks_of(const nlohmann::json& summary) {
   std::vector<KeptCheck> out;
-  if (!summary.contains("checks") || !summary["checks"].is_array()) return out;
-  for (const nlohmann::json& entry : summary["checks"]) {
-    if (!entry.is_object()) continue;
-    const auto number = [&](const char* key) {
-      return entry.contains(key) && entry[key].is_number() ? entry[key].get<double>() : kNotApplicable;
-    };
+  for (const nlohmann::json& entry : objects_of(summary, "checks")) {
     const std::string name = text_at(entry, "/name");
-    const Check check = at_most(name.empty() ? "check" : name, number("value"), number("limit"));
+    const Check check = at_most(name.empty() ? "check" : name, number_at(entry, "/value"), number_at(entry, "/limit"));
     out.push_back({check, entry.contains("ok") && entry["ok"].is_boolean() && entry["ok"].get<bool>()});
     out.back().ok = check.ok && out.back().said_ok;
   }
@@ -160,6 +235,18 @@ ResultFolder parse_results(const std::string& summary, const std::string& patch,
 ResultFolder read_result_folder(const fs::path& folder) {
   const std::string summary = text_of(folder / "summary.json");  // the one whose absence is reported first
   return parse_results(summary, text_of(folder / "patch.csv"), folder);
+}
+
+std::vector<ResultDoubt> result_doubts(const ResultFolder& result) {
+  const fs::path home = folder_of_origin(result.folder);
+  const auto origin = nlohmann::json::parse(file_text(home / "provenance.json"), nullptr, false);
+  std::vector<ResultDoubt> out;
+  doubt_checks(result, out);
+  doubt_patch(result, out);
+  if (!origin.is_object()) return out;
+  doubt_case(origin, home, out);
+  doubt_version(origin, out);
+  return out;
 }
 
 }  // namespace railstrata

@@ -175,25 +175,19 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   return s;
 }
 
-StressSummary bem_rail_stress(const BemResult& r, const ContactSummary& contact) {
-  StressSummary out = stress_summary(rail_interior(r).peaks(depths_of_interest(r.rail, contact)));
+StressSummary bem_stress(const BemResult& r, BodyId body, const ContactSummary& contact) {
+  const bool rail = body == BodyId::rail;
+  const Subsurface interior = rail ? rail_interior(r) : wheel_interior(r);
+  StressSummary out = stress_summary(interior.peaks(depths_of_interest(rail ? r.rail : r.wheel, contact)));
   add_stress_errors(r, contact, out);
   return out;
 }
 
-StressSummary bem_wheel_stress(const BemResult& r, const ContactSummary& contact) {
-  StressSummary out = stress_summary(wheel_interior(r).peaks(depths_of_interest(r.wheel, contact)));
-  add_stress_errors(r, contact, out);
-  return out;
-}
-
-DepthLine rail_depth_line(const BemResult& r, double x, double y, double deepest) {
+StressSection rail_depth_line(const BemResult& r, double x, double y, double deepest) {
   const Subsurface interior = rail_interior(r);
   const PatchGrid& g = r.grid;
   const int i = cell(x, g.x0, g.dx, g.nx), j = cell(y, g.y0, g.dy, g.ny);
-  DepthLine line;
-  line.x = g.x(i);
-  line.y = g.y(j);
+  StressSection line{g.y(j), {g.x(i)}, {}, {}, {}, {}};
   const auto add = [&](const StatePlane& plane, bool below, int material) {
     line.depth.push_back(plane.depth);
     line.stress.push_back(in_model_frame(interior.stress(plane, g.index(i, j), below), r.contact.angle));

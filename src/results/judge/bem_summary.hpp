@@ -1,7 +1,7 @@
 #pragma once
 // A half-space result as a Summary, with its checks: the same keys with the same meanings as a finite element result.
 #include "bem/solve_bem.hpp"
-#include "result/band_stress.hpp"
+#include "result/stress_sections.hpp"
 #include "result/summary.hpp"
 
 namespace railstrata {
@@ -29,11 +29,10 @@ void judge_coarsest_state(double coarsest, Summary& summary);
 
 /// The largest stresses of one body, of several patches below the first: x, y in the contact plane from the rigid
 /// contact point; `subsurface` starts at subsurface_begin (result/patch.hpp); `interface` takes either side.
-StressSummary bem_rail_stress(const BemResult& result, const ContactSummary& contact);
-StressSummary bem_wheel_stress(const BemResult& result, const ContactSummary& contact);
+StressSummary bem_stress(const BemResult& result, BodyId body, const ContactSummary& contact);
 
 /// The rail's stress below the cell nearest to (x, y), model axes, from the surface to `deepest`; at an interface a row
 /// for either side. Material: 0 the matrix, k the k-th layer.
-DepthLine rail_depth_line(const BemResult& result, double x, double y, double deepest);
+StressSection rail_depth_line(const BemResult& result, double x, double y, double deepest);
 
 }  // namespace railstrata

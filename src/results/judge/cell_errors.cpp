@@ -56,13 +56,10 @@ double shear_compliance(const LayeredHalfSpace& body) { return 1 / body.substrat
 
 }  // namespace
 
-bool has_cell_errors(const CaseSpec& spec, const BemResult& r) {
-  return r.further.empty() && !r.grid.line && !spec.vehicle.approach && spec.bem.leading_edge == LeadingEdge::sub_cell;
-}
-
 ContactErrors cell_errors(const CaseSpec& spec, const BemResult& r, const ContactSummary& c) {
   ContactErrors out;
-  if (!has_cell_errors(spec, r)) return out;
+  if (!r.further.empty() || r.grid.line || spec.vehicle.approach || spec.bem.leading_edge != LeadingEdge::sub_cell)
+    return out;
   out.p_max = pressure_error(r.field);
   const double friction = spec.drive.friction_coefficient, cell = r.grid.dx, slip = c.patch.slip_area_fraction;
   if (!(friction > 0) || !knows_friction(spec.friction, spec.third_body)) return out;

@@ -18,11 +18,9 @@
 
 namespace railstrata {
 
-/// Whether the laws hold: steady or frictionless contact under a load, one patch, not a line, the leading edge inside a
-/// cell. Of a transient the caller has to know.
-bool has_cell_errors(const CaseSpec& spec, const BemResult& result);
-
-/// With friction by place, direction, temperature or memory, or a film that yields, of p_max alone.
+/// None where the laws do not hold: several patches, a line, a given approach, whole cells at the leading edge; that
+/// the contact is steady or without friction the caller has to know. With friction by place, direction, temperature or
+/// memory, or a film that yields, of p_max alone.
 ContactErrors cell_errors(const CaseSpec& spec, const BemResult& result, const ContactSummary& contact);
 
 /// Of the von Mises stresses below the surface, by the bar of p_max; of none where that is NaN.

@@ -5,9 +5,9 @@
 
 #include "judge/check_limits.hpp"
 #include "judge/plausibility.hpp"
-#include "judge/run_advice.hpp"
+#include "model/section_axes.hpp"
+#include "model/zone.hpp"
 #include "passage/passage.hpp"
-#include "result/plastic_summary.hpp"
 #include "result/stress_maxima.hpp"
 #include "rules/irregularity_rules.hpp"
 
@@ -91,6 +91,38 @@ PatchSurroundings surroundings(const Model& model, const MeanContact& m) {
   return out;
 }
 
+/// Of the element with the largest accumulated plastic strain; depth below the surface along its normal in the fine
+/// zone, deeper below the rigid contact point.
+void add_place(const RollingSystem& sys, BodyId id, const PlasticPeak& peak, PlasticSummary& out) {
+  const Model& model = sys.model;
+  const SweptBody& body = sys.body(id).mesh;
+  const Block& block = body.blocks[peak.block];
+  const Section& section = block.section;
+  const Vec2 centre = centre_of(section, peak.quad);
+  const bool rail = id == BodyId::rail;
+  const SectionAxes axes(model, id);
+  out.y = centre.y - axes.point.y;
+  out.depth = axes.depth(centre);
+  if (const ContactBand& band = body.contact; band.block == peak.block) {
+    const int row = peak.quad / band.columns;
+    out.depth = 0.5 * (band.depth[row] + band.depth[row + 1]);
+  }
+  if (rail) out.x = 0.5 * (block.stations.at[peak.station] + block.stations.at[peak.station + 1]);
+  out.body = body_word(id);
+  out.zone = zone_name(model.spec, id, body.layer_of(block.material(peak.quad, peak.station)));
+}
+
+PlasticSummary plastic_summary(const RollingSystem& system, const RunResult& run) {
+  PlasticSummary out;
+  out.strain = run.plastic.strain;
+  out.accumulated = run.plastic.accumulated;
+  out.elements = static_cast<double>(run.plastic.yielded);
+  out.work = run.remains.work;
+  out.dissipated = run.remains.work - run.remains.backstress;
+  if (run.remains.peak.accumulated > 0) add_place(system, run.remains.body, run.remains.peak, out);
+  return out;
+}
+
 }  // namespace
 
 std::vector<Check> finite_element_checks(const Model& model, const RunResult& run, const MeanContact& m) {
@@ -123,8 +155,8 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   s.title = spec.title;
   s.position = m.position;
   s.contact = contact_summary(sys, run, m);
-  s.rail = rail_stress_summary(sys, m);
-  s.wheel = wheel_stress_summary(sys, m);
+  s.rail = band_stress_summary(sys, BodyId::rail, m);
+  s.wheel = band_stress_summary(sys, BodyId::wheel, m);
   s.energy = {.closure = spec.run.rolling ? run.closure : kNotApplicable, .hourglass_share = run.hourglass_share};
   if (spec.run.plasticity) s.plastic = plastic_summary(sys, run);
   s.passage = passage_summary(sys, run);

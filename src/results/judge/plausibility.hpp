@@ -1,7 +1,10 @@
 #pragma once
-// Warnings of results that are computed correctly but lie outside the range of the model.
+// Warnings of results that are computed correctly but lie outside the range of the model, and of runs before they
+// start.
+#include <optional>
 #include <vector>
 
+#include "fem/step_plan.hpp"
 #include "model/surroundings.hpp"
 #include "result/summary.hpp"
 #include "spec/case_fwd.hpp"
@@ -19,5 +22,20 @@ double film_shear(const CaseSpec& spec, const PatchMeasures& patch);
 /// patch_near_edge, soft_film, stress_maximum_at_rim. Limits and words: check_limits.hpp; reasons: docs/checks.md.
 std::vector<Warning> implausible(const Summary& summary, const CaseSpec& spec, const PatchSurroundings& around,
                                  double element);
+
+// ---- of a finite element run before it starts, and of its results for the same reasons
+/// Warnings of a case that is measured at a wheel position [m]:
+///   measured_within_torque_ramp   the window begins before the torque has its full value (the ramp's time times the
+///                                 speed; value and limit are lengths): the wanted traction cannot be reached there
+///   mass_scaling_adds_much        to a block (value and limit are shares of the block's mass; the text has kilograms)
+std::vector<Warning> run_advice(const CaseSpec& spec, double position, const StepLimits& limits);
+
+/// short_friction_memory: friction.memory_distance is below what steady sliding needs under the pressure p_max [Pa] in
+/// a patch whose longer axis is `longer_axis` [m] (model/sliding_waves.hpp); value: the latter over the former.
+std::optional<Warning> memory_advice(const CaseSpec& spec, double p_max, double longer_axis);
+
+/// Adds the warnings to a summary. Where traction_coefficient_reached fails within the torque's ramp, the warning gives
+/// this reason.
+void add_run_advice(Summary& summary, const CaseSpec& spec, const StepLimits& limits);
 
 }  // namespace railstrata

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "result/layer_worst.hpp"
 #include "result/summary.hpp"
 
 namespace railstrata {

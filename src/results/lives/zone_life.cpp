@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -19,6 +18,7 @@ namespace railstrata {
 namespace {
 
 constexpr int kSettledPasses = 40;  // from 12 to 16 passes a life may change sixfold, from 40 to 200 by 1 %
+constexpr double kSkin = 0.2e-3;    // m, the upper part of a body that counts as its surface
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
 

@@ -11,8 +11,9 @@
 namespace railstrata {
 namespace {
 
-constexpr double kShare =
-    0.5;  // of a round's new displacement that is taken: sinking lowers the pressure that caused it
+constexpr double kTolerance = 2e-3;  // of the largest pressure
+constexpr int kMostRounds = 40;
+constexpr double kShare = 0.5;  // of a round's new displacement that is taken: sinking lowers the pressure behind it
 
 /// Weights of the numbers of a period at a place, in steps from the first one: the interpolation of its waves.
 std::vector<double> weights_at(int n, double place) {
@@ -69,8 +70,8 @@ RailSurface surface_in_cells(const PatchGrid& cells, const SteadyGrid& g, double
 }
 
 FollowingContact::FollowingContact(std::vector<CaseSpec> specs, std::vector<Placement> placements,
-                                   const BemOptions& bem, FollowingOptions options)
-    : specs_(std::move(specs)), placements_(std::move(placements)), bem_(bem), options_(options) {}
+                                   const BemOptions& bem)
+    : specs_(std::move(specs)), placements_(std::move(placements)), bem_(bem) {}
 
 BemResult FollowingContact::solve(const RailPasses& rail, const Field& surface, std::size_t traction, int columns,
                                   BemNeighbour& neighbour) {
@@ -102,8 +103,8 @@ FollowedPass FollowingContact::run_pass(const RailPasses& rail, const SteadyBody
     anderson.step(surface, residual);
     BemResult moved = solve(rail, surface, traction, columns, neighbour);
     out.change = largest_change(moved, contact);
-    out.converged = out.change <= options_.tolerance;
-    if (out.converged || out.rounds == options_.rounds) {
+    out.converged = out.change <= kTolerance;
+    if (out.converged || out.rounds == kMostRounds) {
       state = std::move(next);
       break;
     }

@@ -6,18 +6,13 @@
 // Its sinking opens the gap of the half-spaces, its tangential part slips under the wheel by du/dx as an elastic
 // displacement does; both change the tractions. Solved as a fixed point of u with Anderson's acceleration
 // [WalkerNi2011]: contact on u, a pass under its stress, u of that pass. Ended when the pressure of no cell changes by
-// more than FollowingOptions::tolerance of the largest one from one round to the next.
+// more than 0.2 % of the largest one from one round to the next.
 #include <vector>
 
 #include "bem/solve_bem.hpp"
 #include "passes/rail_passes.hpp"
 
 namespace railstrata {
-
-struct FollowingOptions {
-  double tolerance = 2e-3;  ///< of the largest pressure
-  int rounds = 40;
-};
 
 /// A pass and the contact that it was computed under.
 struct FollowedPass {
@@ -32,8 +27,7 @@ struct FollowedPass {
 class FollowingContact {
  public:
   /// One case and its placement for each traction (cases_of_tractions); bem: how their contacts are solved.
-  FollowingContact(std::vector<CaseSpec> specs, std::vector<Placement> placements, const BemOptions& bem,
-                   FollowingOptions options = {});
+  FollowingContact(std::vector<CaseSpec> specs, std::vector<Placement> placements, const BemOptions& bem);
   /// The next pass with the traction and place given; the state advances. Throws as SteadyBody::run_pass, the state is
   /// then as it was, and as solve_bem.
   FollowedPass run_pass(const RailPasses& rail, const SteadyBody& body, std::size_t traction, int columns,
@@ -47,7 +41,6 @@ class FollowingContact {
   std::vector<Placement> placements_;
   BemOptions bem_;
   InfluenceCache cache_;
-  FollowingOptions options_;
 };
 
 /// The displacement of a rail's surface (as of PassResult) in cells of a contact whose wheel runs so many columns to

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -12,8 +11,8 @@
 #include "core/faults.hpp"
 #include "io/damage_files.hpp"
 #include "material/strain_claim.hpp"
-#include "passes/pass_json.hpp"
-#include "passes/pass_way_files.hpp"
+#include "model/zone.hpp"
+#include "passes/pass_way.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
@@ -139,10 +138,10 @@ std::vector<PassStrain> pass_strains(const CsvTable& table) { return strains_in(
 Columns<StationaryRow> stationary_columns() {
   using R = StationaryRow;
   Columns<R> out = of_part<R>(pass_columns(), [](const R& r) -> const PassRow& { return r.pass; });
-  append(out, {{"lateral", unit::kMillimetres, [](const R& r) { return r.pass.place; }},
-               {"traction", unit::kNone, [](const R& r) { return r.pass.traction; }},
-               {"creepage", unit::kNone, [](const R& r) { return r.pass.creepage; }},
-               {"p_max", unit::kMPa, [](const R& r) { return r.pass.largest_pressure; }},
+  append(out, {{"lateral", unit::kMillimetres, [](const R& r) { return r.pass.contact.lateral; }},
+               {"traction", unit::kNone, [](const R& r) { return r.pass.contact.traction; }},
+               {"creepage", unit::kNone, [](const R& r) { return r.pass.contact.creepage; }},
+               {"p_max", unit::kMPa, [](const R& r) { return r.pass.contact.p_max; }},
                {"rounds", unit::kCount, [](const R& r) { return r.pass.rounds; }},
                {"force_share", unit::kNone, [](const R& r) { return r.pass.force_share; }},
                {"late_flow", unit::kNone, [](const R& r) { return r.pass.late_flow; }}});
@@ -266,6 +265,45 @@ void write_residual(const std::filesystem::path& folder, const std::vector<std::
   write_pass_points(folder / "profile.csv", remarks, profile);
 }
 
+Json last_pass_json(const CsvTable& table) {
+  Json out;
+  for (std::size_t c = 1; c < table.columns.size(); ++c)
+    out[table.columns[c].name] = json_number(table.columns[c].values.back());
+  return out;
+}
+
+Json points_json(const std::vector<std::vector<PassStrain>>& points, PassClass whole) {
+  Json out;
+  for (const PassClass kind :
+       {PassClass::elastic_shakedown, PassClass::plastic_shakedown, PassClass::ratchetting, PassClass::transient})
+    out[class_text(kind)] =
+        std::count_if(points.begin(), points.end(), [&](const auto& p) { return class_of_point(p, whole) == kind; });
+  return out;
+}
+
+Json ductility_json(double ductility, double reached, const std::vector<PassStrain>& cycles, int cycle) {
+  const DuctilityReach reach = passes_to_ductility(ductility, reached, cycles);
+  const auto passes = [&](double count) { return json_number(cycle * count); };
+  return {{"strain", ductility},
+          {"reached", reached},
+          {"passes", passes(reach.passes)},
+          {"earliest", passes(reach.earliest)},
+          {"latest", passes(reach.latest)}};
+}
+
+Json zones_json(const CaseSpec& spec, const std::vector<ZoneTop>& zones) {
+  Json out = Json::array();
+  for (const ZoneTop& z : zones)
+    out.push_back({{"name", zone_name(spec, BodyId::rail, z.zone)}, {"zone", z.zone}, {"top_m", z.top}});
+  return out;
+}
+
+Json loops_json(const std::vector<PassLoop>& loops) {
+  Json out = Json::array();
+  for (const PassLoop& l : loops) out.push_back({{"name", l.name}, {"y_m", l.y}, {"depth_m", l.depth}});
+  return out;
+}
+
 void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec, const RailPasses& rail,
                         const PassSeries& series, const PassResult& result, const PassWay& way,
                         const PassAnswer& answer) {
@@ -287,7 +325,7 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   if (Json factors = shakedown_json(answer.elastic); !factors.is_null()) out["shakedown"] = std::move(factors);
   out["points"] = points_json(series.points, verdict.kind);
   out["zones"] = zones_json(spec, zones_of(rail));
-  out["loops"] = loops_json(loops_of(rail, way));
+  out["loops"] = loops_json(way.loops);
   out["grid"] = grid_json(rail.grid);
   const bool follows = spec.passes.pressure == PassPressure::following;
   out["assumptions"] = {

@@ -6,14 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "passes/pass_point.hpp"
+#include <nlohmann/json_fwd.hpp>
+
 #include "passes/pass_series.hpp"
-#include "passes/pass_way.hpp"
 #include "record/column.hpp"
 #include "result/summary.hpp"
 #include "spec/case_fwd.hpp"
 
 namespace railstrata {
+
+struct PassWay;  // passes/pass_way.hpp
 
 /// passes.csv: the columns that both methods have.
 Columns<PassRow> pass_columns();
@@ -56,9 +58,31 @@ std::vector<PassPoint> section_points(const RailPasses& rail, const PassSeries& 
 void write_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                     const RailPasses& rail, const PassSeries& series, const PassResult& last);
 
+// ---- contents of passes.json that both methods have
+/// The last row of passes.csv, but for its number; null for what is not finite.
+nlohmann::ordered_json last_pass_json(const CsvTable& table);
+
+/// Number of points of each class. points: the last passes of each; whole: the class of the series.
+nlohmann::ordered_json points_json(const std::vector<std::vector<PassStrain>>& points, PassClass whole);
+
+/// Passes until the ductility [equivalent strain] is used up, and between which two numbers that lies; null: never by
+/// this law. reached: the largest equivalent plastic strain so far; cycles of `cycle` passes.
+nlohmann::ordered_json ductility_json(double ductility, double reached, const std::vector<PassStrain>& cycles,
+                                      int cycle);
+
+/// A zone of the rail: 0 the rail itself, then its layers from the surface down.
+struct ZoneTop {
+  int zone = 0;
+  double top = 0;  ///< m below the surface
+};
+nlohmann::ordered_json zones_json(const CaseSpec& spec, const std::vector<ZoneTop>& zones);
+
+/// Positions of the points whose loops are in loops.csv.
+nlohmann::ordered_json loops_json(const std::vector<PassLoop>& loops);
+
 /// Contents of passes.json besides the series itself.
 struct PassAnswer {
-  std::string verdict, law;         ///< sentences (passes/pass_text.hpp)
+  std::string verdict, law;         ///< sentences (passes/pass_series.hpp)
   Summary elastic;                  ///< of the first of the tractions, with its shakedown where there are strengths
   std::vector<std::string> doubts;  ///< failed checks and warnings of the contact that all passes use
   std::optional<double> ductility;  ///< equivalent strain that the material bears

@@ -15,6 +15,13 @@ namespace {
 constexpr double kMostDeviations = 3;
 constexpr int kScatteredCycle = 10;
 
+/// Standard normal numbers: one for each seed and n. Counters through the finalizer of splitmix64
+/// [SteeleLeaFlood2014], Box and Muller's transform [BoxMuller1958].
+double normal_number(int seed, int n) {
+  const std::uint64_t at = mixed(static_cast<std::uint64_t>(seed)) + 2 * static_cast<std::uint64_t>(n);
+  return std::sqrt(-2 * std::log(uniform_number(at))) * std::cos(2 * std::numbers::pi * uniform_number(at + 1));
+}
+
 /// The draws of one pass, until one lies within the cut.
 double cut_normal_number(int seed, int pass) {
   constexpr int kDraws = 16;  // all beyond three deviations: chance 1e-41
@@ -29,11 +36,6 @@ double cut_normal_number(int seed, int pass) {
 std::size_t turn(std::size_t count, int pass) { return count == 0 ? 0 : static_cast<std::size_t>(pass - 1) % count; }
 
 }  // namespace
-
-double normal_number(int seed, int n) {
-  const std::uint64_t at = mixed(static_cast<std::uint64_t>(seed)) + 2 * static_cast<std::uint64_t>(n);
-  return std::sqrt(-2 * std::log(uniform_number(at))) * std::cos(2 * std::numbers::pi * uniform_number(at + 1));
-}
 
 PassPlan pass_plan(const PassesSpec& spec, int pass) {
   PassPlan plan;

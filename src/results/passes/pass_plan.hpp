@@ -29,8 +29,4 @@ double farthest_pass(const PassesSpec& spec);
 /// The cases to solve: one for each of traction_coefficients, the case itself without them.
 std::vector<CaseSpec> cases_of_tractions(const CaseSpec& spec);
 
-/// Standard normal numbers: one for each seed and n. Counters through the finalizer of splitmix64
-/// [SteeleLeaFlood2014], Box and Muller's transform [BoxMuller1958].
-double normal_number(int seed, int n);
-
 }  // namespace railstrata

@@ -5,9 +5,69 @@
 #include <algorithm>
 #include <cmath>
 
+#include "damage/low_cycle.hpp"
+#include "material/strain_claim.hpp"
 #include "passes/pass_files.hpp"
 
 namespace railstrata {
+namespace {
+
+/// "3.1e-4"
+std::string strain_text(double v) {
+  std::string text = fmt::format("{:.1e}", v);
+  if (const std::size_t e = text.find('e'); e + 2 < text.size() && text[e + 2] == '0') text.erase(e + 2, 1);
+  return text;
+}
+
+/// ", falling as the pass to the power of -0.34"
+std::string trend_text(const PassVerdict& v) {
+  return v.trend > kConstantTrend ? fmt::format(", falling as the pass to the power of -{:.2f}", v.trend) : "";
+}
+
+/// "32000": two digits, nobody knows more of so many passes.
+std::string roughly(double passes) {
+  const double unit = passes >= 10 ? std::pow(10, std::floor(std::log10(passes)) - 1) : 1;
+  return fmt::format("{:.0f}", unit * std::round(passes / unit));
+}
+
+std::string life_text(const PassProgress& s) {
+  if (s.strain_life && (!s.ductility || s.strain_life->note.empty())) {
+    const double amplitude = s.last.largest.accumulated / 4;  // damage/low_cycle.hpp
+    const auto [fewest, most] = std::minmax({cycles_of_plastic_strain(s.strain_life->life, amplitude),
+                                             cycles_of_plastic_strain(s.strain_life->other, amplitude)});
+    const std::string range = fewest == most ? "" : roughly(fewest) + " to ";
+    return fmt::format("{}{} passes until a crack by Coffin and Manson, {}", range, roughly(most),
+                       s.strain_life->note.empty() ? "by the strain-life curve of the case" : s.strain_life->note);
+  }
+  if (!s.ductility) return "a grade, a tensile_strength or passes.ductility would give its life by Coffin and Manson";
+  const LowCycleLife life = low_cycle_life(s.last.largest.accumulated, *s.ductility);
+  return fmt::format("{} to {} passes until a crack by Coffin and Manson, ε_f = passes.ductility = {}",
+                     roughly(life.fewest), roughly(life.most), *s.ductility);
+}
+
+std::string class_sentence(const PassProgress& s) {
+  const std::string where = fmt::format("{:.1f} mm depth", 1e3 * s.last.net_depth);
+  switch (s.verdict.kind) {
+    case PassClass::elastic_shakedown:
+      if (!s.ever_yielded) return "Stays elastic: no point has yielded.";
+      return fmt::format("Shakes down: no plastic flow from pass {} on.", s.first_quiet);
+    case PassClass::plastic_shakedown:
+      return fmt::format(
+          "Closed cycles (plastic shakedown): {} plastic strain in every pass, {} of it remains: low-cycle fatigue, "
+          "{}.",
+          strain_text(s.last.largest.accumulated), strain_text(s.verdict.rate), life_text(s));
+    case PassClass::ratchetting:
+      return fmt::format("Ratchets: {} net strain per pass at {}, the same from pass to pass.",
+                         strain_text(s.verdict.rate), where);
+    case PassClass::transient:
+      break;
+  }
+  return fmt::format("{}: {} net strain in pass {} at {}{}; more passes will show.",
+                     s.verdict.trend > kConstantTrend ? "Still settling" : "No claim yet", strain_text(s.verdict.rate),
+                     s.last.pass, where, trend_text(s.verdict));
+}
+
+}  // namespace
 
 void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series) {
   const std::size_t points = result.accumulated.size();
@@ -96,6 +156,28 @@ PassProgress progress_of(const PassVerdict& verdict, const std::vector<PassStrai
     if (strains[n].accumulated >= kNoFlow) out.first_quiet = static_cast<int>(n) + 2;
   }
   return out;
+}
+
+std::string describe(const PassProgress& s) {
+  const std::string claim = strain_warning(s.last.strain);
+  return claim.empty() ? class_sentence(s) : class_sentence(s) + " " + claim;
+}
+
+std::string describe_law(const PlasticParameters<double>& law) {
+  if (!std::isfinite(law.yield)) return "elastic: it does not yield";
+  bool recalls = false, linear = false;
+  for (int k = 0; k < kMostBackstresses; ++k)
+    if (law.modulus[k] > 0) (law.recall[k] > 0 ? recalls : linear) = true;
+  if (linear)
+    return "linear kinematic hardening: cannot ratchet indefinitely; at any load it ends in shakedown or closed cycles";
+  if (recalls)
+    return "Armstrong–Frederick hardening: above its limit it ratchets indefinitely at a constant rate, which the law "
+           "tends to overestimate";
+  if (law.saturation > 0)
+    return "isotropic hardening: hardens up to a limit and is then perfectly plastic: it shakes down, or ratchets "
+           "indefinitely above that limit";
+  return "perfect plasticity: above the shakedown limit it ratchets indefinitely or yields back and forth; below it, "
+         "it shakes down";
 }
 
 }  // namespace railstrata

@@ -15,6 +15,7 @@
 #include "model/material_strength.hpp"
 #include "model/zone.hpp"
 #include "passes/pass_plan.hpp"
+#include "record/column.hpp"
 #include "result/patch.hpp"
 #include "result/stress_of_half_space.hpp"
 
@@ -97,17 +98,11 @@ SteadyGrid plan_grid(const Footprint& f, const PassesSpec& passes, double window
   const double a = f.x.half();
   SteadyGrid g;
   g.dx = a / passes.patch_cells;
-  if (f.line) {
-    g.nx = static_cast<int>(std::lround((42 + window) * passes.patch_cells));
-    g.front = 10 * a;
-    g.active = window * a;
-    g.hold = 6 * a;
-    return g;
-  }
-  g.nx = static_cast<int>(std::lround((14 + window) * passes.patch_cells));
-  g.front = 4 * a;
+  g.nx = static_cast<int>(std::lround(((f.line ? 42 : 14) + window) * passes.patch_cells));
+  g.front = (f.line ? 10 : 4) * a;
   g.active = window * a;
-  g.hold = 2 * a;
+  g.hold = (f.line ? 6 : 2) * a;
+  if (f.line) return g;
   g.dy = f.y.half() / passes.patch_cells;
   g.ny = 12 * passes.patch_cells + 2 * static_cast<int>(std::ceil(farthest_pass(passes) / g.dy));
   g.y0 = f.y.middle() - 0.5 * (g.ny - 1) * g.dy;
@@ -144,11 +139,12 @@ class Rows {
               key, key));
         continue;
       }
-      any_ = true;
       for (const std::string& note : laws_.back()->notes) notes_.push_back(note);
     }
   }
-  bool any() const { return any_; }
+  bool any() const {
+    return std::any_of(laws_.begin(), laws_.end(), [](const auto& law) { return law.has_value(); });
+  }
   const std::vector<std::string>& notes() const { return notes_; }
 
   SteadyRow at(const HalfSpaceMaterial& material, int zone, double depth) const {
@@ -168,7 +164,6 @@ class Rows {
   const double strength_;
   std::vector<std::optional<PlasticLaw>> laws_;
   std::vector<std::string> notes_;
-  bool any_ = false;
 };
 
 /// Stress of the contact at the active stations, row by row from the surface down.
@@ -211,16 +206,6 @@ void require_surface_bears(const ContactField& field, const SteadyRow& surface) 
       "lower drive.friction_coefficient or the traction, or give the surface hardening or a higher strength");
 }
 
-double largest_mises(const std::vector<Sym3>& stresses) {
-  double most = 0;
-  for (const Sym3& s : stresses) most = std::max(most, von_mises(s));
-  return most;
-}
-
-}  // namespace
-
-namespace {
-
 void require_known(const CaseSpec& spec, const std::vector<BemResult>& solutions, const Rows& rows,
                    const Footprint& f) {
   for (const BemResult& result : solutions)
@@ -246,38 +231,43 @@ Field as_field(const SteadyGrid& g, const std::vector<std::vector<Sym3>>& rows) 
     for (int i = 0; i < g.active_stations(); ++i)
       for (int j = 0; j < g.ny; ++j) {
         const Sym3& s = rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(i * g.ny + j)];
-        const std::array<double, 6> six{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
-        for (int c = 0; c < 6; ++c) out[g.index(c, r, i, j)] = six[c];
+        for (int c = 0; c < 6; ++c) out[g.index(c, r, i, j)] = component(s, c);
       }
   return out;
 }
 
-/// Stresses of the contact row by row, of the solutions as many as there are; `rail` is cut to the rows that matter.
-class RowsOfContact {
- public:
-  RowsOfContact(const std::vector<BemResult>& solutions, const Footprint& f, const SteadyGrid& grid) {
-    for (const BemResult& result : solutions) contacts_.emplace_back(result, f.x.middle(), grid);
-    stresses_.resize(solutions.size());
-  }
-  /// The next row; the largest von Mises stress in it.
-  double add(double depth) {
-    double most = 0;
-    for (std::size_t k = 0; k < contacts_.size(); ++k) {
-      stresses_[k].push_back(contacts_[k].row(depth));
-      most = std::max(most, largest_mises(stresses_[k].back()));
-    }
-    return most;
-  }
-  std::vector<Field> fields(const SteadyGrid& g) const {
-    std::vector<Field> out;
-    for (const auto& rows : stresses_) out.push_back(as_field(g, rows));
-    return out;
-  }
+double largest_magnitude(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+}
 
- private:
-  std::vector<ContactStress> contacts_;
-  std::vector<std::vector<std::vector<Sym3>>> stresses_;
-};
+/// Sums over a row of the section.
+void add_balance(const SteadyGrid& g, const PassResult& result, PassRow& row) {
+  double worst = 0, scale = 0, all = 0;
+  const double width = g.ny > 1 ? g.dy : 1;
+  for (int r = 0; r < g.rows(); ++r) {
+    double along = 0, magnitude = 0, across[3] = {};
+    for (int j = 0; j < g.ny; ++j) {
+      const auto& s = result.residual_stress[g.point(r, j)];
+      along += s[0];
+      magnitude += std::abs(s[0]);
+      for (int c = 0; c < 3; ++c) across[c] += s[c == 0 ? 2 : 3 + c];
+    }
+    row.force += along * width * g.thickness[static_cast<std::size_t>(r)];
+    all += magnitude * width * g.thickness[static_cast<std::size_t>(r)];
+    scale = std::max(scale, magnitude);
+    for (const double sum : across) worst = std::max(worst, std::abs(sum));
+  }
+  row.balance = scale > 0 ? worst / scale : 0;
+  row.force_share = all > 0 ? row.force / all : 0;
+}
+
+double sinking_at(const SteadyGrid& grid, const PassResult& last, double y) {
+  const double place = (y - grid.y0) / grid.dy;
+  if (!(place >= 0 && place < grid.ny - 1)) return 0;
+  const auto left = static_cast<std::size_t>(place);
+  const double right = place - static_cast<double>(left);
+  return (1 - right) * last.sinking[left] + right * last.sinking[left + 1];
+}
 
 }  // namespace
 
@@ -293,7 +283,9 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
   out.grid = plan_grid(f, spec.passes, out.window);
   const std::vector<double> all = thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / spec.passes.patch_rows,
                                               spec.passes.first_row.value_or(0));
-  RowsOfContact contact(solutions, f, out.grid);
+  std::vector<ContactStress> contacts;
+  for (const BemResult& one : solutions) contacts.emplace_back(one, out.middle_x, out.grid);
+  std::vector<std::vector<std::vector<Sym3>>> stresses(solutions.size());  // row by row
   const Subsurface interior = rail_interior(result);
   StressHistory section;  // rows alone, for what the process left in them
   std::size_t keep = 0;
@@ -306,7 +298,11 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
     out.rows.push_back(rows.at(interior.material_at(depth), zone, depth));
     section.depth.push_back(depth);
     section.zone.push_back(zone);
-    const double most = contact.add(depth);
+    double most = 0;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      stresses[k].push_back(contacts[k].row(depth));
+      for (const Sym3& s : stresses[k].back()) most = std::max(most, von_mises(s));
+    }
     if (top <= f.shorter() || most > kNearYield * out.rows.back().law.yield) keep = r + 1;
   }
   keep = std::min(keep + 1, all.size());
@@ -319,7 +315,7 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
   const RowStrength process = row_strength(spec, BodyId::rail, section);
   for (std::size_t r = 0; r < keep; ++r) out.initial_stress.push_back({process.residual_x[r], process.residual_y[r]});
   for (const BemResult& one : solutions) require_surface_bears(one.field, out.rows.front());
-  out.contact_stress = contact.fields(out.grid);
+  for (const auto& rows_of_one : stresses) out.contact_stress.push_back(as_field(out.grid, rows_of_one));
   return out;
 }
 
@@ -357,34 +353,20 @@ Field contact_strain(const RailPasses& passes, const SteadyBody& body, const Fie
   return strain;
 }
 
-namespace {
-
-double largest_magnitude(const std::vector<double>& values) {
-  return *std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-}
-
-/// Sums over a row of the section.
-void add_balance(const SteadyGrid& g, const PassResult& result, PassRow& row) {
-  double worst = 0, scale = 0, all = 0;
-  const double width = g.ny > 1 ? g.dy : 1;
-  for (int r = 0; r < g.rows(); ++r) {
-    double along = 0, magnitude = 0, across[3] = {};
-    for (int j = 0; j < g.ny; ++j) {
-      const auto& s = result.residual_stress[g.point(r, j)];
-      along += s[0];
-      magnitude += std::abs(s[0]);
-      for (int c = 0; c < 3; ++c) across[c] += s[c == 0 ? 2 : 3 + c];
-    }
-    row.force += along * width * g.thickness[static_cast<std::size_t>(r)];
-    all += magnitude * width * g.thickness[static_cast<std::size_t>(r)];
-    scale = std::max(scale, magnitude);
-    for (const double sum : across) worst = std::max(worst, std::abs(sum));
+void add_extremes(const PassPoint& p, PassRow& row) {
+  row.largest.accumulated = std::max(row.largest.accumulated, p.strain.accumulated);
+  row.strain = std::max(row.strain, equivalent_strain(p.plastic.data()));
+  if (p.strain.net > row.largest.net) {
+    row.largest.net = p.strain.net;
+    row.net_y = p.y;
+    row.net_depth = p.depth;
   }
-  row.balance = scale > 0 ? worst / scale : 0;
-  row.force_share = all > 0 ? row.force / all : 0;
+  for (std::size_t c = 0; c < 2; ++c)
+    if (p.stress[c] < row.stress[c]) {
+      row.stress[c] = p.stress[c];
+      row.stress_depth[c] = p.depth;
+    }
 }
-
-}  // namespace
 
 PassRow pass_row(const SteadyGrid& g, int pass, const PassResult& result) {
   PassRow row;
@@ -395,18 +377,12 @@ PassRow pass_row(const SteadyGrid& g, int pass, const PassResult& result) {
   for (int r = 0; r < g.rows(); ++r)
     for (int j = 0; j < g.ny; ++j) {
       const std::size_t n = g.point(r, j);
-      row.largest.accumulated = std::max(row.largest.accumulated, result.accumulated[n]);
-      row.strain = std::max(row.strain, equivalent_strain(result.plastic_strain[n].data()));
-      if (result.net[n] > row.largest.net) {
-        row.largest.net = result.net[n];
-        row.net_y = g.y(j);
-        row.net_depth = g.depth(r);
-      }
-      for (std::size_t c = 0; c < 2; ++c)
-        if (result.residual_stress[n][c] < row.stress[c]) {
-          row.stress[c] = result.residual_stress[n][c];
-          row.stress_depth[c] = g.depth(r);
-        }
+      add_extremes({.y = g.y(j),
+                    .depth = g.depth(r),
+                    .strain = {result.accumulated[n], result.net[n]},
+                    .stress = result.residual_stress[n],
+                    .plastic = result.plastic_strain[n]},
+                   row);
     }
   row.forward = largest_magnitude(result.forward);
   row.lateral = largest_magnitude(result.lateral);
@@ -414,6 +390,20 @@ PassRow pass_row(const SteadyGrid& g, int pass, const PassResult& result) {
   row.late_flow = result.late_flow;
   add_balance(g, result, row);
   return row;
+}
+
+std::vector<Vec2> pressed_profile(const Placement& placement, const SteadyGrid& grid, const PassResult& last) {
+  constexpr double kStep = 0.25e-3;  // m
+  const Profile& rail = placement.rail;
+  const double length = rail.s_max() - rail.s_min();
+  const int steps = static_cast<int>(std::ceil(length / kStep));
+  std::vector<Vec2> out;
+  for (int i = 0; i <= steps; ++i) {
+    const double s = rail.s_min() + length * i / steps;
+    const ProfilePoint at = rail.at(s);
+    out.push_back(at.position - sinking_at(grid, last, s - placement.contact.rail_s) * at.outward);
+  }
+  return out;
 }
 
 }  // namespace railstrata

@@ -1,6 +1,6 @@
 #pragma once
 // Passes of a wheel over a rail that yields, from a half-space solution: the rail's rows, their laws and the strain of
-// the contact on the grid of the stationary method (steady/steady_pass.hpp).
+// the contact on the grid of the stationary method (steady/steady_pass.hpp); and what either method says of a pass.
 //
 // Assumptions of the half-space remain: layers without lateral ends; one patch, which rolls along a straight rail.
 #include <array>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bem/solve_bem.hpp"
+#include "model/model.hpp"
 #include "spec/case_fwd.hpp"
 #include "steady/pass_class.hpp"
 #include "steady/steady_pass.hpp"
@@ -47,6 +48,13 @@ Field contact_strain(const RailPasses& passes, const SteadyBody& body, const Fie
 /// The column nearest to a place across.
 int columns_to(const SteadyGrid& grid, double lateral);
 
+/// The contact of a pass.
+struct PassContact {
+  double traction = 0, creepage = 0;  ///< F_T over the normal force; of the wheel along the rail
+  double p_max = 0;                   ///< Pa
+  double lateral = 0;                 ///< m across, where the wheel ran, from the case's own place to the field side
+};
+
 /// A pass as one row of a table.
 struct PassRow {
   int pass = 0, iterations = 0;
@@ -59,16 +67,41 @@ struct PassRow {
   std::array<double, 2> stress_depth{};  ///< m, where
   double forward = 0, lateral = 0;       ///< m, largest displacement of the surface since the first pass, with its sign
   double sinking = 0;                    ///< m, largest
-  double place = 0;                      ///< m across, where the wheel ran: at a column of the grid
-  double traction = 0;                   ///< F_T over the normal force
-  double force = 0;                      ///< N along x: what the passes put into an endless rail; of a line contact N/m
-  double force_share = 0;                ///< the same, over the integral of |S_xx|
-  double largest_pressure = 0;           ///< Pa
-  double creepage = 0;                   ///< of the wheel along the rail
-  int rounds = 0;                        ///< of contact and yielding; 0: pressure of the elastic bodies
-  double late_flow = 0;                  ///< as of PassResult
-  double balance = 0;  ///< largest |mean of S_zz, S_yz, S_xz of a row| over the largest mean |S_xx|: equilibrium
+  PassContact contact;
+  double force = 0;        ///< N along x: what the passes put into an endless rail; of a line contact N/m
+  double force_share = 0;  ///< the same, over the integral of |S_xx|
+  int rounds = 0;          ///< of contact and yielding; 0: pressure of the elastic bodies
+  double late_flow = 0;    ///< as of PassResult
+  double balance = 0;      ///< largest |mean of S_zz, S_yz, S_xz of a row| over the largest mean |S_xx|: equilibrium
 };
 PassRow pass_row(const SteadyGrid& grid, int pass, const PassResult& result);
+
+/// Axes of the rigid contact point: x along the rail, y in the contact plane, z into the rail.
+struct PassPoint {
+  double y = 0, depth = 0;  ///< m
+  int zone = 0;             ///< 0 the rail, then its layers from the surface down
+  PassStrain strain;        ///< of the pass
+  PassClass kind = PassClass::transient;
+  std::array<double, 6> stress{};   ///< Pa, residual, xx, yy, zz, xy, yz, xz
+  std::array<double, 6> plastic{};  ///< Ep, tensor shears
+  double accumulated = 0;           ///< p over all passes
+  int row = -1, column = -1;        ///< of the fine zone's elements; none deeper and of the stationary method
+};
+
+/// A point and what it sees at the stations, in the order in which the load reaches them.
+struct PassLoop {
+  std::string name;                  ///< "governing", "surface", "above the border", "below the border"
+  double y = 0, depth = 0;           ///< m, as of PassPoint
+  std::vector<double> x;             ///< m, of the stations from the load
+  std::vector<StationState> states;  ///< as many, in the axes of PassPoint
+};
+
+/// Takes a point into the largest and smallest values of a row.
+void add_extremes(const PassPoint& point, PassRow& row);
+
+/// Points of the unworn profile at most 0.25 mm apart, lowered along its normal by what the surface has sunk at their
+/// arc length from the contact point (PassResult::sinking, linear between columns), in the rail's own frame
+/// (geometry.rail_mirror and rail_offset are in it). Beside the grid it stays as it is. Needs a grid with columns.
+std::vector<Vec2> pressed_profile(const Placement& placement, const SteadyGrid& grid, const PassResult& last);
 
 }  // namespace railstrata

@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/faults.hpp"
 #include "model/zone.hpp"
-#include "passes/pass_json.hpp"
-#include "passes/pass_way_files.hpp"
-#include "record/csv.hpp"
+#include "passes/pass_way.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
 #include "record/unit.hpp"
-#include "record/vtk.hpp"
 
 namespace railstrata {
 namespace {
@@ -98,16 +96,36 @@ VtkQuads quads_of(const SectionMesh& section) {
   return mesh;
 }
 
+/// passes.csv by the finite elements; its contact is that in the middle of the evaluated end of a pass.
+Columns<PassRow> rolled_columns() {
+  using C = PassContact;
+  Columns<PassRow> out = pass_columns();
+  append(out, of_part<PassRow>(Columns<C>{{"traction", unit::kNone, &C::traction},
+                                          {"creepage", unit::kNone, &C::creepage},
+                                          {"p_max", unit::kMPa, &C::p_max},
+                                          {"lateral", unit::kMillimetres, &C::lateral}},
+                               &PassRow::contact));
+  return out;
+}
+
 }  // namespace
 
-Columns<RolledRow> rolled_columns() {
-  using R = RolledRow;
-  Columns<R> out = of_part<R>(pass_columns(), [](const R& r) -> const PassRow& { return r.pass; });
-  append(out, {{"traction", unit::kNone, [](const R& r) { return r.contact.traction; }},
-               {"creepage", unit::kNone, [](const R& r) { return r.contact.creepage; }},
-               {"p_max", unit::kMPa, [](const R& r) { return r.contact.p_max; }},
-               {"lateral", unit::kMillimetres, [](const R& r) { return r.contact.lateral; }}});
-  return out;
+void add_rolled_pass(const PlasticSection& section, RolledPass& pass, RolledSeries& series) {
+  std::map<std::pair<int, int>, std::vector<PassStrain>> earlier;
+  for (std::size_t n = 0; n < series.section.quads.size(); ++n)
+    earlier[{series.section.quads[n].block, series.section.quads[n].quad}] = series.points[n];
+  series.points.clear();
+  for (const PlasticSection::Quad& q : section.quads) series.points.push_back(earlier[{q.block, q.quad}]);
+  series.section = section;
+  ++series.passes;
+  pass.row.pass = series.passes;
+  add_row(rolled_columns(), pass.row, series.table);
+  series.strains.push_back(pass.row.largest);
+  const PassClass whole = classify(series.strains).kind;
+  for (std::size_t n = 0; n < pass.points.size(); ++n) {
+    remember_pass(pass.points[n].strain, series.points[n]);
+    pass.points[n].kind = class_of_point(series.points[n], whole);
+  }
 }
 
 void write_rolled_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,

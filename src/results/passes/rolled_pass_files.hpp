@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "passes/pass_files.hpp"
-#include "passes/rolled_series.hpp"
-#include "passes/rolled_way.hpp"
-#include "passes/run_residual.hpp"
+#include "passes/rolled_pass.hpp"
 
 namespace railstrata {
 
@@ -18,12 +16,18 @@ struct PassRoll {
   double from = 0, to = 0;  ///< m, the steady stations
 };
 
-/// A row of passes.csv by the finite elements.
-struct RolledRow {
-  const PassRow& pass;
-  const PassContact& contact;
+/// A series of passes by the finite elements: all so far.
+struct RolledSeries {
+  int passes = 0;
+  PlasticSection section;                       ///< after the last one; without quadrilaterals before the first
+  std::vector<std::vector<PassStrain>> points;  ///< per quadrilateral its last passes
+  CsvTable table;                               ///< passes.csv
+  std::vector<PassStrain> strains;              ///< the largest of all points, of every pass
+  double creepage_shift = 0;  ///< by what the creepage for a wanted traction differs from the estimate
 };
-Columns<RolledRow> rolled_columns();
+
+/// Adds a pass to the series: its row, its points and their class.
+void add_rolled_pass(const PlasticSection& section, RolledPass& pass, RolledSeries& series);
 
 /// The state as one table that is whole or not there: a row a pair of Gauss points.
 void write_rolled_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "core/engine.hpp"
@@ -50,7 +49,7 @@ std::vector<std::string> differences(const ReportRun& a, const ReportRun& b) {
 }
 
 struct Place {
-  double value = std::numeric_limits<double>::quiet_NaN(), depth = 0;
+  double value = kNotApplicable, depth = 0;
 };
 
 Place von_mises_below_surface(const ReportRun& run) {
@@ -85,11 +84,6 @@ ReportCheck within(std::string_view name, std::vector<int> runs, double a, doubl
   return c;
 }
 
-double number_in(const nlohmann::json& object, const char* key) {
-  return object.contains(key) && object[key].is_number() ? object[key].get<double>()
-                                                         : std::numeric_limits<double>::quiet_NaN();
-}
-
 /// Largest shears of a point are compared with those of cells of the same size: both miss the cusp at the front of
 /// slip by as much (docs/bem-verification.md).
 ReportCheck shear_check(const ReportRun& fem, const ReportRun& bem, const std::vector<int>& both) {
@@ -104,37 +98,27 @@ ReportCheck shear_check(const ReportRun& fem, const ReportRun& bem, const std::v
 }
 
 void add_doubts(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   for (const ResultDoubt& d : run.doubts)
     out.push_back({.name = d.name,
                    .runs = {index},
                    .judged = d.grave,
                    .ok = !d.grave,
-                   .value = kNone,
-                   .limit = kNone,
+                   .value = kNotApplicable,
+                   .limit = kNotApplicable,
                    .note = d.text});
-}
-
-/// The objects of a list of the summary; none where it is something else.
-std::vector<nlohmann::json> objects_of(const ReportRun& run, const char* list) {
-  std::vector<nlohmann::json> out;
-  if (!run.result.summary.contains(list) || !run.result.summary[list].is_array()) return out;
-  for (const auto& entry : run.result.summary[list])
-    if (entry.is_object()) out.push_back(entry);
-  return out;
 }
 
 /// The text of a warning that the table knows is the table's, in the units of the page, unless it names this case's
 /// numbers.
 void add_warnings(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
-  for (const auto& w : objects_of(run, "warnings")) {
+  for (const auto& w : objects_of(run.result.summary, "warnings")) {
     const std::string name = w.value("name", "warning");
     const CheckRow* row = find_check(name);
     out.push_back({.name = name,
                    .runs = {index},
                    .judged = false,
-                   .value = number_in(w, "value"),
-                   .limit = number_in(w, "limit"),
+                   .value = number_at(w, "/value"),
+                   .limit = number_at(w, "/limit"),
                    .note = row && !row->own_text ? "" : w.value("text", "")});
   }
 }
@@ -181,8 +165,8 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
       out.push_back({.name = "cases_differ",
                      .runs = {0, 1},
                      .judged = false,
-                     .value = std::numeric_limits<double>::quiet_NaN(),
-                     .limit = std::numeric_limits<double>::quiet_NaN(),
+                     .value = kNotApplicable,
+                     .limit = kNotApplicable,
                      .note = fmt::format("{}{}", fmt::join(d, "; "), left ? fmt::format("; and {} more", left) : "")});
     }
   return out;

@@ -6,7 +6,6 @@
 #include "record/escaped_text.hpp"
 #include "record/json.hpp"
 #include "report/assets.hpp"
-#include "report/page_parts.hpp"
 #include "report/payload.hpp"
 
 namespace railstrata {
@@ -20,8 +19,6 @@ std::string frame_block(const FramedPage& frame) {
 }
 
 }  // namespace
-
-std::string report_page(const Report& report) { return report_page(report, {}); }
 
 std::string report_page(const Report& report, const FramedPage& what_if) {
   const std::string policy =
@@ -38,6 +35,36 @@ std::string report_page(const Report& report, const FramedPage& what_if) {
       "</body>\n</html>\n",
       policy, version_text(), markup_text(report.title), report_style(),
       json_in_page(json_text(report_payload(report))), frame_block(what_if), report_script());
+}
+
+std::string json_in_page(const std::string& json) {
+  std::string out;
+  for (const char c : json) {
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string base64_of(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return out;
+}
+
+std::string policy_hash(std::string_view text) {
+  const std::string hex = sha256_of(text);
+  std::string bytes;
+  for (std::size_t i = 0; i < hex.size(); i += 2) bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+  return "'sha256-" + base64_of(bytes) + "'";
 }
 
 }  // namespace railstrata

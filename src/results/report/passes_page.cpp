@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -22,20 +20,10 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostPasses = 1000;  // of passes.csv
 
-/// Every `step`-th row.
-Json columns(const CsvTable& table, std::size_t step = 1) {
-  Json out = Json::object();
-  for (const CsvColumn& c : table.columns) {
-    Json& values = out[c.name] = Json::array();
-    for (std::size_t i = 0; i < c.values.size(); i += step) values.push_back(short_number(c.values[i]));
-  }
-  return out;
-}
-
 /// Columns of a table by passes; of many passes every so many, as a chart shows them.
-Json passes_columns(const CsvTable& table) { return columns(table, 1 + table.rows() / kMostPasses); }
+Json passes_columns(const CsvTable& table) { return table_json(table, 1 + table.rows() / kMostPasses); }
 
-Json columns_if_there(const fs::path& file) { return fs::exists(file) ? columns(read_csv(file)) : Json(nullptr); }
+Json columns_if_there(const fs::path& file) { return fs::exists(file) ? table_json(read_csv(file)) : Json(nullptr); }
 
 Json summary_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -70,26 +58,22 @@ Json story_of(const fs::path& folder) {
   return {{"name", (name.has_filename() ? name : name.parent_path()).filename().string()},
           {"summary", summary_of(folder / "passes.json")},
           {"passes", passes_columns(read_csv(folder / "passes.csv"))},
-          {"residual", columns(residual)},
-          {"profile", columns(read_csv(folder / "profile.csv"))},
+          {"residual", table_json(residual)},
+          {"profile", table_json(read_csv(folder / "profile.csv"))},
           {"loops", columns_if_there(folder / "loops.csv")},
           {"along", columns_if_there(folder / "along.csv")}};
 }
 
 }  // namespace
 
-Report passes_report(const std::vector<fs::path>& folders) {
+void write_passes_page(const fs::path& page, const std::vector<fs::path>& folders) {
   Report report;
   report.passes = Json::array();
   for (const fs::path& folder : folders) report.passes.push_back(story_of(folder));
   report.title = folders.size() == 1
                      ? fmt::format("{}: passes", report.passes[0]["summary"]["title"].get<std::string>())
                      : fmt::format("passes over {} rails", folders.size());
-  return report;
-}
-
-void write_passes_page(const fs::path& page, const std::vector<fs::path>& folders) {
-  write_whole_file(page, report_page(passes_report(folders)));
+  write_whole_file(page, report_page(report));
 }
 
 }  // namespace railstrata

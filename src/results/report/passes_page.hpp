@@ -4,15 +4,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "report/report.hpp"
-
 namespace railstrata {
 
-/// Reads passes.json, passes.csv, residual.csv and profile.csv of each folder, and loops.csv and along.csv where they
-/// are there. Throws CaseError at a file that is missing or damaged.
-Report passes_report(const std::vector<std::filesystem::path>& folders);
-
-/// Writes the page of one folder, or of several side by side.
+/// Writes the page of one folder, or of several side by side, from their passes.json, passes.csv, residual.csv and
+/// profile.csv, and loops.csv and along.csv where they are there. Throws CaseError at a file that is missing or
+/// damaged.
 void write_passes_page(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders);
 
 }  // namespace railstrata

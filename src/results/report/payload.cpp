@@ -17,7 +17,7 @@
 #include "material/elastic.hpp"
 #include "record/json.hpp"
 #include "record/unit.hpp"
-#include "report/base64.hpp"
+#include "report/page.hpp"
 #include "report/result_reference.hpp"
 #include "result/patch.hpp"
 #include "result/stress_sections.hpp"
@@ -28,6 +28,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kMostPoints = 300, kMostRows = 1500, kMostWatchedRows = 6000;
+
+/// Six digits of a number; null for what is not finite.
+Json short_number(double v) {
+  return std::isfinite(v) ? json_number(std::stod(fmt::format("{:.6g}", v))) : json_number(v);
+}
 
 Json numbers(const std::vector<double>& values, double factor = 1) {
   Json out = Json::array();
@@ -133,26 +138,19 @@ Json centre(const ContactField& field) {
   return out;
 }
 
-Json of_each(const std::vector<ContactField>& fields, Json (*part)(const ContactField&)) {
+template <class Item, class Part>
+Json of_each(const std::vector<Item>& items, Part&& part) {
   Json out = Json::array();
-  for (const ContactField& f : fields) out.push_back(part(f));
+  for (const Item& item : items) out.push_back(part(item));
   return out;
 }
 
-Json columns(const std::optional<CsvTable>& table) {
-  if (!table) return nullptr;
-  const std::size_t step = 1 + (table->rows() - 1) / kMostRows;
-  Json out = Json::object();
-  for (const CsvColumn& c : table->columns) {
-    std::vector<double> v;
-    for (std::size_t i = 0; i < c.values.size(); i += step) v.push_back(c.values[i]);
-    out[c.name] = numbers(v);
-  }
-  return out;
+Json columns(const CsvTable* table) {
+  return table ? table_json(*table, 1 + (table->rows() - 1) / kMostRows) : Json(nullptr);
 }
 
 /// Where the rail changes: a point's place, then its stress against the wheel's position.
-Json watched_points(const std::optional<CsvTable>& table) {
+Json watched_points(const CsvTable* table) {
   if (!table) return nullptr;
   const std::vector<double>&number = table->column("point"), &position = table->column("position_mm"),
         &von_mises = table->column("von_mises_MPa");
@@ -203,7 +201,7 @@ struct FilmRows {
 
 /// The states of patch_film.csv: those of half-spaces on the grid of all their cells; those of finite elements, whose
 /// nodes come and go as the wheel passes, each on its own.
-Json film(const std::optional<CsvTable>& table, bool own_grids) {
+Json film(const CsvTable* table, bool own_grids) {
   if (!table) return nullptr;
   const std::vector<double> step = table->column("step"), distance = table->column("distance_mm"),
                             x = table->column("x_mm"), y = table->column("y_mm");
@@ -297,19 +295,19 @@ Json slices_of(const CsvTable& table) {
 
 Json slices(const ReportRun& run) {
   Json out = Json::object();
-  for (const auto& [body, table] : run.slices) out[body] = slices_of(table);
+  for (const std::string body : {"rail", "wheel"})
+    if (const CsvTable* table = run.table(body + "_slices")) out[body] = slices_of(*table);
   return out;
 }
 
 /// Where the wheel's two sections cross: the stresses against depth there.
 Json wheel_depth_line(const ReportRun& run) {
-  const auto along = run.sections.find("wheel_longitudinal"), across = run.sections.find("wheel_cross");
-  if (along == run.sections.end() || across == run.sections.end()) return nullptr;
-  const CsvTable& table = along->second;
-  const double x = across->second.column("x_mm")[0];
-  const std::vector<double> all = table.column("x_mm");
+  const CsvTable *along = run.table("wheel_longitudinal_section"), *across = run.table("wheel_cross_section");
+  if (!along || !across) return nullptr;
+  const double x = across->column("x_mm")[0];
+  const std::vector<double> all = along->column("x_mm");
   Json out = Json::object();
-  for (const CsvColumn& c : table.columns) {
+  for (const CsvColumn& c : along->columns) {
     std::vector<double> v;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (std::abs(all[i] - x) < 1e-6) v.push_back(c.values[i]);
@@ -320,36 +318,26 @@ Json wheel_depth_line(const ReportRun& run) {
 
 Json sections(const ReportRun& run) {
   Json out = Json::object();
-  for (const char* body : {"rail", "wheel"}) {
-    const auto along = run.sections.find(std::string(body) + "_longitudinal"),
-               across = run.sections.find(std::string(body) + "_cross");
-    if (along != run.sections.end() && across != run.sections.end())
-      out[body] = {{"longitudinal", section(along->second, true)}, {"cross", section(across->second, false)}};
+  for (const std::string body : {"rail", "wheel"}) {
+    const CsvTable *along = run.table(body + "_longitudinal_section"), *across = run.table(body + "_cross_section");
+    if (along && across) out[body] = {{"longitudinal", section(*along, true)}, {"cross", section(*across, false)}};
   }
   return out;
 }
 
-/// Every row: kMostRows is for histories.
-Json all_columns(const CsvTable& table) {
-  Json out = Json::object();
-  for (const CsvColumn& c : table.columns) out[c.name] = numbers(c.values);
-  return out;
-}
-
-/// Residual state of the rail's section, after the wheel.
+/// Residual state of the rail's section, after the wheel: every row, kMostRows is for histories.
 Json residual(const ReportRun& run) {
-  const auto found = run.sections.find("residual");
-  return found == run.sections.end() ? Json(nullptr) : all_columns(found->second);
+  const CsvTable* table = run.table("residual");
+  return table ? table_json(*table) : Json(nullptr);
 }
 
 Json shakedown(const ReportRun& run) {
   Json out = Json::object();
-  for (const char* body : {"rail", "wheel"}) {
-    const auto profile = run.shakedown.find(body), map = run.shakedown.find(std::string(body) + "_map");
-    if (profile != run.shakedown.end() && map != run.shakedown.end())
-      out[body] = {{"profile", all_columns(profile->second)}, {"map", all_columns(map->second)}};
-    if (const auto sliding = run.shakedown.find(std::string(body) + "_sliding"); sliding != run.shakedown.end())
-      out[body]["sliding"] = all_columns(sliding->second);
+  for (const std::string body : {"rail", "wheel"}) {
+    const std::string name = "shakedown_" + body;
+    const CsvTable *profile = run.table(name), *map = run.table(name + "_map"), *sliding = run.table(name + "_sliding");
+    if (profile && map) out[body] = {{"profile", table_json(*profile)}, {"map", table_json(*map)}};
+    if (sliding) out[body]["sliding"] = table_json(*sliding);
   }
   return out;
 }
@@ -386,52 +374,92 @@ Json geometry(const ReportRun& run) {
   return out;
 }
 
+Json option_json(const CaseOption& o) { return {o.table, o.key, without_folders(o.value)}; }
+
 /// One run. A page of many runs has no slices, which would take megabytes.
 Json run_json(const ReportRun& run, bool with_slices) {
-  Json options = Json::array();
-  for (const CaseOption& o : run.options) options.push_back({o.table, o.key, without_folders(o.value)});
   return {{"name", run.name},
           {"folder", without_folders(run.result.folder.string())},
           {"engine", run.result.engine},
           {"title", run.result.title},
           {"summary", run.result.summary},
-          {"case", options},
+          {"case", of_each(run.options, option_json)},
           {"provenance", origin(run)},
           {"geometry", geometry(run)},
           {"patch", patch(run.result.field)},
           {"further_patches", of_each(run.result.further, patch)},
           {"centre_line", centre(run.result.field)},
           {"further_centre_lines", of_each(run.result.further, centre)},
-          {"depth_line", columns(run.depth_line)},
+          {"depth_line", columns(run.table("depth_line"))},
           {"wheel_depth_line", wheel_depth_line(run)},
-          {"history", columns(run.history)},
-          {"points", watched_points(run.points)},
-          {"spectrum", columns(run.spectrum)},
-          {"film", film(run.film, is_engine(run.result.engine, Engine::fem))},
+          {"history", columns(run.table("history"))},
+          {"points", watched_points(run.table("points_history"))},
+          {"spectrum", columns(run.table("force_spectrum"))},
+          {"film", film(run.table("patch_film"), is_engine(run.result.engine, Engine::fem))},
           {"sections", sections(run)},
           {"residual", residual(run)},
           {"slices", with_slices ? slices(run) : Json::object()},
           {"shakedown", shakedown(run)}};
 }
 
+Json answer_json(const ReportAnswer& a) { return {{"tone", a.tone}, {"title", a.title}, {"text", a.text}}; }
+
+Json checked_json(const ReportCheck& c) {
+  return {{"name", c.name},
+          {"runs", c.runs},
+          {"judged", c.judged},
+          {"ok", c.ok},
+          {"value", json_number(c.value)},
+          {"limit", json_number(c.limit)},
+          {"note", c.note}};
+}
+
+Json table_of_texts(const ReportTable& t) {
+  return {{"id", t.id}, {"title", t.title}, {"note", t.note}, {"columns", t.columns}, {"rows", t.rows}};
+}
+
+Json series_json(const ReportSeries& s) {
+  return {{"name", s.name},       {"x", numbers(s.x)},  {"y", numbers(s.y)},
+          {"markers", s.markers}, {"colour", s.colour}, {"dash", s.dash}};
+}
+
+Json chart_json(const ReportChart& c) {
+  return {{"id", c.id}, {"title", c.title}, {"note", c.note},
+          {"x", c.x},   {"y", c.y},         {"series", of_each(c.series, series_json)}};
+}
+
+Json maps_json(const ReportMaps& m) {
+  return {{"id", m.id}, {"title", m.title}, {"note", m.note}, {"kind", m.kind}, {"runs", m.runs}, {"names", m.names}};
+}
+
+Json cell_json(const ReportGridCell& c) {
+  if (c.verdict.empty() && !std::isfinite(c.factor)) return nullptr;
+  return {{"verdict", c.verdict}, {"factor", json_number(c.factor)}, {"fails_by", c.fails_by}};
+}
+
+Json grid_json(const ReportGrid& g) {
+  return {{"name", g.name}, {"x", g.x}, {"y", g.y}, {"cells", of_each(g.cells, cell_json)}};
+}
+
 Json grids_json(const ReportGrids& row) {
-  Json grids = Json::array();
-  for (const ReportGrid& g : row.grids) {
-    Json cells = Json::array();
-    for (const ReportGridCell& c : g.cells)
-      cells.push_back(c.verdict.empty() && !std::isfinite(c.factor)
-                          ? Json(nullptr)
-                          : Json{{"verdict", c.verdict}, {"factor", json_number(c.factor)}, {"fails_by", c.fails_by}});
-    grids.push_back({{"name", g.name}, {"x", g.x}, {"y", g.y}, {"cells", cells}});
-  }
-  return {{"id", row.id}, {"title", row.title}, {"note", row.note}, {"x", row.x},
-          {"y", row.y},   {"value", row.value}, {"grids", grids}};
+  return {{"id", row.id},
+          {"title", row.title},
+          {"note", row.note},
+          {"x", row.x},
+          {"y", row.y},
+          {"value", row.value},
+          {"grids", of_each(row.grids, grid_json)}};
 }
 
 }  // namespace
 
-Json short_number(double v) {
-  return std::isfinite(v) ? json_number(std::stod(fmt::format("{:.6g}", v))) : json_number(v);
+Json table_json(const CsvTable& table, std::size_t step) {
+  Json out = Json::object();
+  for (const CsvColumn& c : table.columns) {
+    Json& values = out[c.name] = Json::array();
+    for (std::size_t i = 0; i < c.values.size(); i += step) values.push_back(short_number(c.values[i]));
+  }
+  return out;
 }
 
 Json report_payload(const Report& report) {
@@ -439,43 +467,13 @@ Json report_payload(const Report& report) {
   out["title"] = report.title;
   out["program"] = version_text();
   out["words"] = results_reference_json();
-  out["answers"] = Json::array();
-  out["checks"] = Json::array();
-  out["runs"] = Json::array();
-  out["tables"] = Json::array();
-  out["charts"] = Json::array();
-  out["maps"] = Json::array();
-  out["grids"] = Json::array();
-  for (const ReportAnswer& a : report.answers)
-    out["answers"].push_back({{"tone", a.tone}, {"title", a.title}, {"text", a.text}});
-  for (const ReportCheck& c : report.checks)
-    out["checks"].push_back({{"name", c.name},
-                             {"runs", c.runs},
-                             {"judged", c.judged},
-                             {"ok", c.ok},
-                             {"value", json_number(c.value)},
-                             {"limit", json_number(c.limit)},
-                             {"note", c.note}});
-  for (const ReportRun& run : report.runs) out["runs"].push_back(run_json(run, report.runs.size() < 3));
-  for (const ReportTable& t : report.tables)
-    out["tables"].push_back(
-        {{"id", t.id}, {"title", t.title}, {"note", t.note}, {"columns", t.columns}, {"rows", t.rows}});
-  for (const ReportChart& c : report.charts) {
-    Json series = Json::array();
-    for (const ReportSeries& s : c.series)
-      series.push_back({{"name", s.name},
-                        {"x", numbers(s.x)},
-                        {"y", numbers(s.y)},
-                        {"markers", s.markers},
-                        {"colour", s.colour},
-                        {"dash", s.dash}});
-    out["charts"].push_back(
-        {{"id", c.id}, {"title", c.title}, {"note", c.note}, {"x", c.x}, {"y", c.y}, {"series", series}});
-  }
-  for (const ReportMaps& m : report.maps)
-    out["maps"].push_back(
-        {{"id", m.id}, {"title", m.title}, {"note", m.note}, {"kind", m.kind}, {"runs", m.runs}, {"names", m.names}});
-  for (const ReportGrids& g : report.grids) out["grids"].push_back(grids_json(g));
+  out["answers"] = of_each(report.answers, answer_json);
+  out["checks"] = of_each(report.checks, checked_json);
+  out["runs"] = of_each(report.runs, [&](const ReportRun& run) { return run_json(run, report.runs.size() < 3); });
+  out["tables"] = of_each(report.tables, table_of_texts);
+  out["charts"] = of_each(report.charts, chart_json);
+  out["maps"] = of_each(report.maps, maps_json);
+  out["grids"] = of_each(report.grids, grids_json);
   if (!report.passes.is_null()) out["passes"] = report.passes;
   return out;
 }

@@ -10,7 +10,7 @@ namespace railstrata {
 /// bits a number and thinned to 300 points a side.
 nlohmann::ordered_json report_payload(const Report& report);
 
-/// Six digits of a number; null for what is not finite.
-nlohmann::ordered_json short_number(double v);
+/// Every `step`-th row of a table, a list of six digits for each column.
+nlohmann::ordered_json table_json(const CsvTable& table, std::size_t step = 1);
 
 }  // namespace railstrata

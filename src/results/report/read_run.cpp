@@ -1,8 +1,7 @@
-#include "report/read_run.hpp"
+#include "report/report.hpp"
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "core/faults.hpp"
@@ -66,11 +65,14 @@ std::map<std::string, std::string> profiles_of(const ReportRun& run, const fs::p
   return out;
 }
 
-std::optional<CsvTable> table_of(const fs::path& file) {
-  if (file.empty()) return std::nullopt;
-  CsvTable table = read_csv(file);
-  if (table.rows() == 0) return std::nullopt;
-  return table;
+void read_tables(const fs::path& folder, ReportRun& run) {
+  for (const std::string name :
+       {"depth_line", "history", "force_spectrum", "points_history", "patch_film", "residual",
+        "rail_longitudinal_section", "rail_cross_section", "wheel_longitudinal_section", "wheel_cross_section",
+        "rail_slices", "wheel_slices", "shakedown_rail", "shakedown_rail_map", "shakedown_rail_sliding",
+        "shakedown_wheel", "shakedown_wheel_map", "shakedown_wheel_sliding"})
+    if (const fs::path file = file_of(folder, name + ".csv"); !file.empty())
+      if (CsvTable table = read_csv(file); table.rows() > 0) run.tables.emplace(name, std::move(table));
 }
 
 }  // namespace
@@ -79,6 +81,11 @@ std::string ReportRun::option(const std::string& table, const std::string& key) 
   for (const CaseOption& o : options)
     if (o.table == table && o.key == key) return o.value;
   return {};
+}
+
+const CsvTable* ReportRun::table(const std::string& file) const {
+  const auto found = tables.find(file);
+  return found == tables.end() ? nullptr : &found->second;
 }
 
 ReportRun read_report_run(const fs::path& folder) {
@@ -92,23 +99,9 @@ ReportRun read_report_run(const fs::path& folder) {
   run.doubts = result_doubts(run.result);
   run.provenance = json_of(file_of(folder, "provenance.json"));
   run.geometry = json_of(file_of(folder, "geometry.json"));
-  run.depth_line = table_of(file_of(folder, "depth_line.csv"));
-  run.history = table_of(file_of(folder, "history.csv"));
-  run.spectrum = table_of(file_of(folder, "force_spectrum.csv"));
-  run.points = table_of(file_of(folder, "points_history.csv"));
-  run.film = table_of(file_of(folder, "patch_film.csv"));
-  for (const char* name : {"rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"})
-    if (auto table = table_of(file_of(folder, std::string(name) + "_section.csv")))
-      run.sections.emplace(name, std::move(*table));
-  if (auto table = table_of(file_of(folder, "residual.csv"))) run.sections.emplace("residual", std::move(*table));
+  read_tables(folder, run);
   if (auto residual = json_of(file_of(folder, "residual.json")); residual.is_object())
     run.result.summary["residual"] = nlohmann::json::parse(residual.dump());
-  for (const char* body : {"rail", "wheel"})
-    if (auto table = table_of(file_of(folder, std::string(body) + "_slices.csv")))
-      run.slices.emplace(body, std::move(*table));
-  for (const char* name : {"rail", "rail_map", "rail_sliding", "wheel", "wheel_map", "wheel_sliding"})
-    if (auto table = table_of(file_of(folder, fmt::format("shakedown_{}.csv", name))))
-      run.shakedown.emplace(name, std::move(*table));
   return run;
 }
 

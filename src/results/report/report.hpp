@@ -1,16 +1,13 @@
 #pragma once
 // Data of a report: a list of runs, the checks of their quality, and for a study tables and charts over all of them.
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
 #include "record/csv.hpp"
 
@@ -29,20 +26,21 @@ struct ReportRun {                                    // NOLINT(bugprone-excepti
   std::map<std::string, std::string> profile_sha256;  ///< of the content of profile files, by "rail_profile" and
                                                       ///< "wheel_profile"; none for built-in profiles and lost files
   nlohmann::ordered_json provenance, geometry;        ///< provenance.json, geometry.json
-  std::optional<CsvTable> depth_line, history, film;  ///< film: patch_film.csv of a transient
-  std::optional<CsvTable> points, spectrum;           ///< points_history.csv and force_spectrum.csv, where the rail
-                                                      ///< changes along the way
   double shear_on_elements = std::numeric_limits<double>::quiet_NaN();  ///< of a finite element run: q_max_point [Pa]
                                                                         ///< of the half-space solution on cells as
                                                                         ///< large as its elements; NaN: not solved
-  std::vector<ResultDoubt> doubts;           ///< why its numbers may not be those of its case
-  std::map<std::string, CsvTable> sections;  ///< "rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"
-  std::map<std::string, CsvTable> slices;    ///< "rail", "wheel": cross sections along the patch
-  std::map<std::string, CsvTable> shakedown;  ///< "rail", "rail_map", "rail_sliding", "wheel", …: where strengths are
+  std::vector<ResultDoubt> doubts;         ///< why its numbers may not be those of its case
+  std::map<std::string, CsvTable> tables;  ///< its further tables with rows, by their names without ".csv"
 
   /// The value of an option as the case writes it; empty if it is not there.
   std::string option(const std::string& table, const std::string& key) const;
+  /// Null: it is not there.
+  const CsvTable* table(const std::string& file) const;
 };
+
+/// Reads a folder of `run` or `bem`. A position_<mm> folder takes case, provenance and history from the folder it
+/// stands in. Throws CaseError as read_result_folder does.
+ReportRun read_report_run(const std::filesystem::path& folder);
 
 /// One line of the verdict.
 struct ReportCheck {

@@ -8,7 +8,7 @@
 
 #include "judge/check_limits.hpp"
 #include "judge/verdict.hpp"
-#include "passes/run_residual.hpp"
+#include "passes/rolled_pass.hpp"
 #include "record/json.hpp"
 #include "result/result_table.hpp"
 
@@ -21,19 +21,7 @@ std::string_view engine_word_of(AvailableIn engine) {
   return engine == AvailableIn::both_engines ? "" : engine == AvailableIn::finite_elements ? "fem" : "bem";
 }
 
-std::string_view kind_word(CheckKind kind) {
-  switch (kind) {
-    case CheckKind::run:
-      return "run";
-    case CheckKind::engines:
-      return "engines";
-    case CheckKind::warning:
-      return "warning";
-    case CheckKind::note:
-      break;
-  }
-  return "note";
-}
+constexpr std::string_view kKindWords[] = {"run", "engines", "warning", "note"};  // of CheckKind
 
 // ---- for programs
 Json unit_json(const Unit& unit) { return {{"si", unit.si()}, {"shown", unit.shown}, {"factor", unit.factor}}; }
@@ -73,7 +61,7 @@ Json named(const std::vector<Row>& rows) {
 
 Json check_json(const CheckRow& c) {
   return {{"key", c.key},
-          {"kind", kind_word(c.kind)},
+          {"kind", kKindWords[static_cast<std::size_t>(c.kind)]},
           {"name", c.name},
           {"what", c.advice.empty() ? std::string(c.what) : fmt::format("{}: {}", c.what, c.advice)},
           {"unit", unit_json(c.unit)},

@@ -59,9 +59,13 @@ def colours(field, top, low):
     return [(t * size, r, g, b) for t, r, g, b in scale]
 
 
-def surface_cut(with_elements, cut, patch_end):
-    """Bodies begin where they are cut; around a bare patch they begin behind it, so that it is seen whole."""
-    return cut if with_elements else patch_end
+def shown(wanted, ranges, p_max):
+    """Field, whether it is one of cells, name on the bar and colours: the wanted stress where bodies have it over these
+    ranges, else the pressure of the bare patch."""
+    if not ranges:
+        return "pressure_MPa", False, "pressure [MPa]", colours("von_mises_MPa", p_max, 0)
+    name = "von Mises [MPa]" if wanted == "von_mises_MPa" else "sigma_1 [MPa]"
+    return wanted, True, name, colours(wanted, max(r[1] for r in ranges), min(r[0] for r in ranges))
 
 
 def camera(place):
@@ -133,9 +137,8 @@ def show_with_vtk(arguments):
         mapper = vtk.vtkPolyDataMapper()
         mapper.SetInputConnection(source.GetOutputPort())
         if field:
-            (mapper.SetScalarModeToUseCellFieldData() if field[1] == "cell"
-             else mapper.SetScalarModeToUsePointFieldData())
-            mapper.SelectColorArray(field[0])
+            (mapper.SetScalarModeToUseCellFieldData() if of_cells else mapper.SetScalarModeToUsePointFieldData())
+            mapper.SelectColorArray(field)
             mapper.SetLookupTable(table)
             mapper.UseLookupTableScalarRangeOn()
         else:
@@ -158,12 +161,6 @@ def show_with_vtk(arguments):
         renderer.AddActor(actor)
         return actor
 
-    def table_of(field, low, top):
-        table = vtk.vtkColorTransferFunction()
-        for value, r, g, b in colours(field, top, low):
-            table.AddRGBPoint(value, r, g, b)
-        return table
-
     patch = read(vtk.vtkXMLPolyDataReader(), FOLDER / "patch.vtp")
     pressure = patch.GetOutput().GetPointData().GetArray("pressure_MPa")
     peak = max(range(pressure.GetNumberOfTuples()), key=pressure.GetValue)
@@ -180,14 +177,11 @@ def show_with_vtk(arguments):
         half.ExtractBoundaryCellsOff()
         half.Update()
         grids.append(half)
-    if grids:
-        ranges = [g.GetOutput().GetCellData().GetArray(arguments.field).GetRange() for g in grids]
-        field = arguments.field, "cell"
-        name = "von Mises [MPa]" if arguments.field == "von_mises_MPa" else "sigma_1 [MPa]"
-        table = table_of(arguments.field, min(r[0] for r in ranges), max(r[1] for r in ranges))
-    else:
-        field, name = ("pressure_MPa", "point"), "pressure [MPa]"
-        table = table_of("von_mises_MPa", 0, pressure.GetRange()[1])
+    ranges = [g.GetOutput().GetCellData().GetArray(arguments.field).GetRange() for g in grids]
+    field, of_cells, name, scale = shown(arguments.field, ranges, pressure.GetRange()[1])
+    table = vtk.vtkColorTransferFunction()
+    for point in scale:
+        table.AddRGBPoint(*point)
     for half in grids:
         add(polygons(half), field=field, table=table, edges=True)
         layer = vtk.vtkThreshold()
@@ -214,8 +208,8 @@ def show_with_vtk(arguments):
         contact.SetValue(1e-6)
         keep.append(contact)
         add(contact, field=field, table=table)
-    behind = vtk.vtkPlane()
-    behind.SetOrigin(place[0], surface_cut(bool(grids), cut.GetOrigin()[1], patch.GetOutput().GetBounds()[3]), place[2])
+    behind = vtk.vtkPlane()  # around a bare patch the bodies begin behind it, so that it is seen whole
+    behind.SetOrigin(place[0], cut.GetOrigin()[1] if grids else patch.GetOutput().GetBounds()[3], place[2])
     behind.SetNormal(0, 1, 0)
     for body in ("rail", "wheel"):
         file = FOLDER / f"{body}_surface.vtp"
@@ -341,13 +335,7 @@ def show_with_paraview(arguments):
         half = field_side(body, f"{file.stem}, field side", cut, True)
         halves.append(half)
         ranges.append(half.CellData[arguments.field].GetRange())
-    if halves:
-        field, kind = arguments.field, "CELLS"
-        name = "von Mises [MPa]" if arguments.field == "von_mises_MPa" else "sigma_1 [MPa]"
-        scale = colours(field, max(r[1] for r in ranges), min(r[0] for r in ranges))
-    else:
-        field, kind, name = "pressure_MPa", "POINTS", "pressure [MPa]"
-        scale = colours("von_mises_MPa", pressure.GetRange()[1], 0)
+    field, of_cells, name, scale = shown(arguments.field, ranges, pressure.GetRange()[1])
     table = simple.GetColorTransferFunction(field)
     if not halves:
         patch = simple.Clip(registrationName="contact", Input=patch, ClipType="Scalar",
@@ -358,7 +346,7 @@ def show_with_paraview(arguments):
         if halves:
             display.SetRepresentationType("Surface With Edges")
             display.EdgeColor = [0.25, 0.25, 0.25]
-        simple.ColorBy(display, (kind, field))
+        simple.ColorBy(display, ("CELLS" if of_cells else "POINTS", field))
         display.SetScalarBarVisibility(view, source is (halves or [patch])[-1])
     table.ColorSpace, table.AutomaticRescaleRangeMode = "RGB", "Never"
     table.RGBPoints = [number for point in scale for number in point]
@@ -377,7 +365,8 @@ def show_with_paraview(arguments):
         file = FOLDER / f"{body}_surface.vtp"
         if file.exists():
             whole = simple.XMLPolyDataReader(registrationName=f"{file.stem}, whole", FileName=[str(file)])
-            half = field_side(whole, file.stem, surface_cut(bool(halves), cut, points.GetBounds()[3]), False)
+            # around a bare patch the bodies begin behind it, so that it is seen whole
+            half = field_side(whole, file.stem, cut if halves else points.GetBounds()[3], False)
             show(half, STEEL, 0.45)
     bar = simple.GetScalarBar(table, view)
     bar.Title, bar.ComponentTitle = name, ""

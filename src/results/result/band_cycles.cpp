@@ -1,5 +1,6 @@
-// The stress cycles of a finite element body's contact band.
+// A finite element body's contact band: its stresses and their cycles.
 #include <cmath>
+#include <utility>
 
 #include "core/lagrange.hpp"
 #include "core/rotation.hpp"
@@ -53,22 +54,14 @@ struct TouchAt {
   ContactState state = ContactState::separated;
 };
 TouchAt touch_at(const ContactField& f, double x, double y) {
-  const auto station = [&](int s) { return f.x[static_cast<std::size_t>(s) * f.columns]; };
-  int c = 0, s = 0;
-  while (c + 2 < f.columns && f.y[c + 1] <= y) ++c;
-  while (s + 2 < f.stations && station(s + 1) <= x) ++s;
-  const double a = (y - f.y[c]) / (f.y[c + 1] - f.y[c]), b = (x - station(s)) / (station(s + 1) - station(s));
-  if (a < 0 || a > 1 || b < 0 || b > 1) return {};
   TouchAt out;
   double q_x = 0, q_y = 0, slip = 0;
-  for (int k = 0; k < 4; ++k) {
-    const std::size_t i = static_cast<std::size_t>(s + k / 2) * f.columns + c + k % 2;
-    const double weight = (k % 2 ? a : 1 - a) * (k / 2 ? b : 1 - b);
+  points_around(f, x, y, [&](std::size_t i, int, double weight) {
     out.p += weight * f.p[i];
     q_x += weight * f.q_x[i];
     q_y += weight * f.q_y[i];
     if (f.state[i] == ContactState::slip) slip += weight;
-  }
+  });
   out.q = std::hypot(q_x, q_y);
   if (out.p > 0) out.state = slip >= 0.5 ? ContactState::slip : ContactState::stick;
   return out;
@@ -210,6 +203,23 @@ StressHistory BandCycles::history() const {
 }
 
 }  // namespace
+
+BandStress band_stress(const SweptBody& body, BandSample sample, double contact_y) {
+  BandStress b{&body, std::move(sample), contact_y, {}, {}};
+  const ContactBand& band = body.contact;
+  const auto& nodes = body.blocks[band.block].section.nodes;
+  for (int c = 0; c < band.columns; ++c) b.centre_y.push_back(0.5 * (nodes[c].y + nodes[c + 1].y));
+  for (int r = 0; r < band.rows; ++r) b.centre_depth.push_back(0.5 * (band.depth[r] + band.depth[r + 1]));
+  return b;
+}
+
+Sym3 stress_at_interface(const BandStress& b, int column, int row, int station, bool below) {
+  const int near = below ? row : row - 1, far = below ? row + 1 : row - 2;
+  const Sym3 stress = b.at(column, near, station);
+  if (far < 0 || far >= b.sample.rows || b.layer(column, far, station) != b.layer(column, near, station)) return stress;
+  const double t = (b.body->contact.depth[row] - b.centre_depth[near]) / (b.centre_depth[near] - b.centre_depth[far]);
+  return stress + t * (stress - b.at(column, far, station));
+}
 
 StressHistory band_cycles(const BandStress& band, const BandSurface& surface) {
   return BandCycles(band, surface).history();

@@ -1,6 +1,6 @@
 #pragma once
-// The stress of a body's contact band at the centres of its elements, where that of these elements is most accurate,
-// and along lines through it. Plain numbers: nothing here knows the finite element solver.
+// The stress of a body's contact band at the centres of its elements, where that of these elements is most accurate.
+// Plain numbers: nothing here knows the finite element solver.
 #include <vector>
 
 #include "contact/contact_field.hpp"
@@ -39,18 +39,23 @@ struct BandSurface {
   double radius = 0;   ///< m, of the wheel; 0: the rail; negative: a rail that is a ring
 };
 
+/// Calls with the four points of a field around a place, their columns and the weights of bilinear interpolation; not
+/// outside the field.
+template <class Use>
+void points_around(const ContactField& f, double x, double y, const Use& use) {
+  const auto station = [&](int s) { return f.x[static_cast<std::size_t>(s) * f.columns]; };
+  int c = 0, s = 0;
+  while (c + 2 < f.columns && f.y[c + 1] <= y) ++c;
+  while (s + 2 < f.stations && station(s + 1) <= x) ++s;
+  const double a = (y - f.y[c]) / (f.y[c + 1] - f.y[c]), b = (x - station(s)) / (station(s + 1) - station(s));
+  if (a < 0 || a > 1 || b < 0 || b > 1) return;
+  for (int k = 0; k < 4; ++k)
+    use(static_cast<std::size_t>(s + k / 2) * f.columns + c + k % 2, c + k % 2,
+        (k % 2 ? a : 1 - a) * (k / 2 ? b : 1 - b));
+}
+
 /// Stress at the upper face of row `row`, which is an interface: extrapolated linearly from the two nearest centres
 /// above it or below.
 Sym3 stress_at_interface(const BandStress& band, int column, int row, int station, bool below);
-
-/// Stress against depth below the point (x, y) of largest subsurface von Mises stress.
-struct DepthLine {
-  double x = 0, y = 0;
-  std::vector<double> depth;
-  std::vector<Sym3> stress;
-  std::vector<int> material;
-  std::vector<ElementPlasticity> plastic;  ///< empty where nothing may yield
-};
-DepthLine depth_line(const BandStress& band, double x, double y);
 
 }  // namespace railstrata

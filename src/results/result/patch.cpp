@@ -1,16 +1,18 @@
 #include "result/patch.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <optional>
 
 #include "contact/patch_extent.hpp"
 #include "core/parabola.hpp"
-#include "result/front_of_slip.hpp"
 
 namespace railstrata {
 namespace {
+
+/// Mean of sqrt(t) over the cell whose middle is at t = b; nothing is left where t < 0.
+double mean_root(double b) {
+  const auto integral = [](double t) { return t > 0 ? 2.0 / 3.0 * t * std::sqrt(t) : 0.0; };
+  return integral(b + 0.5) - integral(b - 0.5);
+}
 
 /// The point of largest pressure; of several beside one another with the same, as along a line contact, the middle one.
 int point_of_largest_pressure(const ContactField& f) {
@@ -25,7 +27,6 @@ void find_peak(const ContactField& f, int top, PatchMeasures& m) {
   const int column = top % f.columns, station = top / f.columns;
   m.p_max = f.p[top];
   m.p_max_x = f.x[top];
-  m.p_max_y = f.y[top];
   if (station > 0 && station + 1 < f.stations) {
     const int a = top - f.columns, b = top + f.columns;
     const ParabolaTop t = parabola_top(f.x[a], f.p[a], f.x[top], f.p[top], f.x[b], f.p[b]);
@@ -34,9 +35,7 @@ void find_peak(const ContactField& f, int top, PatchMeasures& m) {
   }
   if (column > 0 && column + 1 < f.columns) {
     const int a = top - 1, b = top + 1;
-    const ParabolaTop t = parabola_top(f.y[a], f.p[a], f.y[top], f.p[top], f.y[b], f.p[b]);
-    m.p_max += t.above;
-    m.p_max_y = t.at;
+    m.p_max += parabola_top(f.y[a], f.p[a], f.y[top], f.p[top], f.y[b], f.p[b]).above;
   }
 }
 
@@ -201,6 +200,25 @@ CentreLine centre_line(const ContactField& f) {
 
 double subsurface_begin(const PatchMeasures& patch, double first_layer) {
   return std::min(0.05 * shorter_axis(patch), 0.5 * first_layer);
+}
+
+double front_behind_point(const StickMargins& m) {
+  const double rise = square(m.next) - square(m.near);
+  return rise > 0 ? std::min(square(m.near) / rise, 1.0) : 1.0;
+}
+
+double front_behind_cell(const StickMargins& m) {
+  constexpr double kLeast = -0.5, kMost = 1;
+  constexpr int kHalvings = 40;
+  const double rise = m.after ? square(*m.after) - square(m.next) : 0;
+  if (!(rise > 0)) return front_behind_point(m);
+  const double wanted = m.near / std::sqrt(rise);
+  double low = kLeast, high = kMost;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (mean_root(middle) < wanted ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace railstrata

@@ -2,6 +2,7 @@
 // The contact patch in numbers, from a ContactField of either engine.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "contact/contact_field.hpp"
 
@@ -9,7 +10,7 @@ namespace railstrata {
 
 struct PatchMeasures {
   double p_max = 0;  ///< Pa, top of the parabola through the largest value and its neighbours
-  double p_max_x = 0, p_max_y = 0;
+  double p_max_x = 0;
   double q_max = 0;        ///< Pa, largest magnitude of the tangential traction; of what rolls shear_at_front_of_slip
   double q_max_point = 0;  ///< Pa, the largest of a point
   /// m, in and across the rolling direction; edges where p² extrapolates to zero, as Hertz's pressure does. A line
@@ -58,5 +59,24 @@ CentreLine centre_line(const ContactField& field);
 /// Nearer to the surface a stress is the surface's, whatever the cell: tension behind the patch dies out within a few
 /// hundredths of the patch.
 double subsurface_begin(const PatchMeasures& patch, double first_layer);
+
+// ---- where the front of slip is between two points of a row
+//
+// Next to the front, on its sticking side, the margin f p - |q| is c sqrt(t), t being the distance to the front: its
+// square is linear. [Johnson1985 sec. 8.3] Cells have one traction each, the mean over the cell, so that the cell next
+// to the front, or with the front in it, has the mean of that root.
+
+/// The margins f p - |q| [Pa] of the sticking points next to the front, nearest first.
+struct StickMargins {
+  double near = 0, next = 0;
+  std::optional<double> after;
+};
+
+/// Distance from the nearest sticking point to the front, of points: 0 to 1.
+double front_behind_point(const StickMargins& margins);
+
+/// Distance from the middle of the nearest sticking cell to the front, of cells: -0.5 (the cell's far side) to 1 (the
+/// middle of the slipping cell). Without the third margin as of points.
+double front_behind_cell(const StickMargins& margins);
 
 }  // namespace railstrata

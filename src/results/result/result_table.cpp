@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "result/layer_worst.hpp"
-
 namespace railstrata {
 namespace {
 
@@ -69,41 +67,32 @@ ResultNumber row(std::string_view symbol, const Unit& unit, double (*value)(cons
   return out;
 }
 
-std::vector<ResultNumber> traction_numbers() {
-  return {row("p_max", kMPa, patch<&P::p_max>, "p_max", "Largest pressure p",
-              "Top of the parabola through the largest pressure and its neighbours", kMain),
-          row("q_max", kMPa, patch<&P::q_max>, "q_max", "Largest shear |q|",
-              "Largest magnitude of the tangential traction; in rolling contact it is at the front of slip", kMain,
-              kOfPressure),
-          row("q_max_point", kMPa, patch<&P::q_max_point>, "q_max of a point", "Largest shear |q| of a point",
-              "Misses the cusp at the front of slip; use it to compare elements and cells of the same size", kColumn,
-              kOfPressure)};
-}
-
-std::vector<ResultNumber> extent_numbers() {
-  return {row("patch_length", kMillimetres, patch<&P::length>, "length", "Patch length (along x)",
-              "Longest chord in the rolling direction, between the edges where p² extrapolates to zero", kMain),
-          row("patch_width", kMillimetres, patch<&P::width>, "width", "Patch width (along y)",
-              "Longest chord across the rolling direction; null for a line contact", kMain),
-          row("patch_area", kSquareMillimetres, patch<&P::area>, "area", "Patch area",
-              "Area between the edges of the columns' chords", kMain),
-          row("slip_area_fraction", kShare, patch<&P::slip_area_fraction>, "slip area", "Slip area / patch area",
-              "Area of the slipping points over the area of the points in contact; finite elements: mean over the "
-              "window. Null without friction (half-space)",
-              kMain)};
-}
-
-std::vector<ResultNumber> force_numbers() {
-  return {row("F_x", kKilonewtons, contact<&C::F_x>, "F_x", "F_x on the wheel",
-              "Contact force on the wheel, rolling direction; positive drives", kMain | kOfAll, kOfForce),
-          row("F_y", kKilonewtons, contact<&C::F_y>, "F_y", "F_y on the wheel",
-              "Contact force on the wheel towards the field side, model frame", kColumn | kShown | kOfAll, kOfForce),
-          row("F_z", kKilonewtons, contact<&C::F_z>, "F_z", "F_z on the wheel", "Contact force on the wheel, upwards",
-              kMain | kOfAll)};
-}
-
-std::vector<ResultNumber> contact_plane_numbers() {
+std::vector<ResultNumber> field_numbers() {
   return {
+      row("p_max", kMPa, patch<&P::p_max>, "p_max", "Largest pressure p",
+          "Top of the parabola through the largest pressure and its neighbours", kMain),
+      row("q_max", kMPa, patch<&P::q_max>, "q_max", "Largest shear |q|",
+          "Largest magnitude of the tangential traction; in rolling contact it is at the front of slip", kMain,
+          kOfPressure),
+      row("q_max_point", kMPa, patch<&P::q_max_point>, "q_max of a point", "Largest shear |q| of a point",
+          "Misses the cusp at the front of slip; use it to compare elements and cells of the same size", kColumn,
+          kOfPressure),
+      row("patch_length", kMillimetres, patch<&P::length>, "length", "Patch length (along x)",
+          "Longest chord in the rolling direction, between the edges where p² extrapolates to zero", kMain),
+      row("patch_width", kMillimetres, patch<&P::width>, "width", "Patch width (along y)",
+          "Longest chord across the rolling direction; null for a line contact", kMain),
+      row("patch_area", kSquareMillimetres, patch<&P::area>, "area", "Patch area",
+          "Area between the edges of the columns' chords", kMain),
+      row("slip_area_fraction", kShare, patch<&P::slip_area_fraction>, "slip area", "Slip area / patch area",
+          "Area of the slipping points over the area of the points in contact; finite elements: mean over the "
+          "window. Null without friction (half-space)",
+          kMain),
+      row("F_x", kKilonewtons, contact<&C::F_x>, "F_x", "F_x on the wheel",
+          "Contact force on the wheel, rolling direction; positive drives", kMain | kOfAll, kOfForce),
+      row("F_y", kKilonewtons, contact<&C::F_y>, "F_y", "F_y on the wheel",
+          "Contact force on the wheel towards the field side, model frame", kColumn | kShown | kOfAll, kOfForce),
+      row("F_z", kKilonewtons, contact<&C::F_z>, "F_z", "F_z on the wheel", "Contact force on the wheel, upwards",
+          kMain | kOfAll),
       row("contact_angle", kDegrees, contact<&C::contact_angle>, "contact angle", "Contact angle",
           "Angle of the common tangent at the rigid contact point", kFile, kOfAngle),
       row("normal_force", kKilonewtons, contact<&C::normal_force>, "normal force", "Normal force in the contact plane",
@@ -124,30 +113,24 @@ std::vector<ResultNumber> motion_numbers() {
       row("creepage_y", kPerMille, contact<&C::creepage_y>, "lateral creepage", "Lateral creepage",
           "Along the contact plane, positive where the wheel slips to the field side", kColumn | kShown, kOfCreepage),
       row("spin", kPerMetre, contact<&C::spin_per_m>, "spin", "Spin",
-          "Rotation of the wheel about the contact normal, divided by V", kMain, kOfSpin)};
-}
-
-std::vector<ResultNumber> approach_numbers() {
-  return {row("approach", kMicrometres, contact<&C::approach>, "approach",
-              "Approach (finite elements: with the bending of rail and wheel)",
-              "Approach of the bodies under the load; finite elements: descent of the axle in the static preload, "
-              "including bending of rail and wheel. Null for a line contact, whose approach has no finite value",
-              kColumn | kShown),
-          row("penetration_max", kNanometres, contact<&C::penetration_max>, "penetration", "Largest penetration",
-              "Largest overlap of the surfaces during the run", kShown | kFem),
-          row("p_max_scatter", kShare, contact<&C::p_max_scatter>, "scatter of p_max", "Scatter of p_max",
-              "Standard deviation over the window, divided by the mean", kFem)};
-}
-
-std::vector<ResultNumber> transient_numbers() {
-  return {row("displacement_x", kMicrometres, contact<&C::displacement_x>, "displacement",
-              "Displacement of the wheel over the rail", "In the rolling direction, since the start of the shift",
-              kShown | kBem, kOfApproach),
-          row("displacement_y", kMicrometres, contact<&C::displacement_y>, "lateral displ.",
-              "Lateral displacement of the wheel over the rail",
-              "Along the contact plane, since the start of the shift", kShown | kBem, kOfApproach),
-          row("friction_work", kJoules, contact<&C::friction_work>, "friction work", "Friction work since the start",
-              "Heat produced by friction in a transient", kColumn | kShown | kBem, kOfWork)};
+          "Rotation of the wheel about the contact normal, divided by V", kMain, kOfSpin),
+      row("approach", kMicrometres, contact<&C::approach>, "approach",
+          "Approach (finite elements: with the bending of rail and wheel)",
+          "Approach of the bodies under the load; finite elements: descent of the axle in the static preload, "
+          "including bending of rail and wheel. Null for a line contact, whose approach has no finite value",
+          kColumn | kShown),
+      row("penetration_max", kNanometres, contact<&C::penetration_max>, "penetration", "Largest penetration",
+          "Largest overlap of the surfaces during the run", kShown | kFem),
+      row("p_max_scatter", kShare, contact<&C::p_max_scatter>, "scatter of p_max", "Scatter of p_max",
+          "Standard deviation over the window, divided by the mean", kFem),
+      row("displacement_x", kMicrometres, contact<&C::displacement_x>, "displacement",
+          "Displacement of the wheel over the rail", "In the rolling direction, since the start of the shift",
+          kShown | kBem, kOfApproach),
+      row("displacement_y", kMicrometres, contact<&C::displacement_y>, "lateral displ.",
+          "Lateral displacement of the wheel over the rail", "Along the contact plane, since the start of the shift",
+          kShown | kBem, kOfApproach),
+      row("friction_work", kJoules, contact<&C::friction_work>, "friction work", "Friction work since the start",
+          "Heat produced by friction in a transient", kColumn | kShown | kBem, kOfWork)};
 }
 
 template <auto Member>
@@ -187,11 +170,8 @@ std::vector<ResultNumber> plastic_numbers() {
           row("work", kJoules, plastic<&PlasticSummary::work>, "plastic work", "Plastic work",
               "Work done on the plastic strains of both bodies", kFem),
           row("dissipated", kJoules, plastic<&PlasticSummary::dissipated>, "dissipated", "Dissipated plastic work",
-              "Plastic work minus the energy stored by the backstresses", kFem)};
-}
-
-std::vector<ResultNumber> plastic_place_numbers() {
-  return {row("x", kMillimetres, plastic<&PlasticSummary::x>, "yielded at x", "Largest accumulated plastic strain, x",
+              "Plastic work minus the energy stored by the backstresses", kFem),
+          row("x", kMillimetres, plastic<&PlasticSummary::x>, "yielded at x", "Largest accumulated plastic strain, x",
               "Along the rail, from the start of the wheel; null in the wheel", kFem),
           row("y", kMillimetres, plastic<&PlasticSummary::y>, "yielded at y", "Largest accumulated plastic strain, y",
               "From the rigid contact point to the field side", kFem),
@@ -259,7 +239,7 @@ std::vector<ResultNumber> energy_numbers() {
               "Hourglass energy", "Largest hourglass energy over the strain energy", kFem)};
 }
 
-std::vector<ResultNumber> time_numbers() {
+std::vector<ResultNumber> run_numbers() {
   return {
       row("wall", kSeconds, run<&R::wall_s>, "wall time", "Wall time", "Time for the solution and its output", kColumn),
       row("preload_wall", kSeconds, run<&R::preload_wall_s>, "preload", "Wall time of the preload",
@@ -270,21 +250,14 @@ std::vector<ResultNumber> time_numbers() {
           "Finite elements, or cells of the half-space's grid"),
       row("nodes", kCount, count<&R::nodes>, "nodes", "Nodes", "Nodes of both bodies; half-space: 0"),
       row("steps", kCount, count<&R::steps>, "steps", "Time steps",
-          "Half-space: steps of a transient, otherwise 0; static cases: 0")};
-}
-
-std::vector<ResultNumber> step_numbers() {
-  return {row("dt", kNanoseconds, run<&R::dt_s>, "time step", "Time step", "Length of a step", kFem),
-          row("stable_step", kNanoseconds, run<&R::stable_step>, "stable step", "Stable step",
-              "With selective mass scaling, where used", kFem),
-          row("unscaled_step", kNanoseconds, run<&R::unscaled_step>, "unscaled step", "Stable step of the real masses",
-              "Without mass scaling", kFem),
-          row("added_mass", kKilograms, run<&R::added_mass>, "added mass", "Added mass",
-              "Added by selective mass scaling of thin rows; 0: real masses", kFem)};
-}
-
-std::vector<ResultNumber> effort_numbers() {
-  return {
+          "Half-space: steps of a transient, otherwise 0; static cases: 0"),
+      row("dt", kNanoseconds, run<&R::dt_s>, "time step", "Time step", "Length of a step", kFem),
+      row("stable_step", kNanoseconds, run<&R::stable_step>, "stable step", "Stable step",
+          "With selective mass scaling, where used", kFem),
+      row("unscaled_step", kNanoseconds, run<&R::unscaled_step>, "unscaled step", "Stable step of the real masses",
+          "Without mass scaling", kFem),
+      row("added_mass", kKilograms, run<&R::added_mass>, "added mass", "Added mass",
+          "Added by selective mass scaling of thin rows; 0: real masses", kFem),
       row("element_steps", kPerSecond, run<&R::element_steps_per_s>, "element steps", "Element steps per second",
           "Elements times steps, divided by the wall time without the preload", kFem),
       row("threads", kCount, count<&R::threads>, "threads", "Threads", "Threads used; results do not depend on them"),
@@ -380,21 +353,16 @@ std::vector<ResultNumber> damage_numbers() {
       row("surface_fatigue", kNone, damage<&D::surface_fatigue>, "FI_surf", "Surface fatigue index",
           "Utilised friction minus k / p_max; surface fatigue is expected above zero", kCompared),
       row("local_fatigue", kNone, damage<&D::local_fatigue>, "local FI", "Local fatigue index",
-          "Largest |q|/p - k/p of all points", kCompared)};
-}
-
-/// Numbers on heat: the flash temperature.
-std::vector<ResultNumber> heat_numbers() {
-  using D = DamageSummary;
-  return {row("temperature_rise_lower", kKelvins, damage<&D::temperature_rise_lower>, "flash temperature, at least",
-              "Flash temperature, lower bound", "Bodies taken as half-spaces of their most effusive material"),
-          row("temperature_rise_upper", kKelvins, damage<&D::temperature_rise_upper>, "flash temperature, at most",
-              "Flash temperature, upper bound",
-              "Bodies taken as half-spaces of their least effusive material, whichever layer that is"),
-          row("austenitisation", kNone, damage<&D::austenitisation>, "austenitisation", "Share of austenitisation",
-              "Flash temperature divided by the austenitisation_rise of the rail's running surface; from 1 on "
-              "martensite can form; null where the case does not give it",
-              kShown)};
+          "Largest |q|/p - k/p of all points", kCompared),
+      row("temperature_rise_lower", kKelvins, damage<&D::temperature_rise_lower>, "flash temperature, at least",
+          "Flash temperature, lower bound", "Bodies taken as half-spaces of their most effusive material"),
+      row("temperature_rise_upper", kKelvins, damage<&D::temperature_rise_upper>, "flash temperature, at most",
+          "Flash temperature, upper bound",
+          "Bodies taken as half-spaces of their least effusive material, whichever layer that is"),
+      row("austenitisation", kNone, damage<&D::austenitisation>, "austenitisation", "Share of austenitisation",
+          "Flash temperature divided by the austenitisation_rise of the rail's running surface; from 1 on "
+          "martensite can form; null where the case does not give it",
+          kShown)};
 }
 
 template <auto Member>
@@ -428,26 +396,26 @@ bool ResultColumn::is_error_bar() const { return symbol().ends_with(kErrorEnding
 const std::vector<ResultNumber>& result_numbers() {
   static const std::vector<ResultNumber> numbers = [] {
     std::vector<ResultNumber> out;
-    const auto add = [&](std::string_view group, std::initializer_list<std::vector<ResultNumber>> parts) {
-      for (const std::vector<ResultNumber>& part : parts)
-        for (const ResultNumber& number : part) {
-          out.push_back(number);
-          out.back().group = group;
-        }
+    const auto add = [&](std::string_view group, const std::vector<ResultNumber>& numbers_of_group) {
+      for (const ResultNumber& number : numbers_of_group) {
+        out.push_back(number);
+        out.back().group = group;
+      }
     };
-    add("", {{row("position", kMillimetres, at<&Summary::position>, "position", "Position of the wheel",
-                  "Position of the axle along the rail; half-space: the last of the case's positions, in a transient "
-                  "the rolled distance; static cases: 0")}});
-    add("contact", {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
-                    approach_numbers(), transient_numbers(), error_numbers()});
-    add("damage", {damage_numbers(), heat_numbers()});
-    add(kShakedownGroup, {shakedown_numbers()});
-    add(kLayersGroup, {layer_numbers()});
-    add(kLifeGroup, {life_numbers()});
-    add(kPassageGroup, {passage_numbers()});
-    add("plastic", {plastic_numbers(), plastic_place_numbers()});
-    add("energy", {energy_numbers()});
-    add("run", {time_numbers(), step_numbers(), effort_numbers()});
+    add("", {row("position", kMillimetres, at<&Summary::position>, "position", "Position of the wheel",
+                 "Position of the axle along the rail; half-space: the last of the case's positions, in a transient "
+                 "the rolled distance; static cases: 0")});
+    add("contact", field_numbers());
+    add("contact", motion_numbers());
+    add("contact", error_numbers());
+    add("damage", damage_numbers());
+    add(kShakedownGroup, shakedown_numbers());
+    add(kLayersGroup, layer_numbers());
+    add(kLifeGroup, life_numbers());
+    add(kPassageGroup, passage_numbers());
+    add("plastic", plastic_numbers());
+    add("energy", energy_numbers());
+    add("run", run_numbers());
     return out;
   }();
   return numbers;

@@ -16,19 +16,11 @@
 
 namespace railstrata {
 
-/// Place of the factors in summary.json, /shakedown/factors.
-inline constexpr std::string_view kShakedownGroup = "shakedown/factors";
+/// Places in summary.json: of load factors, of layers and interfaces, of the life, of a passage.
+inline constexpr std::string_view kShakedownGroup = "shakedown/factors", kLayersGroup = "layers", kLifeGroup = "life",
+                                  kPassageGroup = "passage";
 
 enum class AvailableIn { both_engines, finite_elements, half_spaces };
-
-/// Place of layers and interfaces in summary.json.
-inline constexpr std::string_view kLayersGroup = "layers";
-
-/// Place of the life in summary.json.
-inline constexpr std::string_view kLifeGroup = "life";
-
-/// Place of a passage's numbers in summary.json.
-inline constexpr std::string_view kPassageGroup = "passage";
 
 /// Below which size a number is what round-off and the solvers' tolerances leave, and screen and page show 0: `share`
 /// times the numbers at these paths of the same result ("" none). Files keep every digit.

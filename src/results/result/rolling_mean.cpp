@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "contact/patch_extent.hpp"
@@ -10,6 +11,10 @@
 
 namespace railstrata {
 namespace {
+
+/// Values of a field that are means over the samples.
+constexpr std::array kMeans{&ContactField::x,   &ContactField::p,      &ContactField::q_x,
+                            &ContactField::q_y, &ContactField::slip_x, &ContactField::slip_y};
 
 template <class Slips>
 void set_states(ContactField& f, Slips&& slips) {
@@ -111,8 +116,7 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
   if (group.samples.empty()) throw NumericalError("no sample was taken: the run ended before the requested position");
   MeanContact m;
   m.position = group.position;
-  m.samples = static_cast<int>(group.samples.size());
-  const double weight = 1.0 / m.samples;
+  const double weight = 1.0 / static_cast<double>(group.samples.size());
   double p_sum = 0, p_square = 0;
   for (const RollingSample& s : group.samples) {
     const ContactField f = contact_field(sys, s);
@@ -121,28 +125,20 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     p_square += patch.p_max * patch.p_max;
     if (m.field.size() == 0) {
       m.field = f;
-      for (auto* a : {&m.field.x, &m.field.p, &m.field.q_x, &m.field.q_y, &m.field.slip_x, &m.field.slip_y})
-        std::fill(a->begin(), a->end(), 0.0);
+      for (const auto values : kMeans) std::fill((m.field.*values).begin(), (m.field.*values).end(), 0.0);
     }
     if (f.size() != m.field.size())
       throw NumericalError(
           fmt::format("the samples cannot be averaged: one surface has {} points, another {} (a fault of the program: "
                       "please report it with the case file)",
                       m.field.size(), f.size()));
-    for (int i = 0; i < f.size(); ++i) {
-      m.field.x[i] += weight * f.x[i];
-      m.field.p[i] += weight * f.p[i];
-      m.field.q_x[i] += weight * f.q_x[i];
-      m.field.q_y[i] += weight * f.q_y[i];
-      m.field.slip_x[i] += weight * f.slip_x[i];
-      m.field.slip_y[i] += weight * f.slip_y[i];
-    }
+    for (const auto values : kMeans)
+      for (int i = 0; i < f.size(); ++i) (m.field.*values)[i] += weight * (f.*values)[i];
     m.F_x += weight * s.forces.x;
     m.F_y += weight * s.forces.y;
     m.F_z += weight * s.forces.z;
     m.creepage += weight * s.creepage;
     m.lateral_creepage += weight * s.lateral_creepage;
-    m.axle_z += weight * s.axle.z;
     if (sys.start_spin > 0) m.spin_per_m += weight * (1 - s.creepage) * wheel_spin(sys.model.placement.contact);
     add(m.rail, s.rail, weight);
     add(m.wheel, s.wheel, weight);

@@ -8,13 +8,11 @@ namespace railstrata {
 
 struct MeanContact {
   double position = 0;
-  int samples = 0;
   ContactField field;
   PatchMeasures patch;       ///< of the mean field
   double p_max_scatter = 0;  ///< standard deviation / mean of the samples' p_max
   double F_x = 0, F_y = 0, F_z = 0;
   double creepage = 0, lateral_creepage = 0, spin_per_m = 0;
-  double axle_z = 0;
   BandSample rail, wheel;  ///< mean stresses and displacements
 };
 

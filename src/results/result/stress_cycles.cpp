@@ -96,32 +96,6 @@ void put_peaks(const BemPatch& patch, const StatePlane& surface, const Subsurfac
       cycle[sample - begin] = front.stress;
 }
 
-StressHistory half_space_cycles(const Subsurface& interior, const BemPatch& patch, const std::vector<CycleRow>& rows) {
-  const Sampling at = sampling_of(patch);
-  const std::unique_ptr<Subsurface> wide = interior.widened(at.more_x, at.more_y);
-  const PatchGrid& g = wide->grid();
-  StressHistory out;
-  for (const int i : at.x) out.x.push_back(patch.grid.x(i));
-  for (const int j : at.y) out.y.push_back(patch.grid.y(j));
-  for (const CycleRow& row : rows) {
-    out.depth.push_back(row.depth);
-    out.zone.push_back(row.zone);
-  }
-  out.stress.resize(rows.size() * at.x.size() * at.y.size());
-  StatePlane plane;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const bool below = below_interface(rows, r);
-    if (!below) plane = wide->plane(rows[r].depth);
-    for (std::size_t c = 0; c < at.y.size(); ++c) {
-      Sym3* cycle = out.cycle(static_cast<int>(r), static_cast<int>(c));
-      for (std::size_t s = 0; s < at.x.size(); ++s)
-        cycle[s] = wide->stress(plane, g.index(at.x[s] + at.more_x, at.y[c] + at.more_y), below);
-      if (rows[r].depth == 0) put_peaks(patch, plane, *wide, at, at.y[c], cycle);
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter) {
@@ -151,12 +125,33 @@ std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter) {
   return rows;
 }
 
-StressHistory rail_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows) {
-  return half_space_cycles(rail_interior(result.rail, patch), patch, rows);
-}
-
-StressHistory wheel_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows) {
-  return half_space_cycles(wheel_interior(result.wheel, patch), patch, rows);
+StressHistory half_space_cycles(const BemResult& result, BodyId body, const BemPatch& patch,
+                                const std::vector<CycleRow>& rows) {
+  const Subsurface interior =
+      body == BodyId::rail ? rail_interior(result.rail, patch) : wheel_interior(result.wheel, patch);
+  const Sampling at = sampling_of(patch);
+  const std::unique_ptr<Subsurface> wide = interior.widened(at.more_x, at.more_y);
+  const PatchGrid& g = wide->grid();
+  StressHistory out;
+  for (const int i : at.x) out.x.push_back(patch.grid.x(i));
+  for (const int j : at.y) out.y.push_back(patch.grid.y(j));
+  for (const CycleRow& row : rows) {
+    out.depth.push_back(row.depth);
+    out.zone.push_back(row.zone);
+  }
+  out.stress.resize(rows.size() * at.x.size() * at.y.size());
+  StatePlane plane;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const bool below = below_interface(rows, r);
+    if (!below) plane = wide->plane(rows[r].depth);
+    for (std::size_t c = 0; c < at.y.size(); ++c) {
+      Sym3* cycle = out.cycle(static_cast<int>(r), static_cast<int>(c));
+      for (std::size_t s = 0; s < at.x.size(); ++s)
+        cycle[s] = wide->stress(plane, g.index(at.x[s] + at.more_x, at.y[c] + at.more_y), below);
+      if (rows[r].depth == 0) put_peaks(patch, plane, *wide, at, at.y[c], cycle);
+    }
+  }
+  return out;
 }
 
 }  // namespace railstrata

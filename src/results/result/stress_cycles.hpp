@@ -23,8 +23,8 @@ std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter);
 
 /// For a patch of a half-space result: samples at cells from 3 semi-axes behind the patch's middle to 3 ahead of it,
 /// and 1.5 to either side, at most about 90 and 50. y is that of the patch's grid.
-StressHistory rail_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows);
-StressHistory wheel_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows);
+StressHistory half_space_cycles(const BemResult& result, BodyId body, const BemPatch& patch,
+                                const std::vector<CycleRow>& rows);
 
 /// For the contact band of a finite element body: the surface (recovered at the nodes, with the peaks between them,
 /// result/surface_peaks.hpp), the elements' centres, and both sides of every interface. Samples are at the nodes and

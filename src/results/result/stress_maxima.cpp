@@ -7,9 +7,9 @@
 #include "contact/enforcement.hpp"
 #include "core/parabola.hpp"
 #include "material/elastic.hpp"
+#include "model/zone.hpp"
 
 namespace railstrata {
-
 namespace {
 
 double largest_principal(const Sym3& s) { return principal_stresses(s).x; }
@@ -88,27 +88,6 @@ void below_surface(const BandStress& b, double begin, bool layered, StressSummar
   out.interface = if_any(at_interfaces(b));
 }
 
-}  // namespace
-
-Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12,
-                    Vec3 traction) {
-  const double e = young(material), nu = poisson(material), snn = dot(traction, n);
-  const double s11 = e / (1 - nu * nu) * (e11 + nu * e22) + nu / (1 - nu) * snn,
-               s22 = e / (1 - nu * nu) * (e22 + nu * e11) + nu / (1 - nu) * snn;
-  auto dyad = [](Vec3 a, Vec3 b) {  // (ab + ba)/2
-    return Sym3{a.x * b.x,
-                a.y * b.y,
-                a.z * b.z,
-                0.5 * (a.x * b.y + a.y * b.x),
-                0.5 * (a.y * b.z + a.z * b.y),
-                0.5 * (a.x * b.z + a.z * b.x)};
-  };
-  return s11 * dyad(t1, t1) + s22 * dyad(t2, t2) + snn * dyad(n, n) + (2 * material.mu * g12) * dyad(t1, t2) +
-         (2 * dot(traction, t1)) * dyad(t1, n) + (2 * dot(traction, t2)) * dyad(t2, n);
-}
-
-namespace {
-
 /// m, by which the surface turns upwards along the rail: of the wheel; negative of a ring below it; 0: straight.
 double rising_radius(const ContactSurface& rail) { return rail.rises ? -rail.radius : 0.0; }
 
@@ -150,19 +129,10 @@ std::vector<Sym3> recover_surface(const ContactSurface& surface, const BandSampl
 
 // Traction on the rail at a point of the field's plane, bilinear; zero outside.
 Vec3 traction_at(const ContactField& f, const ContactSurface& rail, double x, double y) {
-  auto column = [&](int c) { return f.y[c]; };
-  auto station = [&](int s) { return f.x[static_cast<std::size_t>(s) * f.columns]; };
-  int c = 0, s = 0;
-  while (c + 2 < f.columns && column(c + 1) <= y) ++c;
-  while (s + 2 < f.stations && station(s + 1) <= x) ++s;
-  const double a = (y - column(c)) / (column(c + 1) - column(c)), b = (x - station(s)) / (station(s + 1) - station(s));
-  if (a < 0 || a > 1 || b < 0 || b > 1) return {};
   Vec3 t{};
-  for (int k = 0; k < 4; ++k) {
-    const int i = (s + k / 2) * f.columns + c + k % 2;
-    const Vec3 n = rail.rail_normal(c + k % 2, f.x[i]);
-    t += ((k % 2 ? a : 1 - a) * (k / 2 ? b : 1 - b)) * traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, n);
-  }
+  points_around(f, x, y, [&](std::size_t i, int column, double weight) {
+    t += weight * traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, rail.rail_normal(column, f.x[i]));
+  });
   return t;
 }
 
@@ -185,66 +155,64 @@ double surface_poisson(const SweptBody& body, const std::vector<Elastic>& at_sur
   return poisson(at_surface[body.blocks[body.contact.block].section.quad_material[body.contact.columns / 2]]);
 }
 
-bool layered(const Model& model, BodyId id) {
-  const std::vector<LayerSpec>& layers = model.spec.layers;
-  return std::any_of(layers.begin(), layers.end(), [&](const LayerSpec& l) { return l.on == id; });
-}
-
 /// Where the subsurface begins: subsurface_begin, no nearer than an element.
 double begin_of(const CaseSpec& spec, BodyId body, const MeanContact& m) {
-  double first_layer = HUGE_VAL;
-  for (const LayerSpec& layer : spec.layers)
-    if (layer.on == body && std::isinf(first_layer)) first_layer = layer.thickness;
+  const std::vector<std::size_t> layers = layers_on(spec, body);
+  const double first_layer = layers.empty() ? HUGE_VAL : spec.layers[layers.front()].thickness;
   return std::max(spec.mesh.element_size, subsurface_begin(m.patch, first_layer));
+}
+
+std::vector<Sym3> stress_at_surface(const RollingSystem& sys, BodyId id, const MeanContact& m) {
+  const ContactField& f = m.field;
+  const ContactSurface &rail = sys.rail_surface(), &wheel = sys.wheel_surface();
+  if (id == BodyId::rail)
+    return recover_surface(rail, m.rail, sys.model.rail, sys.model.rail_at_surface, rising_radius(rail),
+                           [&](int c, int j) {
+                             const int i = j * f.columns + c;
+                             return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, rail.rail_normal(c, f.x[i]));
+                           });
+  return recover_surface(
+      wheel, m.wheel, sys.model.wheel, sys.model.wheel_at_surface, sys.rolling_radius,
+      [&](int c, int j) { return -traction_at(f, rail, m.wheel.along[j], wheel.origin.y + wheel.node[c].y); });
 }
 
 }  // namespace
 
-std::vector<Sym3> rail_surface_stress(const RollingSystem& sys, const MeanContact& m) {
-  const ContactField& f = m.field;
-  const ContactSurface& surface = sys.rail_surface();
-  return recover_surface(surface, m.rail, sys.model.rail, sys.model.rail_at_surface, rising_radius(surface),
-                         [&](int c, int j) {
-                           const int i = j * f.columns + c;
-                           return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, surface.rail_normal(c, f.x[i]));
-                         });
+Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12,
+                    Vec3 traction) {
+  const double e = young(material), nu = poisson(material), snn = dot(traction, n);
+  const double s11 = e / (1 - nu * nu) * (e11 + nu * e22) + nu / (1 - nu) * snn,
+               s22 = e / (1 - nu * nu) * (e22 + nu * e11) + nu / (1 - nu) * snn;
+  auto dyad = [](Vec3 a, Vec3 b) {  // (ab + ba)/2
+    return Sym3{a.x * b.x,
+                a.y * b.y,
+                a.z * b.z,
+                0.5 * (a.x * b.y + a.y * b.x),
+                0.5 * (a.y * b.z + a.z * b.y),
+                0.5 * (a.x * b.z + a.z * b.x)};
+  };
+  return s11 * dyad(t1, t1) + s22 * dyad(t2, t2) + snn * dyad(n, n) + (2 * material.mu * g12) * dyad(t1, t2) +
+         (2 * dot(traction, t1)) * dyad(t1, n) + (2 * dot(traction, t2)) * dyad(t2, n);
 }
 
-std::vector<Sym3> wheel_surface_stress(const RollingSystem& sys, const MeanContact& m) {
-  return recover_surface(sys.wheel_surface(), m.wheel, sys.model.wheel, sys.model.wheel_at_surface, sys.rolling_radius,
-                         [&](int c, int j) {
-                           return -traction_at(m.field, sys.rail_surface(), m.wheel.along[j],
-                                               sys.wheel_surface().origin.y + sys.wheel_surface().node[c].y);
-                         });
-}
-
-BandSurface rail_band_surface(const RollingSystem& sys, const MeanContact& m) {
-  return {rail_surface_stress(sys, m), m.field, surface_poisson(sys.model.rail, sys.model.rail_at_surface),
-          rising_radius(sys.rail_surface())};
-}
-
-BandSurface wheel_band_surface(const RollingSystem& sys, const MeanContact& m) {
-  return {wheel_surface_stress(sys, m), m.field, surface_poisson(sys.model.wheel, sys.model.wheel_at_surface),
+BandSurface band_surface(const RollingSystem& sys, BodyId id, const MeanContact& m) {
+  if (id == BodyId::rail)
+    return {stress_at_surface(sys, id, m), m.field, surface_poisson(sys.model.rail, sys.model.rail_at_surface),
+            rising_radius(sys.rail_surface())};
+  return {stress_at_surface(sys, id, m), m.field, surface_poisson(sys.model.wheel, sys.model.wheel_at_surface),
           sys.rolling_radius};
 }
 
-StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m) {
+StressSummary band_stress_summary(const RollingSystem& sys, BodyId id, const MeanContact& m) {
+  const bool rail = id == BodyId::rail;
+  const SweptBody& body = rail ? sys.model.rail : sys.model.wheel;
+  const BandSample& sample = rail ? m.rail : m.wheel;
+  const double contact_y = sys.model.placement.contact.point.y;
   StressSummary out;
-  const double contact_y = sys.model.placement.contact.point.y - sys.model.rail.origin.y;
-  const BandStress b = band_stress(sys.model.rail, m.rail, contact_y);
-  below_surface(b, begin_of(sys.model.spec, BodyId::rail, m), layered(sys.model, BodyId::rail), out);
+  below_surface(band_stress(body, sample, contact_y - body.origin.y), begin_of(sys.model.spec, id, m),
+                !layers_on(sys.model.spec, id).empty(), out);
   out.surface =
-      surface_maxima(rail_surface_stress(sys, m), m.rail, sys.rail_surface(), sys.model.placement.contact.point.y);
-  return out;
-}
-
-StressSummary wheel_stress_summary(const RollingSystem& sys, const MeanContact& m) {
-  StressSummary out;
-  const double contact_y = sys.model.placement.contact.point.y - sys.model.wheel.origin.y;
-  below_surface(band_stress(sys.model.wheel, m.wheel, contact_y), begin_of(sys.model.spec, BodyId::wheel, m),
-                layered(sys.model, BodyId::wheel), out);
-  out.surface =
-      surface_maxima(wheel_surface_stress(sys, m), m.wheel, sys.wheel_surface(), sys.model.placement.contact.point.y);
+      surface_maxima(stress_at_surface(sys, id, m), sample, rail ? sys.rail_surface() : sys.wheel_surface(), contact_y);
   return out;
 }
 

@@ -12,14 +12,9 @@
 
 namespace railstrata {
 
-/// Recovered stress tensors at the surface nodes of a body (zero on the border of the sample), index station * (columns
-/// + 1) + column, model frame.
-std::vector<Sym3> rail_surface_stress(const RollingSystem& system, const MeanContact& mean);
-std::vector<Sym3> wheel_surface_stress(const RollingSystem& system, const MeanContact& mean);
-
-/// The surface of either body with these stresses; `mean` must outlive it.
-BandSurface rail_band_surface(const RollingSystem& system, const MeanContact& mean);
-BandSurface wheel_band_surface(const RollingSystem& system, const MeanContact& mean);
+/// The surface of a body with the stress tensors recovered at its nodes (zero on the border of the sample), index
+/// station * (columns + 1) + column, model frame; `mean` must outlive it.
+BandSurface band_surface(const RollingSystem& system, BodyId body, const MeanContact& mean);
 
 /// Stress at a free or loaded surface from the traction t = sigma n and the strains in the surface's own plane; n
 /// outward, t1, t2 tangents, orthonormal: s_11 = E/(1-nu²) (e11 + nu e22) + nu/(1-nu) t.n, s_22 alike, s_12 = mu g12,
@@ -28,7 +23,6 @@ Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e1
                     Vec3 traction);
 
 /// subsurface: deeper than subsurface_begin (patch.hpp) and than one element edge (mesh.element_size).
-StressSummary rail_stress_summary(const RollingSystem& system, const MeanContact& mean);
-StressSummary wheel_stress_summary(const RollingSystem& system, const MeanContact& mean);
+StressSummary band_stress_summary(const RollingSystem& system, BodyId body, const MeanContact& mean);
 
 }  // namespace railstrata

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/rotation.hpp"
 
@@ -47,15 +48,28 @@ std::vector<int> thinned(int n, int most) {
   return out;
 }
 
-/// Slices at these places, without stresses.
-std::vector<StressSection> empty_slices(const std::vector<double>& x, const std::vector<int>& at,
-                                        const std::vector<double>& y, const std::vector<int>& columns) {
-  std::vector<StressSection> out;
-  for (int i : at) {
-    StressSection slice;
-    slice.at = x[i];
-    for (int j : columns) slice.along.push_back(y[j]);
-    out.push_back(std::move(slice));
+/// Through the cells nearest to x and y. row(r) gives what adds a cell of the row to a section: (section, column,
+/// station).
+template <class Row>
+StressSections sections_of(std::vector<double> stations, std::vector<double> columns, const std::vector<double>& depth,
+                           double x, double y, const Row& row) {
+  const int ns = static_cast<int>(stations.size()), nc = static_cast<int>(columns.size());
+  const int station = nearest(stations, x), column = nearest(columns, y);
+  const std::vector<int> at = thinned(ns, kMostSlices), beside = thinned(nc, kMostSliceColumns);
+  StressSections out{
+      {columns[column], stations, depth, {}, {}, {}}, {stations[station], columns, depth, {}, {}, {}}, {}};
+  for (const int s : at) {
+    StressSection& slice = out.slices.emplace_back();
+    slice.at = stations[s];
+    for (const int c : beside) slice.along.push_back(columns[c]);
+    slice.depth = depth;
+  }
+  for (std::size_t r = 0; r < depth.size(); ++r) {
+    const auto add = row(static_cast<int>(r));
+    for (int s = 0; s < ns; ++s) add(out.longitudinal, column, s);
+    for (int c = 0; c < nc; ++c) add(out.cross, c, station);
+    for (std::size_t k = 0; k < at.size(); ++k)
+      for (const int c : beside) add(out.slices[k], c, at[k]);
   }
   return out;
 }
@@ -63,65 +77,50 @@ std::vector<StressSection> empty_slices(const std::vector<double>& x, const std:
 StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& body, const Subsurface& interior,
                                  double z_up, double x, double y, double deepest) {
   const PatchGrid& g = r.grid;
-  StressSections out;
-  StressSection &along = out.longitudinal, &across = out.cross;
-  for (int i = 0; i < g.nx; ++i) along.along.push_back(g.x(i));
+  std::vector<double> along, across, depth;
+  for (int i = 0; i < g.nx; ++i) along.push_back(g.x(i));
   const int columns = g.line ? 3 : g.ny;  // of a line the same in each third of it
   const auto y_of = [&](int j) { return g.line ? g.dy * (j - 1) / columns : g.y(j); };
-  for (int j = 0; j < columns; ++j) across.along.push_back(r.contact.point.y + y_of(j) * std::cos(r.contact.angle));
-  const int i0 = nearest(along.along, x), j0 = nearest(across.along, y);
-  along.at = across.along[j0];
-  across.at = along.along[i0];
-  const std::vector<int> at = thinned(g.nx, kMostSlices), beside = thinned(columns, kMostSliceColumns);
-  out.slices = empty_slices(along.along, at, across.along, beside);
-  for (const Row& row : rows_of(body, g.dx, deepest)) {
-    const StatePlane plane = interior.plane(row.depth);
-    const auto add = [&](StressSection& section, std::size_t k) {
-      Sym3 s = interior.stress(plane, k);
-      s.yz *= z_up;
-      s.xz *= z_up;
-      section.stress.push_back(roll(rotation_by(r.contact.angle), s));
+  for (int j = 0; j < columns; ++j) across.push_back(r.contact.point.y + y_of(j) * std::cos(r.contact.angle));
+  const std::vector<Row> rows = rows_of(body, g.dx, deepest);
+  for (const Row& row : rows) depth.push_back(row.depth);
+  return sections_of(std::move(along), std::move(across), depth, x, y, [&](int at) {
+    const Row& row = rows[at];
+    return [&, plane = interior.plane(row.depth)](StressSection& section, int c, int s) {
+      Sym3 stress = interior.stress(plane, g.index(s, g.line ? 0 : c));
+      stress.yz *= z_up;
+      stress.xz *= z_up;
+      section.stress.push_back(roll(rotation_by(r.contact.angle), stress));
       section.material.push_back(row.material);
     };
-    for (int i = 0; i < g.nx; ++i) add(along, g.index(i, g.line ? 0 : j0));
-    for (int j = 0; j < columns; ++j) add(across, g.index(i0, g.line ? 0 : j));
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      for (int j : beside) add(out.slices[k], g.index(at[k], g.line ? 0 : j));
-      out.slices[k].depth.push_back(row.depth);
-    }
-    along.depth.push_back(row.depth);
-    across.depth.push_back(row.depth);
-  }
-  return out;
+  });
+}
+
+void add_cell(const BandStress& b, int column, int row, int station, StressSection& section) {
+  section.stress.push_back(b.at(column, row, station));
+  section.material.push_back(b.layer(column, row, station));
+  if (!b.sample.plastic.empty()) section.plastic.push_back(b.sample.plastic[b.index(column, row, station)]);
 }
 
 }  // namespace
 
 StressSections band_sections(const BandStress& b, double x, double y) {
-  StressSections out;
-  StressSection &along = out.longitudinal, &across = out.cross;
-  for (int s = 0; s < b.sample.stations; ++s) along.along.push_back(b.x(s));
-  for (double t : b.centre_y) across.along.push_back(b.body->origin.y + t);
-  const int station = nearest(along.along, x), column = nearest(across.along, y);
-  along.at = across.along[column];
-  across.at = along.along[station];
-  along.depth = across.depth = b.centre_depth;
-  const std::vector<int> at = thinned(b.sample.stations, kMostSlices),
-                         beside = thinned(b.sample.columns, kMostSliceColumns);
-  out.slices = empty_slices(along.along, at, across.along, beside);
-  for (StressSection& slice : out.slices) slice.depth = b.centre_depth;
-  for (int r = 0; r < b.sample.rows; ++r) {
-    const auto add = [&](StressSection& section, int c, int s) {
-      section.stress.push_back(b.at(c, r, s));
-      section.material.push_back(b.layer(c, r, s));
-      if (!b.sample.plastic.empty()) section.plastic.push_back(b.sample.plastic[b.index(c, r, s)]);
-    };
-    for (int s = 0; s < b.sample.stations; ++s) add(along, column, s);
-    for (int c = 0; c < b.sample.columns; ++c) add(across, c, station);
-    for (std::size_t k = 0; k < at.size(); ++k)
-      for (int c : beside) add(out.slices[k], c, at[k]);
-  }
-  return out;
+  std::vector<double> along, across;
+  for (int s = 0; s < b.sample.stations; ++s) along.push_back(b.x(s));
+  for (const double t : b.centre_y) across.push_back(b.body->origin.y + t);
+  return sections_of(std::move(along), std::move(across), b.centre_depth, x, y, [&](int r) {
+    return [&, r](StressSection& section, int c, int s) { add_cell(b, c, r, s, section); };
+  });
+}
+
+StressSection depth_line(const BandStress& b, double x, double y) {
+  std::vector<double> along, across;
+  for (int s = 0; s < b.sample.stations; ++s) along.push_back(b.x(s));
+  for (const double t : b.centre_y) across.push_back(t - b.contact_y);
+  const int station = nearest(along, x), column = nearest(across, y);
+  StressSection line{across[column], {along[station]}, b.centre_depth, {}, {}, {}};
+  for (int r = 0; r < b.sample.rows; ++r) add_cell(b, column, r, station, line);
+  return line;
 }
 
 StressSections rail_sections(const BemResult& r, double x, double y, double deepest) {

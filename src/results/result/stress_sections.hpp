@@ -26,6 +26,10 @@ struct StressSections {
                                       ///< 17 of them, of at most 34 columns
 };
 
+/// Stress against depth below the point (x, y) of largest subsurface von Mises stress, y from the rigid contact point:
+/// a longitudinal section of one place.
+StressSection depth_line(const BandStress& band, double x, double y);
+
 /// Half the difference of the largest and the smallest of the principal stresses, largest first.
 inline double largest_shear(const Vec3& principal) { return 0.5 * (principal.x - principal.z); }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The numbers of a result, the same for both engines: what summary.json holds. SI units; a number that does not apply
 // is NaN (null in the file). result/result_table.hpp has a row for each: its key, unit, words and where it is shown.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -123,24 +124,20 @@ struct BodyShakedown {
 struct ShakedownSummary {
   std::vector<BodyShakedown> bodies;
   /// The least value of a factor over the bodies; NaN without bodies, or where one of them lacks it.
-  double least(double ShakedownFactors::*factor) const;
+  double least(double ShakedownFactors::*factor) const {
+    double out = bodies.empty() ? kNotApplicable : std::numeric_limits<double>::infinity();
+    for (const BodyShakedown& b : bodies)
+      out = b.factors.*factor < out || std::isnan(b.factors.*factor) ? b.factors.*factor : out;
+    return out;
+  }
   /// The body that decides the factor for wandering traffic; null without bodies.
-  const BodyShakedown* governing() const;
+  const BodyShakedown* governing() const {
+    const auto at = std::min_element(bodies.begin(), bodies.end(), [](const BodyShakedown& a, const BodyShakedown& b) {
+      return a.factors.wandering < b.factors.wandering;
+    });
+    return at == bodies.end() ? nullptr : &*at;
+  }
 };
-
-inline double ShakedownSummary::least(double ShakedownFactors::*factor) const {
-  double out = bodies.empty() ? kNotApplicable : std::numeric_limits<double>::infinity();
-  for (const BodyShakedown& b : bodies)
-    out = b.factors.*factor < out || std::isnan(b.factors.*factor) ? b.factors.*factor : out;
-  return out;
-}
-
-inline const BodyShakedown* ShakedownSummary::governing() const {
-  const BodyShakedown* out = nullptr;
-  for (const BodyShakedown& b : bodies)
-    if (!out || b.factors.wandering < out->factors.wandering) out = &b;
-  return out;
-}
 
 /// A fatigue parameter and its place.
 struct FatigueValue {
@@ -246,5 +243,19 @@ struct Summary {
   std::vector<Check> checks;
   std::vector<Warning> warnings;
 };
+
+/// The worst of all layers and of all interfaces: what cracks a brittle layer, and what shears it off.
+/// Layers on rail and wheel, residual stress of the process included; NaN where there is no layer, or
+/// where the case gives no strength to compare with.
+struct LayerWorst {
+  double sigma_1 = kNotApplicable;            ///< Pa, the largest principal stress in a layer
+  double share_of_tensile = kNotApplicable;   ///< of its tensile strength; 1: it cracks
+  double critical_flaw = kNotApplicable;      ///< m, the smallest flaw that the stress opens
+  double interface_tension = kNotApplicable;  ///< Pa
+  double interface_shear = kNotApplicable;    ///< Pa
+  double shear_range = kNotApplicable;        ///< Pa, of tau_xz over a passage
+  double delamination = kNotApplicable;       ///< 1: the interface gives way
+};
+LayerWorst layer_worst(const Summary& summary);
 
 }  // namespace railstrata

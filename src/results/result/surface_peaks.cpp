@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/parabola.hpp"
-#include "result/front_of_slip.hpp"
+#include "result/patch.hpp"
 
 namespace railstrata {
 namespace {

@@ -22,7 +22,7 @@ struct SurfaceRow {
 /// sigma_yy + 2 nu p is smooth (of a circular contact: [Johnson1985 eq. 3.43]); it is extrapolated from the two points
 /// behind the outermost to the edge, where p² is zero.
 ///
-/// Front of slip: |q| has a cusp there (result/front_of_slip.hpp). The stresses rise as a root on the
+/// Front of slip: |q| has a cusp there (result/patch.hpp). The stresses rise as a root on the
 /// slipping side; on the sticking one what is left of sigma_xx + p and sigma_yy + 2 nu p is smooth (of a line contact:
 /// constant) and is extrapolated from there; shear is f p.
 struct SurfacePeaks {

@@ -1,7 +1,8 @@
-// The columns of tables: numbers of the result table and the stresses that tables hold.
+// The columns of tables: numbers of the result table and the stresses that tables hold; the worst of all layers.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "result/result_table.hpp"
 
@@ -65,6 +66,13 @@ ResultColumn column_of(const StressColumn& c) {
       .of_stress = true};
 }
 
+void take_larger(double value, double& out) {
+  if (std::isfinite(value) && !(value <= out)) out = value;
+}
+void take_smaller(double value, double& out) {
+  if (std::isfinite(value) && !(value >= out)) out = value;
+}
+
 }  // namespace
 
 std::string ResultColumn::symbol() const { return name.substr(0, name.size() - shown_unit.column_ending.size()); }
@@ -114,6 +122,25 @@ std::vector<ResultColumn> table_columns() {
   for (const StressColumn& c : kStressColumns) out.push_back(column_of(c));
   out.insert(out.end(), strength_columns.begin(), strength_columns.end());
   out.insert(out.end(), run_columns.begin(), run_columns.end());
+  return out;
+}
+
+LayerWorst layer_worst(const Summary& summary) {
+  LayerWorst out;
+  for (const BodyFatigue& body : summary.fatigue) {
+    for (const BrittleSummary& z : body.brittle) {
+      if (z.zone == body.body) continue;  // rail and wheel themselves are no layers
+      take_larger(z.sigma1, out.sigma_1);
+      take_larger(z.share_of_tensile, out.share_of_tensile);
+      take_smaller(z.critical_flaw, out.critical_flaw);
+    }
+    for (const InterfaceSummary& i : body.interfaces) {
+      take_larger(i.tension, out.interface_tension);
+      take_larger(i.shear, out.interface_shear);
+      take_larger(i.shear_range, out.shear_range);
+      take_larger(i.delamination, out.delamination);
+    }
+  }
   return out;
 }
 

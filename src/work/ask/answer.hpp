@@ -10,7 +10,6 @@
 #include "core/control.hpp"
 #include "fatigue/rail_damage.hpp"
 #include "fatigue/shakedown_summary.hpp"
-#include "fatigue/sliding_map.hpp"
 #include "lives/zone_life.hpp"
 #include "result/summary.hpp"
 #include "result/transient_row.hpp"

@@ -7,8 +7,8 @@
 #include "core/parallel.hpp"
 #include "core/stop_request.hpp"
 #include "damage/wear_indices.hpp"
-#include "fatigue/half_space_track.hpp"
-#include "fatigue/traffic_damage.hpp"
+#include "fatigue/shakedown_summary.hpp"
+#include "fatigue/wheel_damage.hpp"
 #include "io/provenance.hpp"
 #include "judge/bem_summary.hpp"
 #include "record/this_process.hpp"
@@ -36,8 +36,11 @@ void add_stresses(const Wanted& wanted, Answer& out) {
     return std::any_of(out.shakedown.begin(), out.shakedown.end(),
                        [&](const SectionShakedown& section) { return section.body == body && section.strength.any(); });
   };
-  if (!s.rail.subsurface && (wanted.rail || judged(BodyId::rail))) s.rail = bem_rail_stress(out.result, s.contact);
-  if (!s.wheel.subsurface && (wanted.wheel || judged(BodyId::wheel))) s.wheel = bem_wheel_stress(out.result, s.contact);
+  const auto add = [&](BodyId body, bool asked, StressSummary& stress) {
+    if (!stress.subsurface && (asked || judged(body))) stress = bem_stress(out.result, body, s.contact);
+  };
+  add(BodyId::rail, wanted.rail, s.rail);
+  add(BodyId::wheel, wanted.wheel, s.wheel);
 }
 
 void add_passes(const CaseSpec& spec, const Placement& placement, const AskOptions& how, Answer& out) {

@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "core/root.hpp"
-#include "fatigue/traffic_damage.hpp"
+#include "fatigue/wheel_damage.hpp"
 #include "io/summary_json.hpp"
 #include "many/each_case.hpp"
 #include "many/result_columns.hpp"

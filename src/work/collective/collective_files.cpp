@@ -17,7 +17,7 @@
 #include "record/unit.hpp"
 #include "report/checks.hpp"
 #include "report/page.hpp"
-#include "report/read_run.hpp"
+#include "report/report.hpp"
 
 namespace railstrata {
 namespace {

@@ -9,7 +9,7 @@
 #include "material/strain_claim.hpp"
 #include "model/material_strength.hpp"
 #include "record/unit.hpp"
-#include "report/plots.hpp"
+#include "report/pictures.hpp"
 
 namespace railstrata {
 namespace {

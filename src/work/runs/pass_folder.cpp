@@ -11,10 +11,7 @@
 #include "judge/check_limits.hpp"
 #include "passes/pass_plan.hpp"
 #include "passes/pass_runner.hpp"
-#include "passes/pass_text.hpp"
 #include "passes/pass_way.hpp"
-#include "passes/pass_way_files.hpp"
-#include "passes/pressed_profile.hpp"
 #include "result/result_table.hpp"
 #include "runs/pass_job.hpp"
 
@@ -225,14 +222,12 @@ class SteadyPasses : public PassJob {
   }
 
   void keep(PassRow row, const FollowedPass& pass) {
-    row.place = runner_.place().column * grid().dy;
-    row.traction = tractions_[runner_.place().solution];
-    row.largest_pressure = pass.largest_pressure;
-    row.creepage = pass.creepage;
+    row.contact = {tractions_[runner_.place().solution], pass.creepage, pass.largest_pressure,
+                   runner_.place().column * grid().dy};
     row.rounds = pass.rounds;
     last_row_ = row;
     add_pass(row, *last_, series_);
-    report(row, fmt::format("pressure up to {:.0f} MPa; {} iterations{}", 1e-6 * row.largest_pressure, row.iterations,
+    report(row, fmt::format("pressure up to {:.0f} MPa; {} iterations{}", 1e-6 * row.contact.p_max, row.iterations,
                             row.rounds > 0 ? fmt::format(", {} rounds of the contact", row.rounds) : ""));
     if (!pass.converged) {
       sound_ = false;
@@ -282,12 +277,11 @@ class SteadyPasses : public PassJob {
   void write_results() {
     const RailPasses& rail = runner_.rail();
     const PassWay way = pass_way(rail, runner_.body(), runner_.strain(), *last_, series_.state);
-    const std::size_t governing = way.points.front().point / static_cast<std::size_t>(rail.grid.ny);
     PassProgress progress = progress_of(verdict_of(series_), series_.strains, last_row_);
     progress.ductility = loaded_.spec.passes.ductility;
     progress.strain_life = strain_life_of(loaded_.spec.rail_material, "rail", "material.rail");
     answer_.verdict = verdict_ = describe(progress);
-    answer_.law = describe_law(rail.rows[governing].law);
+    answer_.law = describe_law(rail.rows[static_cast<std::size_t>(way.row)].law);
     answer_.ductility = loaded_.spec.passes.ductility;
     write_residual(folder(), origin(), rail, series_, *last_);
     // one elastic contact for all passes would sink the rail deeper than the wheel reaches

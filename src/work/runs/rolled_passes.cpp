@@ -158,15 +158,12 @@ std::optional<RolledPasses::Pass> RolledPasses::next(RolledSeries& series, const
   out.uneven = unevenness(was, first, second);
   out.row.error = out.uneven;
   out.row.iterations = static_cast<int>(summary.run.steps);
-  PassContact contact;
-  contact.traction = mean_traction(solution.history, roll_);
-  contact.creepage = summary.contact.creepage_x;
-  contact.p_max = summary.contact.patch.p_max;
-  contact.lateral = system.model.spec.geometry.lateral_shift - base_.spec.geometry.lateral_shift;
-  add_rolled_pass(after, contact, out, series);
+  out.row.contact = {mean_traction(solution.history, roll_), summary.contact.creepage_x, summary.contact.patch.p_max,
+                     system.model.spec.geometry.lateral_shift - base_.spec.geometry.lateral_shift};
+  add_rolled_pass(after, out, series);
   if (traction)
     series.creepage_shift += kCorrection * (estimated_creepage(system.model, *traction) -
-                                            estimated_creepage(system.model, contact.traction));
+                                            estimated_creepage(system.model, out.row.contact.traction));
   return out;
 }
 

@@ -64,7 +64,7 @@ void RunJob::resume() {
     throw CaseError(fmt::format("there is nothing to resume in {}: the run was stopped before its first checkpoint",
                                 folder().string()),
                     fmt::format("start it again: {}", command_again(folder())));
-  checkpoint_.case_sha256 = identity_in_folder(folder(), loaded_);
+  checkpoint_.case_sha256 = identity();
   FoundCheckpoint found = read_checkpoint(folder(), checkpoint_.case_sha256);
   for (const std::string& note : found.notes) control_.warn("{}; the checkpoint before it is taken", note);
   const CheckpointOrigin& earlier = found.checkpoint.origin;

@@ -48,8 +48,8 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
   out.summary.damage = damage_summary(here, out.summary, out.streamlines);
   // its theorems judge elastic stresses that come again and again
   if (!model.spec.run.plasticity && varying_key(model.spec).empty())
-    out.shakedown = fem_shakedown(model, out.contact.patch, {out.rail, rail_band_surface(system, out.contact)},
-                                  {out.wheel, wheel_band_surface(system, out.contact)});
+    out.shakedown = fem_shakedown(model, out.contact.patch, {out.rail, band_surface(system, BodyId::rail, out.contact)},
+                                  {out.wheel, band_surface(system, BodyId::wheel, out.contact)});
   judge_sections(model.spec, out.shakedown, out.summary);
   for (BodyFatigue& fatigue : passage_fatigue(system, run)) out.summary.fatigue.push_back(std::move(fatigue));
   sign(out.summary);

@@ -10,15 +10,14 @@
 #include "io/damage_files.hpp"
 #include "io/geometry_json.hpp"
 #include "io/output_folder.hpp"
-#include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
-#include "passage/force_spectrum.hpp"
+#include "passage/passage.hpp"
 #include "passes/rolled_pass_files.hpp"
 #include "record/csv.hpp"
 #include "record/output_file.hpp"
 #include "record/unit.hpp"
-#include "report/view.hpp"
+#include "report/assets.hpp"
 #include "result/stress_sections.hpp"
 
 namespace railstrata {

@@ -5,11 +5,10 @@
 #include "ask/judge.hpp"
 #include "io/damage_files.hpp"
 #include "io/geometry_json.hpp"
-#include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
-#include "report/view.hpp"
+#include "report/assets.hpp"
 #include "result/stress_sections.hpp"
 
 namespace railstrata {

@@ -15,7 +15,7 @@
 #include "reader/case_file.hpp"
 #include "record/output_file.hpp"
 #include "report/page.hpp"
-#include "report/read_run.hpp"
+#include "report/report.hpp"
 #include "runs/write_half_space_result.hpp"
 
 namespace railstrata {

@@ -7,7 +7,7 @@
 
 #include "core/control.hpp"
 #include "report/checks.hpp"
-#include "report/framed_page.hpp"
+#include "report/page.hpp"
 
 namespace railstrata {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/transient_files.hpp"
+#include "io/result_files.hpp"
 #include "record/vtk.hpp"
 
 namespace railstrata {

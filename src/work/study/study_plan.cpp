@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "core/faults.hpp"
-#include "io/kept_inputs.hpp"
+#include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "many/axis.hpp"
 

@@ -15,7 +15,7 @@
 #include "many/case_page.hpp"
 #include "record/json.hpp"
 #include "report/checks.hpp"
-#include "report/read_run.hpp"
+#include "report/report.hpp"
 #include "study/study_plan.hpp"
 
 namespace railstrata {
@@ -246,10 +246,7 @@ struct Worst {
 ReportRun for_checks(const CaseRow& e) {
   ReportRun run = read_report_run(e.folder);
   run.result.field = {};
-  run.sections.clear();
-  run.slices.clear();
-  run.depth_line.reset();
-  run.history.reset();
+  run.tables.clear();
   return run;
 }
 

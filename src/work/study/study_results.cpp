@@ -14,7 +14,7 @@
 #include "io/result_folder.hpp"
 #include "record/csv.hpp"
 #include "record/output_file.hpp"
-#include "report/view.hpp"
+#include "report/assets.hpp"
 #include "runs/write_fem_result.hpp"
 
 namespace railstrata {

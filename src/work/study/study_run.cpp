@@ -12,7 +12,7 @@
 
 #include "core/faults.hpp"
 #include "core/text.hpp"
-#include "io/kept_inputs.hpp"
+#include "io/output_folder.hpp"
 #include "record/output_file.hpp"
 #include "runs/write_fem_result.hpp"
 #include "study/running_case.hpp"

@@ -1,10 +1,23 @@
 #pragma once
-// Curves beside each other as one SVG: loops of a material, a fit and what it was fitted to.
+// Pictures as SVG files of their own.
 #include <string>
 #include <vector>
 
+#include "contact/contact_field.hpp"
+#include "result/compare.hpp"
+
 namespace railstrata {
 
+// ---- two results side by side: pressure and traction along the centre lines, maps of both pressures and of their
+// difference
+struct PictureSide {
+  std::string name;
+  const ContactField& field;
+};
+
+std::string comparison_svg(const PictureSide& a, const PictureSide& b, const FieldComparison& comparison);
+
+// ---- curves beside each other: loops of a material, a fit and what it was fitted to
 struct PlotCurve {
   std::string name;
   std::vector<double> x, y;
