@@ -23,8 +23,8 @@
 #include "fem/plastic_zone.hpp"
 #include "fem/stepper.hpp"
 #include "machine_peaks.hpp"
-#include "tests/mesh/brick_mesh.hpp"
 #include "tests/body/plastic_state.hpp"
+#include "tests/mesh/brick_mesh.hpp"
 
 namespace railstrata {
 namespace {

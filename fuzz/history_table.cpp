@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "reader.hpp"
-#include "rules/transient_rules.hpp"
+#include "rules/case_rules.hpp"
 
 using namespace railstrata;
 using fuzz::promise;

@@ -244,7 +244,7 @@ class Drive {
   Plane temperature(const Solved& next, const PatchGrid& g, const RollingContact& c) const {
     if (!next.rolling.temperature.empty()) return next.rolling.temperature;
     const Plane flux = friction_flux(next.rolling.tangential, c.speed), cold(g.size(), 0.0);
-    return contact_temperature(*settings_.heat, g, {flux, cold}, {}, true, g.dx, c.speed);
+    return contact_temperature(*settings_.heat, g, flux, cold, {}, true, g.dx, c.speed);
   }
 
   RollingOptions options() const {

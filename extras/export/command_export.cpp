@@ -8,9 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
 #include "app/common_options.hpp"
-#include "app/option_values.hpp"
 #include "ask/answer.hpp"
 #include "export/abaqus_deck.hpp"
 #include "export/contact_files.hpp"
@@ -19,6 +17,7 @@
 #include "io/output_folder.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
+#include "rules/support.hpp"
 
 namespace railstrata {
 namespace {
@@ -82,7 +81,7 @@ Files contact_result(const LoadedCase& loaded, const std::string& cell) {
     out.add(name + ".mat", "the contact, for loadcase.m", contact_mat(spec, placement, *patches[k]));
     out.add(name + ".subs", "stresses in the rail, for loadstrs.m", contact_stresses(result.rail, *patches[k]));
     const std::string input = k == 0 ? "rail.inp" : fmt::format("rail_{}.inp", k + 1);
-    if (clashes_with(uses::kContactInput, spec).empty())
+    if (refused_by(uses::kContactInput, spec).empty())
       out.add(input, "the case, module 3", contact_input(spec, placement, *patches[k]));
   }
   return out;

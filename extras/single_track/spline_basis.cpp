@@ -1,6 +1,7 @@
 #include "single_track/spline_basis.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace railstrata {
 namespace {

@@ -1,5 +1,4 @@
 #include "app/processors.hpp"
-#include "app/processor_use.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>

@@ -11,7 +11,6 @@
 
 #include "ask/answer.hpp"
 #include "explore/calls.h"
-#include "explore/case_values.hpp"
 #include "explore/page.hpp"
 #include "io/summary_json.hpp"
 #include "reader/case_file.hpp"
@@ -160,11 +159,19 @@ TEST(Explorer, IsThereInC) {
   EXPECT_FALSE(Json::parse(rs_explore(nullptr)).at("ok"));
 }
 
-TEST(CaseValues, AreFoundByKeyAndDerivedOnesFromWhatTheyGive) {
-  const CaseSpec spec = parse_case(kCase, "case.toml", {"vehicle.wheel_load=70 kN"}).spec;
-  const Json values = case_values(
-      spec, {"layer.0.thickness", "layer.0.young_ratio", "vehicle.wheel_load", "material.rail.yield_strength",
-             "material.wheel.yield_strength", "layer.1.thickness", "layer.x.thickness", "drive.nothing", "nothing"});
+TEST(Explorer, FindsValuesByKeyAndDerivedOnesFromWhatTheyGive) {
+  Json asked = request({"vehicle.wheel_load=70 kN"}, {});
+  asked["values"] = {"layer.0.thickness",
+                     "layer.0.young_ratio",
+                     "vehicle.wheel_load",
+                     "material.rail.yield_strength",
+                     "material.wheel.yield_strength",
+                     "layer.1.thickness",
+                     "layer.x.thickness",
+                     "drive.nothing",
+                     "nothing"};
+  Explorer explorer;
+  const Json values = Json::parse(explorer.answer(asked.dump()).head).at("values");
   EXPECT_DOUBLE_EQ(values.at("layer.0.thickness"), 2e-3);
   EXPECT_DOUBLE_EQ(values.at("layer.0.young_ratio"), 2.0);
   EXPECT_NEAR(values.at("vehicle.wheel_load").get<double>(), 70e3, 1e-6);

@@ -61,8 +61,7 @@ TEST(SlowPlasticRolling, WithoutYieldHasTheBitsOfTheElasticRun) {
     CaseSpec elastic = small_case(), spec = yielding_case(kNever);
     elastic.run.precision = spec.run.precision = precision;
     const RollingSystem plain = small_system(elastic), system = hot_system(spec);
-    for (const BodyId id : kBodies)
-      ASSERT_GT(hot_elements(system.body(id), initial_history(system.body(id))), 500);
+    for (const BodyId id : kBodies) ASSERT_GT(hot_elements(system.body(id), initial_history(system.body(id))), 500);
     Stepper a(plain, solve_preload(plain, 1e-4)), b(system, solve_preload(system, 1e-4));
     expect_same_motion(rolled(a, 40), rolled(b, 40));
     EXPECT_EQ(plastic_extent(system.rail(), b.state().bodies[kRail].history).yielded, 0);

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/faults.hpp"
-#include "judge/verdict.hpp"
+#include "judge/judgement.hpp"
 #include "tests/result/crossed_cylinders.hpp"
 
 namespace railstrata {

@@ -31,25 +31,6 @@ std::vector<MaterialState> drive_path(const PlasticMaterial& material, const Mat
   return railstrata::drive_path(material, path, increments, nothing);
 }
 
-/// Dissipation of a step, (S − Σ α_i) : ΔE^p + Σ 3 γ_i/(2 C_i) α_i:α_i Δp >= 0 [J/m³], with the stress and history at
-/// its end and the history at its start; isotropic hardening counts as dissipated. With the free energies it is the
-/// work done, S : ΔE, to the second order of the step (backward Euler dissipates (1/2) |Δ|² of each more: > 0).
-double plastic_dissipation(const PlasticParameters<double>& p, const double (&stress)[6], const double* before,
-                           const double* after) {
-  double flow[6], relative[6], recalled = 0;
-  for (int j = 0; j < 6; ++j) {
-    flow[j] = after[j] - before[j];
-    relative[j] = stress[j];
-  }
-  for (int k = 0; k < kMostBackstresses; ++k) {
-    const double* alpha = after + 7 + 6 * k;
-    for (int j = 0; j < 6; ++j) relative[j] -= alpha[j];
-    if (p.modulus[k] > 0)
-      recalled += 1.5 * p.recall[k] / p.modulus[k] * double_contraction(alpha, alpha) * (after[6] - before[6]);
-  }
-  return double_contraction(relative, flow) + recalled;
-}
-
 PlasticMaterial material(double young, double poisson, double yield, double q, double b, std::vector<double> c,
                          std::vector<double> gamma) {
   const Elastic e = elastic(young * kMPa, poisson, 7800);
@@ -288,7 +269,7 @@ TEST(Plastic, DissipatesAndKeepsTheVolumeAndTheYieldConditionInEveryStep) {
     std::copy(next.begin(), next.end(), e);
     advance_plastic<kMostBackstresses, 4>(m.plastic, e, history);
     plastic_stress(m.lambda, m.plastic.mu, e, history, stress);
-    const double loss = plastic_dissipation(m.plastic, stress, before, history);
+    const double loss = plastic_dissipation<kMostBackstresses>(m.plastic, stress, before, history);
     ASSERT_GE(loss, 0);
     ASSERT_GE(history[6], before[6]);
     ASSERT_NEAR(history[0] + history[1] + history[2], 0, 1e-15);

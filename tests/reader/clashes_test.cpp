@@ -166,14 +166,14 @@ std::string all_of(const Overrides& overrides) {
 }
 
 /// Every message of a case for a use, each with its remedy.
-std::vector<Refusal> said(const Clash& c, const Overrides& overrides) {
+std::vector<Diagnostic> said(const Clash& c, const Overrides& overrides) {
   const Use* const use = c.of();
-  std::vector<Refusal> out;
+  std::vector<Diagnostic> out;
   try {
     const LoadedCase loaded = parse_case("", "a.toml", overrides);
     for (const std::string& note : notes_for(use ? *use : uses::kAny, loaded)) out.push_back({"", note, note});
     if (use)
-      for (const Refusal& r : refused_by(*use, loaded.spec)) out.push_back(r);
+      for (const Diagnostic& r : refused_by(*use, loaded.spec)) out.push_back(r);
   } catch (const CaseError& e) {
     for (const Diagnostic& d : e.diagnostics) out.push_back({d.where, d.message, d.remedy});
   }
@@ -185,14 +185,14 @@ TEST(Clashes, EveryRowIsSaidWithBothKeysTheReasonAndTheRemedy) {
     if (c.rule == ClashRule::overlooked) continue;
     const Overrides overrides = breaking(c);
     std::string heard;
-    const auto says = [&](const Refusal& r) {
+    const auto says = [&](const Diagnostic& r) {
       heard += "\n  " + r.message;
       const bool both = (c.a.use || r.message.find(last_part(c.a)) != std::string::npos) &&
                         (c.b.use ? r.message.find(c.b.name) : r.message.find(last_part(c.b))) != std::string::npos;
       return both && r.message.find(c.why) != std::string::npos &&
              r.remedy.find(c.b.use && !*c.why ? "" : c.remedy) != std::string::npos;
     };
-    const std::vector<Refusal> all = said(c, overrides);
+    const std::vector<Diagnostic> all = said(c, overrides);
     EXPECT_TRUE(std::any_of(all.begin(), all.end(), says))
         << c.a.key << " and " << c.b.key << c.b.name << all_of(overrides) << heard;
   }
@@ -208,7 +208,7 @@ TEST(Clashes, ADefaultCaseBreaksNone) {
   EXPECT_TRUE(idle_settings(usual.spec).empty());
   for (const Use* use : {&uses::kFiniteElements, &uses::kHalfSpaces, &uses::kPasses, &uses::kCreepCurve,
                          &uses::kExplorer, &uses::kRanks, &uses::kDeck, &uses::kContactInput})
-    EXPECT_TRUE(clashes_with(*use, usual.spec).empty()) << use->name;
+    EXPECT_TRUE(refused_by(*use, usual.spec).empty()) << use->name;
 }
 
 TEST(Clashes, SayWhichKeysHaveNoPlaceInACase) {

@@ -97,7 +97,8 @@ TEST(IrregularityCaseFile, FaultsNameTheKeyAndTheRemedy) {
 TEST(IrregularityCaseFile, FiniteElementsSayWhatTheyDoNotTake) {
   const auto beyond = [](const std::string& text) {
     std::vector<std::string> keys;
-    for (const Refusal& r : refused_by(uses::kFiniteElements, parse_case(text, "a.toml").spec)) keys.push_back(r.key);
+    for (const Diagnostic& r : refused_by(uses::kFiniteElements, parse_case(text, "a.toml").spec))
+      keys.push_back(r.where);
     return keys;
   };
   const std::string hollow = "[[irregularity]]\nat = \"200 mm\"\nlength = \"20 mm\"\ndepth = \"0.2 mm\"\n";

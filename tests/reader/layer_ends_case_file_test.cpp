@@ -59,7 +59,8 @@ TEST(LayerEndsCaseFile, FaultsNameTheKeyAndTheRemedy) {
 TEST(LayerEndsCaseFile, EnginesSayWhatTheyDoNotTake) {
   const auto beyond = [](const std::string& text) {
     std::vector<std::string> keys;
-    for (const Refusal& r : refused_by(uses::kFiniteElements, parse_case(text, "a.toml").spec)) keys.push_back(r.key);
+    for (const Diagnostic& r : refused_by(uses::kFiniteElements, parse_case(text, "a.toml").spec))
+      keys.push_back(r.where);
     return keys;
   };
   using Keys = std::vector<std::string>;
@@ -114,7 +115,7 @@ TEST(LayerEndsCaseFile, EnginesSayWhereALayerMustHold) {
   const auto beyond = [](const std::string& run) {
     std::vector<std::string> keys;
     const CaseSpec spec = parse_case(run + kClad + kUnbonded, "a.toml").spec;
-    for (const Refusal& r : refused_by(uses::kFiniteElements, spec)) keys.push_back(r.key);
+    for (const Diagnostic& r : refused_by(uses::kFiniteElements, spec)) keys.push_back(r.where);
     return keys;
   };
   using Keys = std::vector<std::string>;

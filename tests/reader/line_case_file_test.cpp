@@ -6,6 +6,7 @@
 
 #include "core/faults.hpp"
 #include "reader/case_file.hpp"
+#include "rules/clashes.hpp"
 
 namespace railstrata {
 namespace {

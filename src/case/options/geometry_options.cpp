@@ -1,4 +1,3 @@
-#include "options/case_tables.hpp"
 #include "options/option_slots.hpp"
 #include "record/unit.hpp"
 

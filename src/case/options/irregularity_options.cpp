@@ -2,7 +2,6 @@
 
 #include <cassert>
 
-#include "options/case_tables.hpp"
 #include "options/option_slots.hpp"
 
 namespace railstrata {
@@ -13,9 +12,7 @@ using namespace option_slot;
 using I = Irregularity;
 
 template <auto Member>
-Slot irregularity(CaseSpec& spec, std::size_t index) {
-  return entry<&CaseSpec::irregularities, Member>(spec, index);
-}
+constexpr auto irregularity = entry<&CaseSpec::irregularities, Member>;
 
 template <class Kind, class Part, class T>
 constexpr bool belongs(T Part::*) {

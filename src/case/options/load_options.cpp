@@ -1,5 +1,3 @@
-#include "options/case_tables.hpp"
-
 #include "options/option_slots.hpp"
 
 namespace railstrata {
@@ -9,9 +7,7 @@ using namespace dimension;
 using namespace option_slot;
 
 template <auto Member>
-Slot load(CaseSpec& spec, std::size_t index) {
-  return entry<&CaseSpec::loads, Member>(spec, index);
-}
+constexpr auto load = entry<&CaseSpec::loads, Member>;
 
 bool has_loads(const CaseSpec& spec, std::size_t) { return !spec.loads.empty(); }
 bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(index).name.empty(); }

@@ -1,9 +1,8 @@
-#include "options/case_tables.hpp"
+#include "options/option_slots.hpp"
 
 #include <algorithm>
 #include <numbers>
 
-#include "options/option_slots.hpp"
 #include "record/unit.hpp"
 
 namespace railstrata {
@@ -30,16 +29,12 @@ template <auto Material>
 struct OfBody {
   static const S& strength(const CaseSpec& spec, std::size_t) { return (spec.*Material).strength; }
   template <auto... Path>
-  static Slot slot(CaseSpec& spec, std::size_t index) {
-    return at<Material, &M::strength, Path...>(spec, index);
-  }
+  static constexpr auto slot = at<Material, &M::strength, Path...>;
 };
 struct OfLayer {
   static const S& strength(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).material.strength; }
   template <auto... Path>
-  static Slot slot(CaseSpec& spec, std::size_t index) {
-    return layer<&LayerSpec::material, &M::strength, Path...>(spec, index);
-  }
+  static constexpr auto slot = layer<&LayerSpec::material, &M::strength, Path...>;
 };
 
 template <class Place>

@@ -1,5 +1,5 @@
 #pragma once
-// How the rows of the option tables name their place in a case.
+// What the files of options have in common: how the rows of the tables name their place in a case, and the tables.
 #include <initializer_list>
 #include <string_view>
 #include <type_traits>
@@ -37,9 +37,7 @@ Slot entry(CaseSpec& spec, std::size_t index) {
   return slot_of(((spec.*List).at(index).*....*Path));
 }
 template <auto... Path>
-Slot layer(CaseSpec& spec, std::size_t index) {
-  return entry<&CaseSpec::layers, Path...>(spec, index);
-}
+inline constexpr auto layer = entry<&CaseSpec::layers, Path...>;
 template <auto List>
 TableList list_of() {
   return {[](const CaseSpec& spec) { return (spec.*List).size(); },
@@ -90,3 +88,30 @@ Option body_choice(Slot (*slot)(CaseSpec&, std::size_t), std::string_view doc) {
 inline Range above(double min, double max = std::numeric_limits<double>::infinity()) { return {min, max, true}; }
 
 }  // namespace railstrata::option_slot
+
+namespace railstrata {
+
+/// The tables of the keys, a function each; case_tables() puts them together.
+OptionTable geometry_table();
+OptionTable rail_material_table();
+OptionTable wheel_material_table();
+OptionTable layer_table();
+OptionTable stretch_table();
+OptionTable irregularity_table();
+OptionTable vehicle_table();
+OptionTable track_table();
+OptionTable drive_table();
+OptionTable friction_table();
+OptionTable third_body_table();
+OptionTable mesh_table();
+OptionTable run_table();
+OptionTable bem_table();
+OptionTable transient_table();
+OptionTable load_table();
+OptionTable collective_table();
+OptionTable life_table();
+OptionTable grinding_table();
+OptionTable passes_table();
+OptionTable output_table();
+
+}  // namespace railstrata

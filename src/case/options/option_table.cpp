@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "options/case_tables.hpp"
 #include "options/option_slots.hpp"
 #include "record/unit.hpp"
 

@@ -1,4 +1,3 @@
-#include "options/case_tables.hpp"
 #include "options/option_slots.hpp"
 
 namespace railstrata {

@@ -14,7 +14,6 @@
 #include "rules/irregularity_rules.hpp"
 #include "rules/support.hpp"
 #include "rules/track_facts.hpp"
-#include "rules/transient_rules.hpp"
 #include "tables/history_table.hpp"
 #include "tables/load_rows.hpp"
 #include "text/case_source.hpp"
@@ -203,9 +202,7 @@ CaseError in_case_file(const LoadedCase& loaded, const CaseError& error) {
 }
 
 std::vector<Diagnostic> refused_by(const Use& use, const LoadedCase& loaded) {
-  std::vector<Diagnostic> all;
-  for (Refusal& r : refused_by(use, loaded.spec))
-    all.push_back({std::move(r.key), std::move(r.message), std::move(r.remedy)});
+  std::vector<Diagnostic> all = refused_by(use, loaded.spec);
   return all.empty() ? all : in_case_file(loaded, CaseError(std::move(all))).diagnostics;
 }
 

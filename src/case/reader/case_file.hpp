@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/faults.hpp"
-#include "rules/clashes.hpp"
+#include "rules/idle_setting.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {

@@ -188,7 +188,7 @@ class TreeReader {
 
   /// Whether a table that is gone has keys of its own alone.
   bool all_retired(const std::string& name, const toml::table& entries) {
-    return std::all_of(entries.begin(), entries.end(), [&](const auto& entry) {
+    return !entries.empty() && std::all_of(entries.begin(), entries.end(), [&](const auto& entry) {
       return read_over(name, fmt::format("{}.{}", name, entry.first.str()), entry.first, entry.second);
     });
   }

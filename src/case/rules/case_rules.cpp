@@ -7,9 +7,7 @@
 
 #include "rules/clashes.hpp"
 #include "rules/irregularity_rules.hpp"
-#include "rules/layer_rules.hpp"
-#include "rules/strength_rules.hpp"
-#include "rules/transient_rules.hpp"
+#include "spec/case_spec.hpp"
 #include "tables/load_rows.hpp"
 #include "text/units.hpp"
 
@@ -20,6 +18,11 @@ constexpr double kNanometre = 1e-9;
 
 /// For messages: rounded, since sums of lengths carry round-off.
 std::string length(double value) { return format_quantity(std::round(value / kNanometre) / 1e9, dimension::kLength); }
+
+void refuse(CaseSource& source, const std::string& key, const std::string& value, const std::string& rule,
+            const std::string& remedy) {
+  source.complain(key, fmt::format("{} = {}: {}", key, value, rule), remedy);
+}
 
 void check_drive(const CaseSpec& spec, CaseSource& source) {
   const DriveSpec& d = spec.drive;
@@ -50,26 +53,10 @@ void check_friction_law(const CaseSpec& spec, CaseSource& source) {
   const FrictionSpec& f = spec.friction;
   if (!source.sound({"friction.kinetic_coefficient", "drive.friction_coefficient"})) return;
   if (f.kinetic_coefficient && *f.kinetic_coefficient > spec.drive.friction_coefficient)
-    source.complain("friction.kinetic_coefficient",
-                    fmt::format("friction.kinetic_coefficient = {}: must be at most drive.friction_coefficient = {}, "
-                                "the coefficient at rest",
-                                *f.kinetic_coefficient, spec.drive.friction_coefficient),
-                    "friction falls with slip: exchange the two");
-}
-
-void check_softening(const ThirdBodySpec& t, CaseSource& source) {
-  if (t.thickness && t.shear_modulus && t.hardening < 0 && !(-t.hardening < *t.shear_modulus / *t.thickness))
-    source.complain("third_body.hardening",
-                    fmt::format("third_body.hardening = {}: must be above -shear_modulus / thickness = {}",
-                                format_quantity(t.hardening, dimension::kPressureGradient),
-                                format_quantity(-*t.shear_modulus / *t.thickness, dimension::kPressureGradient)),
-                    "a film that softens faster springs back and slips all at once: take a slower softening");
-  if (t.residual_shear && t.yield_shear && *t.residual_shear > *t.yield_shear)
-    source.complain("third_body.residual_shear",
-                    fmt::format("third_body.residual_shear = {}: must be at most third_body.yield_shear = {}",
-                                format_quantity(*t.residual_shear, dimension::kPressure),
-                                format_quantity(*t.yield_shear, dimension::kPressure)),
-                    "softening ends below the strength it begins with: exchange the two");
+    refuse(source, "friction.kinetic_coefficient", fmt::format("{}", *f.kinetic_coefficient),
+           fmt::format("must be at most drive.friction_coefficient = {}, the coefficient at rest",
+                       spec.drive.friction_coefficient),
+           "friction falls with slip: exchange the two");
 }
 
 void check_third_body(const CaseSpec& spec, CaseSource& source) {
@@ -77,36 +64,43 @@ void check_third_body(const CaseSpec& spec, CaseSource& source) {
   if (!source.sound({"third_body.thickness", "third_body.shear_modulus", "third_body.yield_shear",
                      "third_body.hardening", "third_body.residual_shear"}))
     return;
-  if (t.thickness && t.shear_modulus && t.hardening > *t.shear_modulus / *t.thickness)
-    source.complain("third_body.hardening",
-                    fmt::format("third_body.hardening = {}: must be at most shear_modulus / thickness = {}",
-                                format_quantity(t.hardening, dimension::kPressureGradient),
-                                format_quantity(*t.shear_modulus / *t.thickness, dimension::kPressureGradient)),
-                    "a film that yields is softer than an elastic one: lower the hardening");
-  check_softening(t, source);
+  const auto gradient = [](double value) { return format_quantity(value, dimension::kPressureGradient); };
+  const auto pressure = [](double value) { return format_quantity(value, dimension::kPressure); };
+  if (t.thickness && t.shear_modulus) {
+    const double elastic = *t.shear_modulus / *t.thickness;
+    if (t.hardening > elastic)
+      refuse(source, "third_body.hardening", gradient(t.hardening),
+             fmt::format("must be at most shear_modulus / thickness = {}", gradient(elastic)),
+             "a film that yields is softer than an elastic one: lower the hardening");
+    if (t.hardening < 0 && !(-t.hardening < elastic))
+      refuse(source, "third_body.hardening", gradient(t.hardening),
+             fmt::format("must be above -shear_modulus / thickness = {}", gradient(-elastic)),
+             "a film that softens faster springs back and slips all at once: take a slower softening");
+  }
+  if (t.residual_shear && t.yield_shear && *t.residual_shear > *t.yield_shear)
+    refuse(source, "third_body.residual_shear", pressure(*t.residual_shear),
+           fmt::format("must be at most third_body.yield_shear = {}", pressure(*t.yield_shear)),
+           "softening ends below the strength it begins with: exchange the two");
 }
 
 void check_curve(const GeometrySpec& g, CaseSource& source) {
   constexpr double kTightest = 5;
   if (g.curve_radius && source.sound({"geometry.curve_radius"}) && !(std::abs(*g.curve_radius) >= kTightest))
-    source.complain("geometry.curve_radius",
-                    fmt::format("geometry.curve_radius = {}: must be at least {} to either side",
-                                length(*g.curve_radius), length(kTightest)),
-                    "leave it out for straight track");
+    refuse(source, "geometry.curve_radius", length(*g.curve_radius),
+           fmt::format("must be at least {} to either side", length(kTightest)), "leave it out for straight track");
 }
 
 /// A rail that is curved along rolling.
 void check_roller(const GeometrySpec& g, CaseSource& source) {
   constexpr double kSmallest = 5e-3;
   if (!g.rail_radius || !source.sound({"geometry.rail_radius", "geometry.wheel_radius"})) return;
-  const auto refuse = [&](const std::string& rule, const char* remedy) {
-    source.complain("geometry.rail_radius", fmt::format("geometry.rail_radius = {}: {}", length(*g.rail_radius), rule),
-                    remedy);
-  };
+  const std::string radius = length(*g.rail_radius);
   if (!(std::abs(*g.rail_radius) >= kSmallest))
-    refuse(fmt::format("must be at least {} to either side", length(kSmallest)), "leave it out for a straight rail");
+    refuse(source, "geometry.rail_radius", radius, fmt::format("must be at least {} to either side", length(kSmallest)),
+           "leave it out for a straight rail");
   else if (*g.rail_radius < 0 && !(-*g.rail_radius > g.wheel_radius))
-    refuse(fmt::format("a hollow rail must be wider than the wheel, wheel_radius = {}", length(g.wheel_radius)),
+    refuse(source, "geometry.rail_radius", radius,
+           fmt::format("a hollow rail must be wider than the wheel, wheel_radius = {}", length(g.wheel_radius)),
            "give a larger radius; above 0 it is a roller");
 }
 
@@ -127,46 +121,35 @@ void check_path(const RunSpec& run, CaseSource& source) {
 void check_wheel(const GeometrySpec& g, CaseSource& source) {
   if (!source.sound({"geometry.wheel_radius", "geometry.rim_thickness", "geometry.hub_radius", "geometry.bore_radius"}))
     return;
-  const double rim_inside = g.wheel_radius - g.wheel_section.rim_thickness;
-  if (g.wheel_shape == WheelShape::disc) {
-    if (!(g.wheel_section.bore_radius < g.wheel_radius))
-      source.complain("geometry.bore_radius",
-                      fmt::format("geometry.bore_radius = {}: must be below wheel_radius = {}",
-                                  length(g.wheel_section.bore_radius), length(g.wheel_radius)),
-                      "make the bore smaller");
-    return;
-  }
-  if (!(g.wheel_section.bore_radius < g.wheel_section.hub_radius))
-    source.complain("geometry.bore_radius",
-                    fmt::format("geometry.bore_radius = {}: must be below hub_radius = {}",
-                                length(g.wheel_section.bore_radius), length(g.wheel_section.hub_radius)),
-                    "make the bore smaller or the hub larger");
-  if (!(g.wheel_section.hub_radius < rim_inside))
-    source.complain("geometry.hub_radius",
-                    fmt::format("geometry.hub_radius = {}: must be below wheel_radius - rim_thickness = {}",
-                                length(g.wheel_section.hub_radius), length(rim_inside)),
-                    "make the hub or the rim smaller");
+  const double bore = g.wheel_section.bore_radius, hub = g.wheel_section.hub_radius;
+  const auto below = [&](const char* key, double value, const char* other, double most, const char* remedy) {
+    if (!(value < most))
+      refuse(source, key, length(value), fmt::format("must be below {} = {}", other, length(most)), remedy);
+  };
+  if (g.wheel_shape == WheelShape::disc)
+    return below("geometry.bore_radius", bore, "wheel_radius", g.wheel_radius, "make the bore smaller");
+  below("geometry.bore_radius", bore, "hub_radius", hub, "make the bore smaller or the hub larger");
+  below("geometry.hub_radius", hub, "wheel_radius - rim_thickness", g.wheel_radius - g.wheel_section.rim_thickness,
+        "make the hub or the rim smaller");
 }
 
 void check_mesh(const MeshSpec& m, CaseSource& source) {
   const auto at_least = [&](const char* key, double value, double least, const char* why) {
-    if (value < least && source.sound({fmt::format("mesh.{}", key), "mesh.element_size"}))
-      source.complain(fmt::format("mesh.{}", key),
-                      fmt::format("mesh.{} = {}: must be at least {} ({})", key, length(value), length(least), why),
-                      "make it larger, or mesh.element_size smaller");
+    if (value < least && source.sound({key, "mesh.element_size"}))
+      refuse(source, key, length(value), fmt::format("must be at least {} ({})", length(least), why),
+             "make it larger, or mesh.element_size smaller");
   };
-  at_least("fine_width", m.fine_width, 4 * m.element_size, "four elements");
-  at_least("fine_depth", m.fine_depth, m.element_size, "one element");
-  at_least("largest", m.largest, m.element_size, "one element");
+  at_least("mesh.fine_width", m.fine_width, 4 * m.element_size, "four elements");
+  at_least("mesh.fine_depth", m.fine_depth, m.element_size, "one element");
+  at_least("mesh.largest", m.largest, m.element_size, "one element");
 }
 
 void check_track(const CaseSpec& spec, CaseSource& source) {
   const SleeperTrack& t = spec.track.support;
   if (!spec.track.held() && source.sound({"track.pad_length", "track.spacing"}) && t.pad_length > 0.8 * t.spacing)
-    source.complain("track.pad_length",
-                    fmt::format("track.pad_length = {}: must be at most {}, 0.8 spacings", length(t.pad_length),
-                                length(0.8 * t.spacing)),
-                    "give the pad's length along the rail, e.g. \"150 mm\"");
+    refuse(source, "track.pad_length", length(t.pad_length),
+           fmt::format("must be at most {}, 0.8 spacings", length(0.8 * t.spacing)),
+           "give the pad's length along the rail, e.g. \"150 mm\"");
 }
 
 void check_passes(const CaseSpec& spec, CaseSource& source) {
@@ -183,9 +166,8 @@ void check_passes(const CaseSpec& spec, CaseSource& source) {
 void check_life(const CaseSpec& spec, CaseSource& source) {
   constexpr int kFewest = 8;
   if (spec.life.passes > 0 && spec.life.passes < kFewest)
-    source.complain("life.passes",
-                    fmt::format("life.passes = {}: must be 0, or at least {} for a trend", spec.life.passes, kFewest),
-                    "take some 40");
+    refuse(source, "life.passes", fmt::format("{}", spec.life.passes),
+           fmt::format("must be 0, or at least {} for a trend", kFewest), "take some 40");
 }
 
 }  // namespace

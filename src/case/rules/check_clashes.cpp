@@ -1,11 +1,12 @@
-// What reads the table of clashes.
+// What reads the table of clashes, and ranges that are narrower for a use.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
+#include "geometry/height_field.hpp"
 #include "options/option_table.hpp"
-#include "rules/clashes.hpp"
+#include "rules/irregularity_rules.hpp"
+#include "rules/support.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {
@@ -165,6 +166,21 @@ std::vector<Found> found(const CaseSpec& spec, const CaseSource* text, const Use
   return out;
 }
 
+/// Heights along the rail: elements fine enough for their waves, and a rail that is smooth during the run-up.
+void check_heights(const CaseSpec& spec, std::vector<Diagnostic>& out) {
+  for (std::size_t i = 0; i < spec.irregularities.size(); ++i) {
+    const Irregularity& is = spec.irregularities[i];
+    const std::string key = fmt::format("irregularity.{}", i);
+    if (const auto fault = too_coarse(spec, i, spec.mesh.element_size, "elements", "mesh.element_size"))
+      out.push_back(*fault);
+    if (spec.run.rolling && is.on == BodyId::rail && extent_of(is).from < spec.run.run_up)
+      out.push_back({key,
+                     fmt::format("{} begins before the end of run.run_up ({})", key,
+                                 format_quantity(spec.run.run_up, dimension::kLength)),
+                     "put it farther on (at, from), or shorten run.run_up"});
+  }
+}
+
 }  // namespace
 
 void check_clashes(const CaseSpec& spec, CaseSource& source) {
@@ -173,11 +189,16 @@ void check_clashes(const CaseSpec& spec, CaseSource& source) {
   for (const Found& f : all) source.complain(f.key, f.message, f.row->remedy);
 }
 
-std::vector<Refusal> clashes_with(const Use& use, const CaseSpec& spec) {
-  std::vector<Refusal> out;
+std::vector<Diagnostic> refused_by(const Use& use, const CaseSpec& spec) {
+  std::vector<Diagnostic> out;
   for (Found& f : found(spec, nullptr, &use, refuses))
     out.push_back({std::move(f.key), std::move(f.message), f.row->remedy});
+  if (use.is(uses::kFiniteElements)) check_heights(spec, out);
   return out;
+}
+
+void require_support(const Use& use, const CaseSpec& spec) {
+  if (std::vector<Diagnostic> all = refused_by(use, spec); !all.empty()) throw CaseError(std::move(all));
 }
 
 std::vector<IdleSetting> idle_settings(const CaseSpec& spec, const CaseSource* source) {

@@ -41,6 +41,11 @@ Keys given_in_layers(const C& c, const CaseSource* text, std::initializer_list<c
   return out;
 }
 
+bool any_material(const C& c, bool (*has)(const MaterialSpec&)) {
+  return has(c.rail_material) || has(c.wheel_material) ||
+         std::any_of(c.layers.begin(), c.layers.end(), [&](const LayerSpec& l) { return has(l.material); });
+}
+
 bool yields(const MaterialSpec& material) {
   const StrengthSpec& s = material.strength;
   return !s.elastic && !(s.hardening.empty() && std::isnan(MaterialStrength(s, {}, {}).yield(0)));
@@ -48,6 +53,12 @@ bool yields(const MaterialSpec& material) {
 
 // The words of features name these limits.
 static_assert(kThinnestMeshedLayer == 0.05e-3 && kLargestMeshedPoisson == 0.495 && kLargestRunCreepage == 0.1);
+
+// Features that several rows name.
+constexpr Feature kLine{"geometry.contact = \"line\""}, kShift{"transient.kind = \"shift\""},
+    kGpu{"run.device = \"gpu\""}, kWarmTables{"friction.temperature_table | third_body.temperature_table"};
+constexpr Feature kOfWheel{"drive.creepage_of = \"wheel\""}, kForces{"drive.tractive_force | drive.lateral_force"},
+    kPlastic{"run.plasticity = true"};
 
 // Features that are more than a value at a key.
 constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return !is_flat(c.geometry.wheel_profile); },
@@ -90,20 +101,12 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
                       return out;
                     },
                     "a Poisson's ratio above 0.495"},
-    kYieldStrength{"material.rail.yield_strength",
-                   [](const C&c) {
-                     return yields(c.rail_material) || yields(c.wheel_material) ||
-                            std::any_of(c.layers.begin(), c.layers.end(),
-                                        [](const LayerSpec& l) { return yields(l.material); });
-                   }},
+    kYieldStrength{"material.rail.yield_strength", [](const C&c) { return any_material(c, yields); }},
     kInitialStress{"material.rail.initial_stress",
                    [](const C&c) {
-                     const auto given = [](const MaterialSpec& m) {
-                       return !m.strength.initial_stress.empty() || !m.strength.initial_stress_table.empty();
-                     };
-                     return c.run.plasticity && (given(c.rail_material) || given(c.wheel_material) ||
-                                                 std::any_of(c.layers.begin(), c.layers.end(),
-                                                             [&](const LayerSpec& l) { return given(l.material); }));
+                     return c.run.plasticity && any_material(c, [](const MaterialSpec& m) {
+                              return !m.strength.initial_stress.empty() || !m.strength.initial_stress_table.empty();
+                            });
                    },
                    "stress from the start where materials yield"},
     kFriction{"drive.friction_coefficient", [](const C&c) { return c.drive.friction_coefficient > 0; }},
@@ -154,6 +157,7 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
     kRollingColumns{
         "transient.creepage | transient.lateral_creepage | transient.spin | transient.at_distance | "
         "transient.distance"},
+    kLateralDrive{"drive.lateral_creepage | drive.lateral_traction_coefficient | drive.spin"},
     kLateralColumns{
         "transient.lateral_force | transient.lateral_traction_coefficient | transient.lateral_creepage | "
         "transient.lateral_displacement | transient.spin"},
@@ -161,14 +165,13 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
     kStationaryGrid{"passes.patch_cells | passes.patch_rows | passes.first_row | passes.window"};
 
 using enum ClashRule;
+constexpr const Use* kInElements = &uses::kFiniteElements;
 
 constexpr const char *kOneOut = "take one of them out", *kOut = "take it out",
                      *kByBem = "take it out, or solve the case with `railstrata bem`",
                      *kByRun = "take it out, or roll over it with `railstrata run`",
-                     *kCpu = "give run.device = \"cpu\"", *kNoWindow = "give run.window = \"0 mm\"";
-constexpr const char *kMixes = "averaging over the window would mix different sections of the rail",
-                     *kPoint = "leave it out, or give geometry.contact = \"point\"",
-                     *kFilmThickness = "give the film's thickness, e.g. third_body.thickness = \"20 um\"";
+                     *kCpu = "give run.device = \"cpu\"",
+                     *kPoint = "leave it out, or give geometry.contact = \"point\"";
 constexpr const char *kStraight = "its wheel rolls straight on and level", *kAcross = "all places across are the same",
                      *kUnknown = "displacements of distant points are not known in plane strain",
                      *kNoFriction = "the wheel is pressed on without friction",
@@ -177,17 +180,13 @@ constexpr const char *kStraight = "its wheel rolls straight on and level", *kAcr
 
 constexpr Clash kClashes[] = {
     // Load and drive
-    {"drive.creepage_of = \"wheel\"", excludes, "geometry.rail_radius",
-     "only creepages on a straight rail are converted", "give creepages of the contact"},
-    {"drive.creepage_of = \"wheel\"", excludes, "geometry.contact = \"line\"",
-     "only creepages of a patch are converted", "give creepages of the contact"},
-    {"drive.creepage_of = \"wheel\"", excludes, "transient.kind", "only steady creepages are converted",
+    {kOfWheel, excludes, "geometry.rail_radius", "only creepages on a straight rail are converted",
      "give creepages of the contact"},
-    {"drive.tractive_force | drive.lateral_force", excludes, "vehicle.approach",
-     "the load is a result, and may be too small for this force",
+    {kOfWheel, excludes, kLine, "only creepages of a patch are converted", "give creepages of the contact"},
+    {kOfWheel, excludes, "transient.kind", "only steady creepages are converted", "give creepages of the contact"},
+    {kForces, excludes, "vehicle.approach", "the load is a result, and may be too small for this force",
      "give drive.traction_coefficient or lateral_traction_coefficient, which count over that load, or a creepage"},
-    {"drive.tractive_force | drive.lateral_force", excludes, "load.wheel_load",
-     "the force would count over the load of the case, not of the row",
+    {kForces, excludes, "load.wheel_load", "the force would count over the load of the case, not of the row",
      "give a traction coefficient, which counts over the load of each row"},
     {"transient.kind", excludes, "load", "a load collective needs steady rolling",
      "take out [transient], or the rows of [[load]]"},
@@ -199,38 +198,27 @@ constexpr Clash kClashes[] = {
      "give the coefficient of fast slip, e.g. 0.4 times drive.friction_coefficient"},
     {"friction.law", needs, "friction.half_velocity", "half of the fall is done at this slip velocity",
      "give friction.half_velocity, e.g. \"1 m/s\""},
-    {"friction.kinetic_coefficient", needs, "friction.law", "a constant coefficient does not fall",
-     "take it out, or give friction.law = \"falling_exponential\" or \"falling_rational\""},
-    {"friction.half_velocity", needs, "friction.law", "a constant coefficient does not fall",
+    {"friction.kinetic_coefficient | friction.half_velocity", needs, "friction.law",
+     "a constant coefficient does not fall",
      "take it out, or give friction.law = \"falling_exponential\" or \"falling_rational\""},
     {kFrictionBeside, excludes, "friction.lateral_table", "the table gives the coefficients",
      "take drive.friction_coefficient out"},
-    {"friction.lateral_table", excludes, "geometry.contact = \"line\"", kAcross,
-     "give drive.friction_coefficient instead"},
-    {"friction.lateral_coefficient", excludes, "friction.law", "that law counts slip the same along and across",
-     kOneOut},
-    {"friction.lateral_coefficient", excludes, "third_body.yield_shear",
+    {"friction.lateral_table", excludes, kLine, kAcross, "give drive.friction_coefficient instead"},
+    {"friction.lateral_coefficient", excludes, "friction.law | third_body.yield_shear",
      "that law counts slip the same along and across", kOneOut},
     {"friction.lateral_coefficient", needs, kFriction, "an ellipse of friction has two axes",
      "give drive.friction_coefficient above 0"},
-    {"friction.temperature_table | third_body.temperature_table", needs, "friction.rail_temperature",
-     "the bodies come into the contact with a temperature",
+    {kWarmTables, needs, "friction.rail_temperature", "the bodies come into the contact with a temperature",
      "give it with the zero of the table: \"20 K\" if that is 0 °C"},
-    {"friction.temperature_table | third_body.temperature_table", needs, "friction.wheel_temperature",
-     "the bodies come into the contact with a temperature",
+    {kWarmTables, needs, "friction.wheel_temperature", "the bodies come into the contact with a temperature",
      "give it with the zero of the table: \"20 K\" if that is 0 °C"},
-    {"friction.rail_temperature", needs, "friction.temperature_table | third_body.temperature_table",
-     "nothing depends on the temperature",
-     "give friction.temperature_table or third_body.temperature_table, or take it out"},
-    {"friction.wheel_temperature", needs, "friction.temperature_table | third_body.temperature_table",
-     "nothing depends on the temperature",
+    {"friction.rail_temperature | friction.wheel_temperature", needs, kWarmTables, "nothing depends on the temperature",
      "give friction.temperature_table or third_body.temperature_table, or take it out"},
     {"third_body.thickness", needs, "third_body.shear_modulus", "a film is elastic in shear",
      "give the film's shear modulus, e.g. \"100 MPa\""},
-    {"third_body.shear_modulus", needs, "third_body.thickness", "", kFilmThickness},
-    {"third_body.yield_shear", needs, "third_body.thickness", "", kFilmThickness},
-    {"third_body.modulus_by_pressure", needs, "third_body.thickness", "", kFilmThickness},
-    {"third_body.temperature_table", needs, "third_body.thickness", "", kFilmThickness},
+    {"third_body.shear_modulus | third_body.yield_shear | third_body.modulus_by_pressure | "
+     "third_body.temperature_table",
+     needs, "third_body.thickness", "", "give the film's thickness, e.g. third_body.thickness = \"20 um\""},
     {"third_body.hardening", needs, "third_body.yield_shear", "", "give the stress at which the film begins to yield"},
     {"third_body.yield_by_pressure", needs, "third_body.yield_shear", "",
      "give the stress at which the film begins to yield without pressure"},
@@ -241,31 +229,22 @@ constexpr Clash kClashes[] = {
      "give friction.memory_distance, e.g. \"14 um\", or take friction.law = \"coulomb\""},
 
     // Line contact
-    {"geometry.contact = \"line\"", needs, "geometry.line_length", "the length bears the load",
-     "give e.g. line_length = \"20 mm\""},
-    {"geometry.line_length", needs, "geometry.contact = \"line\"", "a patch has a length of its own",
+    {kLine, needs, "geometry.line_length", "the length bears the load", "give e.g. line_length = \"20 mm\""},
+    {"geometry.line_length", needs, kLine, "a patch has a length of its own",
      "take it out, or give contact = \"line\""},
-    {kWheelProfile, excludes, "geometry.contact = \"line\"", "a cylinder touches a plane",
-     "give wheel_profile = \"flat\""},
-    {kRailProfile, excludes, "geometry.contact = \"line\"", "a cylinder touches a plane",
-     "give rail_profile = \"flat\""},
-    {kCant, excludes, "geometry.contact = \"line\"", kStraight, "give 0"},
-    {"geometry.roll", excludes, "geometry.contact = \"line\"", kStraight, "give 0"},
-    {"geometry.yaw", excludes, "geometry.contact = \"line\"", kStraight, "give 0"},
-    {"geometry.lateral_shift", excludes, "geometry.contact = \"line\"", kAcross, "give 0"},
-    {"geometry.curve_radius", excludes, "geometry.contact = \"line\"", kStraight, kPoint},
-    {"drive.lateral_creepage", excludes, "geometry.contact = \"line\"", kStraight, kPoint},
-    {"drive.lateral_traction_coefficient", excludes, "geometry.contact = \"line\"", kStraight, kPoint},
-    {"drive.spin", excludes, "geometry.contact = \"line\"", kStraight, kPoint},
-    {"vehicle.approach", excludes, "geometry.contact = \"line\"", "distant points come together without end",
-     "give a load"},
-    {"passes.lateral_positions", excludes, "geometry.contact = \"line\"", kAcross, kPoint},
-    {"passes.lateral_deviation", excludes, "geometry.contact = \"line\"", kAcross, kPoint},
-    {"transient.creepage | transient.displacement", excludes, "geometry.contact = \"line\"", kUnknown,
+    {kWheelProfile, excludes, kLine, "a cylinder touches a plane", "give wheel_profile = \"flat\""},
+    {kRailProfile, excludes, kLine, "a cylinder touches a plane", "give rail_profile = \"flat\""},
+    {kCant, excludes, kLine, kStraight, "give 0"},
+    {"geometry.roll | geometry.yaw", excludes, kLine, kStraight, "give 0"},
+    {"geometry.lateral_shift", excludes, kLine, kAcross, "give 0"},
+    {"geometry.curve_radius", excludes, kLine, kStraight, kPoint},
+    {kLateralDrive, excludes, kLine, kStraight, kPoint},
+    {"vehicle.approach", excludes, kLine, "distant points come together without end", "give a load"},
+    {"passes.lateral_positions | passes.lateral_deviation", excludes, kLine, kAcross, kPoint},
+    {"transient.creepage | transient.displacement", excludes, kLine, kUnknown,
      "give transient.tractive_force or traction_coefficient"},
-    {kCreepageAlone, excludes, "geometry.contact = \"line\"", kUnknown,
-     "give transient.tractive_force or traction_coefficient"},
-    {kLateralColumns, excludes, "geometry.contact = \"line\"", kStraight, kPoint},
+    {kCreepageAlone, excludes, kLine, kUnknown, "give transient.tractive_force or traction_coefficient"},
+    {kLateralColumns, excludes, kLine, kStraight, kPoint},
 
     // Histories
     {"transient.kind", excludes, "run.rolling = false", "a static case has no friction",
@@ -274,23 +253,20 @@ constexpr Clash kClashes[] = {
      "raise it above zero, or take transient.kind out"},
     {"vehicle.approach", excludes, "transient.kind", "a history is followed under loads",
      "give vehicle.wheel_load, or the rows transient.wheel_load"},
-    {"friction.law", excludes, "transient.kind = \"shift\"", "the slip of a shift has no velocity",
+    {"friction.law", excludes, kShift, "the slip of a shift has no velocity",
      "give friction.law = \"coulomb\", or transient.kind = \"rolling\""},
-    {"friction.temperature_table | third_body.temperature_table", excludes, "transient.kind = \"shift\"",
-     "a shift takes no time in which heat is made", "take the table out, or let it roll"},
-    {"irregularity", excludes, "transient.kind = \"shift\"", "a shift does not roll over it",
+    {kWarmTables, excludes, kShift, "a shift takes no time in which heat is made",
+     "take the table out, or let it roll"},
+    {"irregularity", excludes, kShift, "a shift does not roll over it",
      "take the irregularities out, or give transient.kind = \"rolling\""},
     {kShiftColumns, excludes, "transient.kind = \"rolling\"", "what rolls has creepages instead",
      "give creepage or lateral_creepage, or kind = \"shift\""},
-    {kRollingColumns, excludes, "transient.kind = \"shift\"", "a shift does not roll",
-     "give displacements or forces, or kind = \"rolling\""},
+    {kRollingColumns, excludes, kShift, "a shift does not roll", "give displacements or forces, or kind = \"rolling\""},
     {"transient", idle_without, "transient.kind", "", "give transient.kind = \"rolling\" or \"shift\""},
-    {"transient.increments", idle_without, "transient.kind = \"shift\"", "what rolls goes on by one cell a step", ""},
-    {"drive.creepage", idle_with, "transient.kind = \"shift\"", kRolls, ""},
-    {kTraction, idle_with, "transient.kind = \"shift\"", kRolls, ""},
-    {"drive.lateral_creepage", idle_with, "transient.kind = \"shift\"", kRolls, ""},
-    {"drive.lateral_traction_coefficient", idle_with, "transient.kind = \"shift\"", kRolls, ""},
-    {"drive.spin", idle_with, "transient.kind = \"shift\"", kRolls, ""},
+    {"transient.increments", idle_without, kShift, "what rolls goes on by one cell a step", ""},
+    {"drive.creepage", idle_with, kShift, kRolls, ""},
+    {kTraction, idle_with, kShift, kRolls, ""},
+    {kLateralDrive, idle_with, kShift, kRolls, ""},
 
     // Layers, passes, lives
     {kLayerThickness, excludes, "layer.young_table", "the layer ends at the table's last depth", "leave thickness out"},
@@ -304,26 +280,22 @@ constexpr Clash kClashes[] = {
      "give both, e.g. every = \"15 Mt\" and depth = \"0.2 mm\", or none"},
 
     // Steps and machines of a run
-    {"mesh.element = \"one_point\"", excludes, "run.plasticity = true",
-     "elements with one point stay too stiff after yield", "give mesh.element = \"full\""},
-    {"run.device = \"gpu\"", excludes, "run.plasticity = true", "materials that yield are computed on processors",
-     kCpu},
-    {"run.device = \"gpu\"", excludes, "friction.lateral_table", "the GPU has one coefficient for all places", kCpu},
-    {"track.preset", excludes, "run.device = \"gpu\"", "pads and sleepers are computed on processors", kCpu},
+    {"mesh.element = \"one_point\"", excludes, kPlastic, "elements with one point stay too stiff after yield",
+     "give mesh.element = \"full\""},
+    {kGpu, excludes, kPlastic, "materials that yield are computed on processors", kCpu},
+    {kGpu, excludes, "friction.lateral_table", "the GPU has one coefficient for all places", kCpu},
+    {"track.preset", excludes, kGpu, "pads and sleepers are computed on processors", kCpu},
     {"track.preset", excludes, "geometry.rail_radius", "a roller turns about a shaft", kOneOut},
     {"track", needs, "track.preset", "without a preset the foot of the rail is held",
      "give track.preset = \"delft\", \"medium\" or \"cn60\"; it supplies the defaults of the other keys"},
-    {"geometry.block_width", idle_without, "geometry.rail_shape = \"block\"", "", ""},
-    {"geometry.block_height", idle_without, "geometry.rail_shape = \"block\"", "", ""},
-    {"run.device = \"gpu\"", idle_with, "run.rolling = false", "only rolling is computed on a GPU", ""},
+    {"geometry.block_width | geometry.block_height", idle_without, "geometry.rail_shape = \"block\"", "", ""},
+    {kGpu, idle_with, "run.rolling = false", "only rolling is computed on a GPU", ""},
     {"*.hardening | *.isotropic_hardening | *.kinematic_hardening", idle_with, kElastic,
      "`run` and `bem` compute elastically, `railstrata passes` and `railstrata material` use it",
      "give run.plasticity = true to `run`"},
     {"drive.creepage", idle_with, kAtRest, kNoFriction, kLetRoll},
     {kTraction, idle_with, kAtRest, kNoFriction, kLetRoll},
-    {"drive.lateral_creepage", idle_with, kAtRest, kNoFriction, kLetRoll},
-    {"drive.lateral_traction_coefficient", idle_with, kAtRest, kNoFriction, kLetRoll},
-    {"drive.spin", idle_with, kAtRest, kNoFriction, kLetRoll},
+    {kLateralDrive, idle_with, kAtRest, kNoFriction, kLetRoll},
     {"passes.traction_coefficients", idle_with, kAtRest, kNoFriction, kLetRoll},
 
     // The finite elements
@@ -331,57 +303,42 @@ constexpr Clash kClashes[] = {
      kByBem},
     {"transient.kind", excludes, uses::kFiniteElements, "one drive leads to the wanted positions, with inertia",
      kByBem},
-    {"geometry.contact = \"line\"", excludes, uses::kFiniteElements, "bodies end across the rail, and so do patches",
-     kByBem},
+    {kLine, excludes, uses::kFiniteElements, "bodies end across the rail, and so do patches", kByBem},
     {"geometry.roll", excludes, uses::kFiniteElements, "the wheel is meshed upright", kByBem},
     {kHollowRail, excludes, uses::kFiniteElements, "there is no axle below a hollow rail", kByBem},
     {kThinLayer, excludes, uses::kFiniteElements, "so thin elements would need tiny time steps", kByBem},
     {kIncompressible, excludes, uses::kFiniteElements, "elements lock; to the contact the difference is small", kByBem},
-    {"run.plasticity = true", needs, kYieldStrength, "nothing could yield",
-     "give material.rail.yield_strength, or a ready set: material.rail.hardening = \"R260\"", &uses::kFiniteElements},
+    {kPlastic, needs, kYieldStrength, "nothing could yield",
+     "give material.rail.yield_strength, or a ready set: material.rail.hardening = \"R260\"", kInElements},
     {"geometry.rail_shape = \"rail\"", excludes, "geometry.rail_radius", "web and foot do not close to a ring",
-     "give rail_shape = \"block\": a disc as wide as its profile, block_height thick down to its bore",
-     &uses::kFiniteElements},
+     "give rail_shape = \"block\": a disc as wide as its profile, block_height thick down to its bore", kInElements},
     {kCant, excludes, "geometry.rail_radius", "both axles are parallel",
-     "give cant = 0, or solve the case with `railstrata bem`", &uses::kFiniteElements},
-    {"run.plasticity = true", excludes, "geometry.rail_radius", "elements of a ring that turns stay elastic", kOut,
-     &uses::kFiniteElements},
-    {"geometry.rail_radius", excludes, "irregularity", "heights lie along a straight rail", kByBem,
-     &uses::kFiniteElements},
-    {"geometry.rail_radius", excludes, kLayerEnds, "a roller is the same all round", kOneOut, &uses::kFiniteElements},
-    {"geometry.rail_radius", excludes, "layer.unbonded", "a roller is the same all round", kOneOut,
-     &uses::kFiniteElements},
-    {"geometry.rail_radius", excludes, "stretch", "a roller is the same all round", kOneOut, &uses::kFiniteElements},
-    {"run.device = \"gpu\"", excludes, "irregularity", "irregularities are not implemented on the GPU", kCpu,
-     &uses::kFiniteElements},
-    {"run.device = \"gpu\"", excludes, "geometry.rail_radius", "the GPU supports straight rails only", kCpu,
-     &uses::kFiniteElements},
-    {"run.device = \"gpu\"", excludes, kLayerEnds, "the GPU supports uniform layers only", kCpu,
-     &uses::kFiniteElements},
-    {"run.device = \"gpu\"", excludes, "layer.unbonded", "the GPU supports bonded layers only", kCpu,
-     &uses::kFiniteElements},
-    {"run.device = \"gpu\"", excludes, "stretch", "the GPU supports uniform bodies only", kCpu, &uses::kFiniteElements},
-    {kWindow, excludes, "irregularity", kMixes, kNoWindow, &uses::kFiniteElements},
-    {kWindow, excludes, kLayerEnds, kMixes, kNoWindow, &uses::kFiniteElements},
-    {kWindow, excludes, "layer.unbonded", kMixes, kNoWindow, &uses::kFiniteElements},
-    {kWindow, excludes, "stretch", kMixes, kNoWindow, &uses::kFiniteElements},
+     "give cant = 0, or solve the case with `railstrata bem`", kInElements},
+    {kPlastic, excludes, "geometry.rail_radius", "elements of a ring that turns stay elastic", kOut, kInElements},
+    {"geometry.rail_radius", excludes, "irregularity", "heights lie along a straight rail", kByBem, kInElements},
+    {"geometry.rail_radius", excludes, "layer.from | layer.to | layer.unbonded | stretch",
+     "a roller is the same all round", kOneOut, kInElements},
+    {kGpu, excludes, "irregularity", "irregularities are not implemented on the GPU", kCpu, kInElements},
+    {kGpu, excludes, "geometry.rail_radius", "the GPU supports straight rails only", kCpu, kInElements},
+    {kGpu, excludes, kLayerEnds, "the GPU supports uniform layers only", kCpu, kInElements},
+    {kGpu, excludes, "layer.unbonded", "the GPU supports bonded layers only", kCpu, kInElements},
+    {kGpu, excludes, "stretch", "the GPU supports uniform bodies only", kCpu, kInElements},
+    {kWindow, excludes, "irregularity | layer.from | layer.to | layer.unbonded | stretch",
+     "averaging over the window would mix different sections of the rail", "give run.window = \"0 mm\"", kInElements},
     {kJoint, needs, "track.preset", "its forces are made by the springs and masses of a track",
      "give [track] preset = \"delft\", or kind = \"indentation\" for a short one, or solve the case with "
      "`railstrata bem`, under a given load",
-     &uses::kFiniteElements},
+     kInElements},
     {"run.rolling = false", excludes, "layer.unbonded", "the static wheel does not touch the unbonded stretch",
-     "give run.rolling = true, or take unbonded out", &uses::kFiniteElements},
-    {kInitialStress, excludes, kLayerEnds, "stress from the start is the same all along", kOut, &uses::kFiniteElements},
+     "give run.rolling = true, or take unbonded out", kInElements},
+    {kInitialStress, excludes, kLayerEnds, "stress from the start is the same all along", kOut, kInElements},
     {kFallingAtOnce, excludes, uses::kRollingElements,
      "surfaces of finite elements chatter on a law that follows slip at once",
      "give friction.memory_distance, 10 to 50 um for a wheel on a rail, or solve the case with `railstrata bem`"},
     {kFilmSoftening, excludes, uses::kRollingElements, "a step would have several answers", kByBem},
-    {"friction.temperature_table | third_body.temperature_table", excludes, uses::kRollingElements,
-     "heat that flows into the bodies is not computed", kByBem},
-    {"third_body.yield_by_pressure", excludes, uses::kRollingElements, "each node has one film for its whole way",
-     kByBem},
-    {"third_body.modulus_by_pressure", excludes, uses::kRollingElements, "each node has one film for its whole way",
-     kByBem},
+    {kWarmTables, excludes, uses::kRollingElements, "heat that flows into the bodies is not computed", kByBem},
+    {"third_body.yield_by_pressure | third_body.modulus_by_pressure", excludes, uses::kRollingElements,
+     "each node has one film for its whole way", kByBem},
     {"geometry.curve_radius", excludes, uses::kRollingElements, "the track is straight", kByBem},
     {kLargeCreepage, excludes, uses::kRollingElements, "creepages reach to 0.1", kByBem},
     {kLargeLateralCreepage, excludes, uses::kRollingElements, "the wheel moves sideways on its way, by up to 0.1",
@@ -400,7 +357,7 @@ constexpr Clash kClashes[] = {
     {kRollingDevice, idle_with, uses::kHalfSpaces, "half-spaces are computed on processors", ""},
 
     // Commands
-    {"geometry.contact = \"line\"", excludes, uses::kCreepCurve, "the fast theories need elliptic patches",
+    {kLine, excludes, uses::kCreepCurve, "the fast theories need elliptic patches",
      "take `railstrata sweep` over drive.creepage, or geometry.contact = \"point\""},
     {uses::kCreepCurve, needs, kFriction, "", "give drive.friction_coefficient above 0"},
     {"transient.kind", idle_with, uses::kCreepCurve, "it assumes steady rolling", ""},
@@ -414,11 +371,8 @@ constexpr Clash kClashes[] = {
     {"transient.kind", excludes, uses::kPasses, "they roll steadily", "take out [transient]"},
     {kAtRest, idle_with, uses::kPasses, "passes roll", ""},
     {kElastic, overlooked, uses::kPasses, "", ""},
-    {"track.preset", excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
-    {"irregularity", excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
-    {kLayerEnds, excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
-    {"layer.unbonded", excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
-    {"stretch", excludes, uses::kRolledPasses, "a series of passes assumes a uniform rail", kByRun},
+    {"track.preset | irregularity | layer.from | layer.to | layer.unbonded | stretch", excludes, uses::kRolledPasses,
+     "a series of passes assumes a uniform rail", kByRun},
     {"passes.jump = \"auto\"", excludes, uses::kRolledPasses, "every pass is rolled",
      "take it out, or use --engine bem"},
     {kStationaryGrid, excludes, uses::kRolledPasses, "the mesh is the grid",
@@ -437,8 +391,8 @@ constexpr Clash kClashes[] = {
     {kCreepageOfWheel, excludes, uses::kStates, "each state gives the creepages of the contact",
      "take out drive.creepage and drive.lateral_creepage, and give them with each state"},
     {"geometry.rail_radius", excludes, uses::kWheelset, "a wheelset rolls on straight rails", kOut},
-    {"geometry.contact = \"line\"", excludes, uses::kWheelset, "both wheels touch in patches", kOut},
-    {"run.plasticity = true", excludes, uses::kElasticShakedown, "the theorems of shakedown judge elastic stresses",
+    {kLine, excludes, uses::kWheelset, "both wheels touch in patches", kOut},
+    {kPlastic, excludes, uses::kElasticShakedown, "the theorems of shakedown judge elastic stresses",
      "leave run.plasticity out; `railstrata run` follows yielding itself"},
     {uses::kReceptance, needs, "track.preset", "the foot of this rail is held",
      "give [track] preset = \"delft\", \"medium\" or \"cn60\""},
@@ -446,17 +400,15 @@ constexpr Clash kClashes[] = {
     {"geometry.rail_radius", excludes, uses::kDeck, "decks have a rail at rest and a wheel that travels", kOut},
     {"transient.kind", excludes, uses::kContactResult, "one result cannot hold a history",
      "export a steady case: --set transient.kind=\"none\""},
-    {"geometry.contact = \"line\"", excludes, uses::kContactResult, "a result holds a patch",
+    {kLine, excludes, uses::kContactResult, "a result holds a patch",
      "export a case with geometry.contact = \"point\""},
-    {"layer", excludes, uses::kContactInput, "", "compare with the result (.mat) alone"},
-    {"geometry.rail_radius", excludes, uses::kContactInput, "", "compare with the result (.mat) alone"},
-    {"friction.law", excludes, uses::kContactInput, "", "compare with the result (.mat) alone"},
-    {"third_body.thickness", excludes, uses::kContactInput, "", "compare with the result (.mat) alone"},
+    {"layer | geometry.rail_radius | friction.law | third_body.thickness", excludes, uses::kContactInput, "",
+     "compare with the result (.mat) alone"},
     {"geometry.rail_radius", excludes, uses::kRanks, "MPI exchange is implemented for straight rails only",
      "run the case in one process"},
     {"layer.unbonded", excludes, uses::kRanks, "both sides of the interface meet in one process",
      "run the case in one process"},
-    {"run.device = \"gpu\"", excludes, uses::kRanks, "several ranks share a run on processors only",
+    {kGpu, excludes, uses::kRanks, "several ranks share a run on processors only",
      "start one rank, or give run.device = \"cpu\""},
 };
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/faults.hpp"
+#include "rules/idle_setting.hpp"
 #include "spec/case_fwd.hpp"
 #include "text/case_source.hpp"
 
@@ -80,21 +82,9 @@ struct Clash {
 };
 std::span<const Clash> clash_table();
 
-/// What a case cannot have, and what to do instead.
-struct Refusal {
-  std::string key, message, remedy;
-};
-
 /// Records in `source` the features of the case that exclude or lack each other.
 void check_clashes(const CaseSpec& spec, CaseSource& source);
-/// What a use does not support; empty: it takes the case.
-std::vector<Refusal> clashes_with(const Use& use, const CaseSpec& spec);
 
-/// A setting without effect, in one sentence, and the feature that takes its effect away; null: it needs one.
-struct IdleSetting {
-  const Feature* by;
-  std::string text;
-};
 std::vector<IdleSetting> idle_settings(const CaseSpec& spec, const CaseSource* source = nullptr);
 /// Settings without effect in a use.
 std::vector<std::string> idle_in(const Use& use, const CaseSpec& spec);

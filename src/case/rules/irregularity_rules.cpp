@@ -131,11 +131,7 @@ class IrregularityRules {
 }  // namespace
 
 void check_irregularities(const CaseSpec& spec, CaseSource& source) {
-  if (spec.irregularities.empty()) return;
   for (std::size_t i = 0; i < spec.irregularities.size(); ++i) IrregularityRules(spec, i, source).check();
-  if (spec.transient.kind == TransientKind::shift)
-    source.complain("transient.kind", "transient.kind: a shift does not roll over an [[irregularity]]",
-                    "take the irregularities out, or give transient.kind = \"rolling\"");
 }
 
 std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, double size, const char* what,
@@ -144,7 +140,7 @@ std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, do
   const double wave = shortest_wave(spec.irregularities.at(index), spec.geometry.wheel_radius);
   if (!(wave < kLeastOfWave * size)) return std::nullopt;
   const std::string name = fmt::format("irregularity.{}", index);
-  return Diagnostic{"",
+  return Diagnostic{name,
                     fmt::format("{}: a wave of {} on {} of {} has fewer than {:g} of them", name,
                                 format_quantity(wave, dimension::kLength), what,
                                 format_quantity(size, dimension::kLength), kLeastOfWave),
@@ -153,8 +149,7 @@ std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, do
 
 void require_fine_enough(const CaseSpec& spec, double size, const char* what, const char* key) {
   for (std::size_t i = 0; i < spec.irregularities.size(); ++i)
-    if (const auto fault = too_coarse(spec, i, size, what, key))
-      throw CaseError(fault->message, fault->remedy, fmt::format("irregularity.{}", i));
+    if (const auto fault = too_coarse(spec, i, size, what, key)) throw CaseError(std::vector<Diagnostic>{*fault});
 }
 
 std::string varying_key(const CaseSpec& spec) {

@@ -1,4 +1,4 @@
-#include "rules/layer_rules.hpp"
+#include "rules/case_rules.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "rules/strength_rules.hpp"
+#include "rules/case_rules.hpp"
 
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ class StrengthRules {
       : table_(std::move(table)), material_(material), s_(material.strength), source_(source) {}
 
   void check() const {
-    check_grade();
+    check_name("grade", s_.grade, grade);
     check_hardening_name();
     check_hardening();
     check_elastic();
@@ -72,28 +72,22 @@ class StrengthRules {
     if (source_.sound({key(name)})) source_.complain(key(name), fmt::format("{}{}", key(name), what), remedy);
   }
 
-  void check_grade() const {
-    if (s_.grade.empty()) return;
+  /// A name in a table of steels.
+  void check_name(const char* name, const std::string& value, const Steel& (*find)(std::string_view)) const {
+    if (value.empty()) return;
     try {
-      grade(s_.grade);
+      find(value);
     } catch (const CaseError& e) {
-      complain("grade", fmt::format(": {}", e.diagnostics.front().message), e.diagnostics.front().remedy);
+      complain(name, fmt::format(": {}", e.diagnostics.front().message), e.diagnostics.front().remedy);
     }
   }
 
   void check_hardening_name() const {
-    if (s_.hardening.empty()) return;
-    if (s_.hardening == kEstimatedHardening) {
-      if (!s_.tensile_strength && !s_.hardness && s_.hardness_table.empty())
-        complain("hardening", " = \"estimated\": needs tensile_strength or hardness",
-                 "add for example tensile_strength = \"880 MPa\"");
-      return;
-    }
-    try {
-      hardening_set(s_.hardening);
-    } catch (const CaseError& e) {
-      complain("hardening", fmt::format(": {}", e.diagnostics.front().message), e.diagnostics.front().remedy);
-    }
+    if (s_.hardening != kEstimatedHardening)
+      check_name("hardening", s_.hardening, hardening_set);
+    else if (!s_.tensile_strength && !s_.hardness && s_.hardness_table.empty())
+      complain("hardening", " = \"estimated\": needs tensile_strength or hardness",
+               "add for example tensile_strength = \"880 MPa\"");
   }
 
   bool begins_to_yield() const {

@@ -10,10 +10,10 @@ namespace railstrata {
 /// Largest creepage of a run of finite elements, in either direction.
 inline constexpr double kLargestRunCreepage = 0.1;
 
-/// Empty for a case that it takes.
-std::vector<Refusal> refused_by(const Use& use, const CaseSpec& spec);
+/// Each with its key as its place; empty for a case that it takes.
+std::vector<Diagnostic> refused_by(const Use& use, const CaseSpec& spec);
 
-/// Throws CaseError with all of them, each with its key as its place.
+/// Throws CaseError with all of them.
 void require_support(const Use& use, const CaseSpec& spec);
 
 }  // namespace railstrata

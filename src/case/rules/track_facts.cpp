@@ -6,7 +6,6 @@
 
 #include "geometry/profile_names.hpp"
 #include "spec/case_spec.hpp"
-#include "text/units.hpp"
 
 namespace railstrata {
 namespace {

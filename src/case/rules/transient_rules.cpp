@@ -1,4 +1,4 @@
-#include "rules/transient_rules.hpp"
+#include "rules/case_rules.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,6 @@
 
 namespace railstrata {
 namespace {
-
-bool is_any(const std::string& key, std::initializer_list<std::string_view> of) {
-  return std::find(of.begin(), of.end(), key) != of.end();
-}
 
 class TransientRules {
  public:
@@ -40,7 +36,9 @@ class TransientRules {
   }
 
   void check_shift() {
-    const auto moves = [](const GivenColumn& c) { return !is_any(c.key, {"at_time", "wheel_load", "load_factor"}); };
+    const auto moves = [](const GivenColumn& c) {
+      return c.key != "at_time" && c.key != "wheel_load" && c.key != "load_factor";
+    };
     if (source_.sound({"transient"}) && std::none_of(columns_.begin(), columns_.end(), moves))
       refuse("transient.kind", "a shift needs something that shifts",
              "give transient.tractive_force, displacement, lateral_force or lateral_displacement, e.g. displacement = "

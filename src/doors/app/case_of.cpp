@@ -23,11 +23,7 @@ std::string title_of(const std::string& title, const std::vector<std::string>& o
 }  // namespace
 
 LoadedCase load_case_of(const CommandOptions& options, const Use& use) {
-  std::filesystem::path file = shipped_unless_there(options.case_file);
-  std::error_code error;  // a name that is too long: load_case reports it
-  if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error))
-    file /= "case.toml";
-  LoadedCase loaded = load_case(file, options.overrides);
+  LoadedCase loaded = load_case(shipped_unless_there(options.case_file, "case.toml"), options.overrides);
   loaded.spec.title = title_of(loaded.spec.title, options.overrides);
   require_support(use, loaded);
   for (const std::string& note : notes_for(use, loaded)) spdlog::warn("{}", note);
@@ -42,12 +38,8 @@ std::filesystem::path output_folder_of(const CommandOptions& options, const Load
   return std::filesystem::path("results") / (name.string() + suffix);
 }
 
-JobOrder job_order_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix, bool resume) {
-  return {output_folder_of(options, loaded, suffix),
-          resume,
-          options.force,
-          options.page,
-          {options.command_line, options.threads}};
+JobOrder job_order_of(const CommandOptions& options, const std::filesystem::path& folder, bool resume) {
+  return {folder, resume, options.force, options.page, {options.command_line, options.threads}};
 }
 
 ExitCode code_of(JobEnd end) {

@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "jobs/job.hpp"
 #include "reader/case_file.hpp"
+#include "rules/clashes.hpp"
 
 namespace railstrata {
 
@@ -17,8 +18,8 @@ LoadedCase load_case_of(const CommandOptions& options, const Use& use);
 std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,
                                        const std::string& suffix = {});
 
-/// Folder and options of a job, from the command line.
-JobOrder job_order_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix, bool resume);
+/// Options of a job in this folder, from the command line.
+JobOrder job_order_of(const CommandOptions& options, const std::filesystem::path& folder, bool resume);
 
 ExitCode code_of(JobEnd end);
 

@@ -6,12 +6,10 @@
 #include <memory>
 
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
-#include "app/option_values.hpp"
+#include "app/progress.hpp"
 #include "app/summary_text.hpp"
-#include "app/waiting.hpp"
 #include "ask/half_space_need.hpp"
 #include "core/faults.hpp"
 #include "fatigue/row_strength.hpp"
@@ -29,8 +27,6 @@ struct BemWords {
   bool single_track = true;  ///< --no-single-track: without the limit for one track, which takes some seconds
   bool maps = false;         ///< --maps: limits over traction too
 };
-
-bool shown() { return spdlog::should_log(spdlog::level::info); }
 
 /// Input of `bem` and the folder of its results.
 struct HalfSpaceJob {
@@ -73,7 +69,7 @@ std::string track_text(const CaseSpec& spec) {
 
 Answer solve_steady(const HalfSpaceJob& job, const BemWords& own) {
   answer_interrupt_with("\nstopped: nothing was written\n");
-  const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)), shown());
+  const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)));
   const Wanted wanted{.single_track = own.single_track, .maps = own.maps};
   return ask(job.loaded.spec, job.placement, wanted, {.bem = job.bem});
 }

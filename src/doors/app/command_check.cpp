@@ -8,26 +8,84 @@
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
-#include "app/check_receptance.hpp"
 #include "app/check_report.hpp"
 #include "app/common_options.hpp"
-#include "app/mesh_report.hpp"
+#include "app/progress.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "fem/memory_need.hpp"
 #include "io/output_folder.hpp"
 #include "rules/support.hpp"
 #include "runs/device_at_hand.hpp"
+#include "runs/receptance.hpp"
 
 namespace railstrata {
 namespace {
 
 struct CheckOptions {
-  bool machines = false;    ///< --machines
-  bool mesh = false;        ///< --mesh
-  bool receptance = false;  ///< --receptance
-  ReceptanceOptions blows;
+  bool machines = false;       ///< --machines
+  bool mesh = false;           ///< --mesh
+  bool receptance = false;     ///< --receptance
+  double largest = 3000;       ///< --largest frequency of a receptance, Hz
+  std::string time = "0.1 s";  ///< --time: how long a blow is followed
+  bool beam = false;           ///< --beam: without finite elements
 };
+
+/// Every tenth row from the first: at rest, 100 Hz, 200 Hz, …
+void print_table(const Receptance& r, const std::vector<CsvColumn>& table) {
+  constexpr std::size_t kEach = 10;
+  fmt::print("displacement over force at the place of the force; pinned-pinned mode of the beam: {:.0f} Hz\n\n",
+             r.pinned_pinned);
+  for (const CsvColumn& c : table) fmt::print("{:>{}}", c.name, c.name.size() + 2);
+  fmt::print("\n");
+  for (std::size_t i = 0; i < r.frequency.size(); i += kEach) {
+    for (const CsvColumn& c : table) fmt::print("{:>{}.4g}", c.values[i], c.name.size() + 2);
+    fmt::print("\n");
+  }
+}
+
+double blow_time(const std::string& text) {
+  const double time = wall_time("--time", text);
+  if (time >= 1e-3 && time <= 10) return time;
+  throw CaseError(fmt::format("--time {} is out of range", text), "write a time from 1 ms to 10 s, e.g. \"0.1 s\"");
+}
+
+/// Writes receptance.csv and the page.
+ExitCode check_receptance(const CheckOptions& wanted, const CommandOptions& options) {
+  const LoadedCase loaded = load_case_of(options, uses::kReceptance);
+  const std::filesystem::path out = output_folder_of(options, loaded, "-receptance");
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const double time = blow_time(wanted.time);
+  std::vector<BlowEnergy> blows;
+  const Receptance receptance = with_places(loaded, [&] {
+    const Model model = build_model(loaded.spec, loaded.folder());
+    Receptance all = beam_receptances(model, receptance_frequencies(wanted.largest));
+    if (wanted.beam) return all;
+    const Waiting waiting("blows of a hammer");
+    blows = add_hammer_receptances(model, time, {}, all);
+    return all;
+  });
+  for (const BlowEnergy& e : blows)
+    spdlog::info(
+        "energy of a blow: {:.3g} J; pads took {:.1f} %, ballast {:.1f} %, the rail's ends {:.1f} %, {:.2g} % "
+        "is left, closure {:.1e}",
+        e.supplied, 100 * e.pads / e.supplied, 100 * e.ballast / e.supplied, 100 * e.ends / e.supplied,
+        100 * e.kept / e.supplied, e.closure() / e.supplied);
+  const std::vector<CsvColumn> table = receptance_table(receptance);
+  const FolderHold hold = prepare_output_folder(out, options.force);
+  write_origin(out, loaded, options.command_line, options.threads);
+  write_csv(out / "receptance.csv", table_origin(loaded), table);
+  if (options.page) write_receptance_page(out / "report.html", loaded.spec.title, receptance);
+  if (options.json) {
+    nlohmann::ordered_json json{{"title", loaded.spec.title}, {"pinned_pinned_Hz", receptance.pinned_pinned}};
+    for (const CsvColumn& c : table) json[c.name] = c.values;
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    print_table(receptance, table);
+  }
+  spdlog::info("results are in {}", out.string());
+  return ExitCode::ok;
+}
 
 /// Why a run would be refused here, though the case is sound: the card that it asks for; empty: it would not.
 std::string lacking_here(const LoadedCase& loaded) {
@@ -89,7 +147,7 @@ void require_nothing_to_write(const CommandOptions& options) {
 }
 
 ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
-  if (own.receptance) return check_receptance(own.blows, options);
+  if (own.receptance) return check_receptance(own, options);
   if (!own.mesh) require_nothing_to_write(options);
   const LoadedCase loaded = load_case_of(options, uses::kAny);
   if (own.mesh) require_support(uses::kFiniteElements, loaded);
@@ -111,7 +169,7 @@ ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
   print_estimate(model, estimate);
   if (!lacking.empty()) fmt::print("not here       {}\n", printable(lacking));
   for (const Warning& w : warnings_of(model, estimate)) fmt::print("warning        {}: {}\n", w.name, w.text);
-  fmt::print("\n{}", mesh_table(mesh_rows(model)));
+  fmt::print("\n{}", mesh_table(model));
   return ExitCode::ok;
 }
 
@@ -126,12 +184,12 @@ CommandWork declare_check(CLI::App& sub, CommandOptions& options) {
                    "instead: table and page in a folder")
           ->excludes(mesh);
   add_output(sub, options, "results/<case name>-mesh or -receptance");
-  sub.add_option("--largest", own->blows.largest, "With --receptance: largest frequency in Hz (default: 3000)")
+  sub.add_option("--largest", own->largest, "With --receptance: largest frequency in Hz (default: 3000)")
       ->check(CLI::Range(20.0, 20000.0))
       ->needs(receptance);
-  sub.add_option("--time", own->blows.time, "With --receptance: how long a blow is followed (default: \"0.1 s\")")
+  sub.add_option("--time", own->time, "With --receptance: how long a blow is followed (default: \"0.1 s\")")
       ->needs(receptance);
-  sub.add_flag("--beam", own->blows.beam, "With --receptance: the beam alone, at once, without finite elements")
+  sub.add_flag("--beam", own->beam, "With --receptance: the beam alone, at once, without finite elements")
       ->needs(receptance);
   add_no_report(sub, options);
   return [own, &options] { return command_check(*own, options); };

@@ -3,19 +3,19 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
+
+#include <nlohmann/json.hpp>
 
 #include "app/case_list.hpp"
 #include "app/case_of.hpp"
-#include "app/collective_wear.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
-#include "app/option_values.hpp"
 #include "bem/bem_options.hpp"
 #include "collective/collective.hpp"
 #include "collective/collective_files.hpp"
 #include "collective/life_files.hpp"
+#include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "fatigue/row_strength.hpp"
 #include "io/output_folder.hpp"
@@ -23,16 +23,17 @@
 #include "record/output_file.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "runs/write_report.hpp"
+#include "wear/wear_loop_job.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr const char* kRowFolder = "shown_load";
 
-void solve(const CommandOptions& options, const LoadedCase& loaded, InfluenceCache& cache,
-           std::vector<CollectiveRow>& rows) {
+void solve(const LoadedCase& loaded, double cell, std::vector<CollectiveRow>& rows) {
+  InfluenceCache cache;
   CollectiveOptions how;
-  how.bem.cell = cell_size(options.cell);
+  how.bem.cell = cell;
   how.bem.cache = &cache;
   how.control = &control_by_signals();
   solve_collective(rows, loaded.folder(), how);
@@ -111,8 +112,7 @@ ExitCode command_collective(const CommandOptions& options) {
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   spdlog::info("{}: {} loads; results go to {}", loaded.spec.title, rows.size(), out.string());
-  InfluenceCache cache;
-  solve(options, loaded, cache, rows);
+  solve(loaded, cell, rows);
   write_collective_table(out / "collective.csv", table_origin(loaded), rows);
   if (control().stop) {
     spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
@@ -134,6 +134,34 @@ ExitCode command_collective(const CommandOptions& options) {
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
   return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;
+}
+
+/// `collective --steps`: the wear taken off the rail's profile, step by step.
+struct WearOptions {
+  int steps = 0;                      ///< --steps; 0: no limit
+  double passages = 0;                ///< --passages; 0: no limit
+  std::string max_wear = "0.005 mm";  ///< --max-wear: a length
+  bool resume = false;                ///< --resume
+};
+
+double depth_option(const std::string& text) {
+  const double depth = length_of("--max-wear", text);
+  if (depth > 0 && depth <= kMostWearOfOneProfile) return depth;
+  throw CaseError(fmt::format("--max-wear {}: must be above 0 and at most 1 mm", text), "take e.g. \"0.05 mm\"");
+}
+
+ExitCode collective_wear(const WearOptions& wanted, const CommandOptions& options) {
+  LoadedCase loaded = load_case_of(options, uses::kWearLoop);
+  const WearLoopOrder order{job_order_of(options, output_folder_of(options, loaded, "-wear-loop"), wanted.resume),
+                            wanted.steps, wanted.passages, depth_option(wanted.max_wear), cell_size(options.cell)};
+  return code_of(carry_out_wear_loop(std::move(loaded), order, control_by_signals(), [&](const WornRail& rail) {
+    if (!options.json) return;
+    const nlohmann::ordered_json end{{"steps", rail.step},
+                                     {"passages", rail.passages},
+                                     {"worn_area_m2", rail.area},
+                                     {"rail_profile", rail.file.string()}};
+    fmt::print("{}\n", json_text(end, 2));
+  }));
 }
 
 CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {

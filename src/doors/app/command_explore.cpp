@@ -5,10 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
 #include "app/common_options.hpp"
-#include "app/option_values.hpp"
-#include "app/page_name.hpp"
 #include "explore/page.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"

@@ -10,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"

@@ -2,16 +2,14 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/progress.hpp"
 #include "app/shipped_files.hpp"
-#include "app/waiting.hpp"
 #include "calibrate/material_fit.hpp"
 #include "core/faults.hpp"
 #include "laboratory/material_run.hpp"
@@ -39,13 +37,6 @@ struct MaterialOptions {
   std::string depth;                            ///< --depth: a length; empty: the top
 };
 constexpr std::size_t kShownCycles = 5;
-
-fs::path card_of(const CommandOptions& options) {
-  fs::path file = shipped_unless_there(options.case_file);
-  std::error_code error;
-  if (fs::is_directory(file, error) && fs::exists(file / "case.toml", error)) file /= "case.toml";
-  return file;
-}
 
 double depth_of(const std::string& text) {
   if (text.empty()) return 0;
@@ -129,7 +120,7 @@ ExitCode drive(const MaterialOptions& o, const CommandOptions& options, const Lo
                                  by_stress ? "e_xx,e_yy," : "s_xx_MPa,");
   answer_interrupt_with("\nstopped: nothing was written\n");
   const MaterialRun run = [&] {
-    const Waiting waiting("driving the material", spdlog::should_log(spdlog::level::info));
+    const Waiting waiting("driving the material");
     return run_material(material, table, o.increments, o.cycles);
   }();
   write_csv(out, {}, point_columns(run, by_stress));
@@ -207,7 +198,7 @@ ExitCode command_material(const MaterialOptions& o, const CommandOptions& option
     throw CaseError("--monotonic belongs to a fit to cycles",
                     "give --calibrate LOOP.csv or --cyclic-curve CURVE.csv with it");
   // A case's notes concern its contact, which is not computed here.
-  const LoadedCase loaded = load_case(card_of(options), options.overrides);
+  const LoadedCase loaded = load_case(shipped_unless_there(options.case_file, "case.toml"), options.overrides);
   return path ? drive(o, options, loaded) : calibrate(o, options, loaded);
 }
 

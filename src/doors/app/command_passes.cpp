@@ -1,13 +1,10 @@
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <memory>
 
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
-#include "app/option_values.hpp"
 #include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "runs/pass_folder.hpp"
@@ -43,7 +40,7 @@ void require_stationary(const PassesOptions& options) {
 
 PassOrder order_of(const PassesOptions& own, const CommandOptions& options, const LoadedCase& loaded) {
   PassOrder order;
-  static_cast<JobOrder&>(order) = job_order_of(options, loaded, "-passes", own.resume);
+  static_cast<JobOrder&>(order) = job_order_of(options, output_folder_of(options, loaded, "-passes"), own.resume);
   order.passes = own.passes;
   return order;
 }

@@ -5,11 +5,9 @@
 #include <utility>
 
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
 #include "app/mpi_ranks.hpp"
-#include "app/option_values.hpp"
 #include "app/processors.hpp"
 #include "app/summary_text.hpp"
 #include "runs/run_job.hpp"
@@ -43,17 +41,15 @@ void warn_of_shared_processors(int threads) {
 // Runs on ranks other than 0: no output.
 ExitCode run_along(const std::filesystem::path& resumed, const CommandOptions& options, const FemOptions& fem) {
   spdlog::set_level(spdlog::level::off);
-  if (!resumed.empty()) require_resume_alone(options);
-  follow_run(resumed.empty() ? load_case_of(options, uses::kFiniteElements) : load_case(resumed / "case.toml"), resumed, fem);
+  follow_run(resumed.empty() ? load_case_of(options, uses::kFiniteElements) : load_case(resumed / "case.toml"), resumed,
+             fem);
   return ExitCode::ok;
 }
 
 ExitCode run_and_report(const std::filesystem::path& resumed, const CommandOptions& options, const FemOptions& fem) {
   const bool resume = !resumed.empty();
-  if (resume) require_resume_alone(options);
   LoadedCase loaded = resume ? case_to_resume(resumed) : load_case_of(options, uses::kFiniteElements);
-  JobOrder order = job_order_of(options, loaded, "", resume);
-  if (resume) order.folder = resumed;
+  const JobOrder order = job_order_of(options, resume ? resumed : output_folder_of(options, loaded), resume);
   RunJob job(std::move(loaded), order, fem, control());
   warn_of_shared_processors(options.threads);
   const auto show = [&] {
@@ -74,6 +70,7 @@ ExitCode command_run(const RunOptions& own, const CommandOptions& options) {
   if (own.resume.empty() && options.case_file.empty())
     throw CaseError("run: no case was named",
                     "name a case file, or go on with an interrupted run: railstrata run --resume FOLDER");
+  if (!own.resume.empty()) require_resume_alone(options);
   MpiRanks mpi;
   fem.ranks = mpi.ranks();
   try {
@@ -92,7 +89,8 @@ ExitCode command_run(const RunOptions& own, const CommandOptions& options) {
 
 CommandWork declare_run(CLI::App& sub, CommandOptions& options) {
   const auto own = std::make_shared<RunOptions>();
-  add_case_and_output(sub, options);
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>");
   sub.get_option("case")->required(false);
   sub.add_option("--resume", own->resume,
                  "Go on with the interrupted run of this result folder: the same bits as in one go")

@@ -11,10 +11,8 @@
 
 #include "app/case_list.hpp"
 #include "app/case_of.hpp"
-#include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
-#include "app/option_values.hpp"
 #include "io/output_folder.hpp"
 #include "judge/check_limits.hpp"
 #include "many/each_case.hpp"

@@ -1,7 +1,7 @@
-#include "app/command_table.hpp"
-
 #include <algorithm>
 #include <iterator>
+
+#include "app/commands.hpp"
 
 namespace railstrata {
 

@@ -6,10 +6,8 @@
 #include <memory>
 #include <set>
 
-#include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
-#include "app/option_values.hpp"
 #include "app/shipped_files.hpp"
 #include "io/output_folder.hpp"
 #include "record/output_file.hpp"

@@ -1,8 +1,10 @@
 #pragma once
-// A subcommand, and the options that several of them have.
+// A subcommand, the options that several of them have, and the table of all (command_table.cpp).
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/faults.hpp"
@@ -36,5 +38,15 @@ struct Command {
   CommandWork (*declare)(CLI::App& sub, CommandOptions& options);
   bool among_ranks = false;  ///< may be started by mpirun: `run` shares its work, processes of `study` their cases
 };
+
+/// All of them, in the order of the help.
+std::span<const Command* const> commands();
+
+struct OldName {
+  std::string_view name;
+  std::string_view now;  ///< the words in its place; empty: none
+};
+/// Null for a word that was never the name of a command, or still is.
+const OldName* old_name(std::string_view word);
 
 }  // namespace railstrata

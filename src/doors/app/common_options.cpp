@@ -2,19 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 
-#include "core/engine.hpp"
+#include "bem/bem_options.hpp"
+#include "record/escaped_text.hpp"
+#include "text/units.hpp"
 
 namespace railstrata {
-
-std::string engines_text() {
-  std::string out;
-  for (const EngineRow& row : kEngines)
-    out += fmt::format("{}{} ({}: {})", out.empty() ? "" : ", ", row.word, row.title, row.about);
-  return out;
-}
 
 CLI::Option* add_repeated(CLI::App& sub, const std::string& name, std::vector<std::string>& values, const char* word,
                           const char* what) {
@@ -41,11 +37,6 @@ void add_output(CLI::App& sub, CommandOptions& options, const char* preset) {
   sub.add_flag("--force", options.force, "Write into a folder that is not empty; files of the same name are replaced");
 }
 
-void add_case_and_output(CLI::App& sub, CommandOptions& options) {
-  add_case(sub, options);
-  add_output(sub, options, "results/<case name>");
-}
-
 void add_no_report(CLI::App& sub, CommandOptions& options) {
   sub.add_flag_callback(
       "--no-report", [&options] { options.page = false; }, "Do not write report.html");
@@ -60,6 +51,50 @@ CLI::Validator finite() {
             return std::isfinite(std::strtod(text.c_str(), nullptr)) ? std::string() : text + " is no finite number";
           },
           "FINITE"};
+}
+
+double length_of(const std::string& option, const std::string& text) {
+  try {
+    return parse_quantity(text, dimension::kLength);
+  } catch (const UnitError& e) {
+    throw CaseError(fmt::format("{} \"{}\": {}", option, text, e.what()), e.remedy);
+  }
+}
+
+double cell_size(const std::string& text) {
+  if (text.empty()) return BemOptions{}.cell;
+  const double cell = length_of("--cell", text);
+  if (!(cell >= kSmallestCell && cell <= kLargestCell))
+    throw CaseError(fmt::format("--cell \"{}\" is out of range", text),
+                    fmt::format("write a length from {:g} mm to {:g} mm", 1e3 * kSmallestCell, 1e3 * kLargestCell));
+  return cell;
+}
+
+double wall_time(const std::string& option, const std::string& text) {
+  if (text == "0" || text == "never") return 0;
+  try {
+    const double seconds = parse_quantity(text, dimension::kTime);
+    if (seconds >= 0 && std::isfinite(seconds)) return seconds;
+    throw CaseError(fmt::format("{} \"{}\" is out of range", option, text),
+                    "write a time, e.g. \"10 min\", or 0 for never");
+  } catch (const UnitError& e) {
+    throw CaseError(fmt::format("{} \"{}\": {}", option, text, e.what()), e.remedy);
+  }
+}
+
+bool is_page_name(const std::filesystem::path& page) {
+  std::string ending = page.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".html" || ending == ".htm";
+}
+
+void require_name_of_page(const std::filesystem::path& page, const std::string& preset) {
+  if (is_page_name(page)) return;
+  const std::filesystem::path name = page.filename();
+  const bool folder = name.empty() || name == "." || name == "..";
+  const std::filesystem::path other = folder ? page / preset : std::filesystem::path(page).replace_extension(".html");
+  throw CaseError(fmt::format("--out {}: a page has a name that ends in .html", page.string()),
+                  fmt::format("write for example --out {}", shell_word(other.string())));
 }
 
 }  // namespace railstrata

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "app/processor_use.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {

@@ -41,4 +41,10 @@ fs::path shipped_unless_there(const fs::path& file) {
   return folder / file;
 }
 
+fs::path shipped_unless_there(const fs::path& file, const char* in_folder) {
+  const fs::path found = shipped_unless_there(file);
+  std::error_code error;  // a name that is too long: who reads it reports it
+  return fs::is_directory(found, error) && is_there(found / in_folder) ? found / in_folder : found;
+}
+
 }  // namespace railstrata

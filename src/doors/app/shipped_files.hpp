@@ -12,4 +12,7 @@ std::filesystem::path shipped_folder();
 /// one: the examples of the help texts work in any folder.
 std::filesystem::path shipped_unless_there(const std::filesystem::path& file);
 
+/// The same; of a folder that has it the file of this name in it ("case.toml").
+std::filesystem::path shipped_unless_there(const std::filesystem::path& file, const char* in_folder);
+
 }  // namespace railstrata

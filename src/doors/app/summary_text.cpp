@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/printable.hpp"
 #include "io/summary_json.hpp"
 #include "judge/check_limits.hpp"
 #include "judge/judgement.hpp"
-#include "judge/verdict.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {
@@ -175,27 +175,24 @@ std::string steps_text(const RunSummary& r) {
       r.added_mass, 1e9 * r.stable_step, 1e9 * r.unscaled_step);
 }
 
-/// The name of a check or warning; its key where the table does not know it.
-std::string name_of(const std::string& key) {
+/// Name and unit of a check or warning; its key where the table does not know it.
+std::pair<std::string, Unit> words_of(const std::string& key) {
   const CheckRow* row = find_check(key);
-  return row ? std::string(row->name) : key;
-}
-
-const Unit& unit_of(const std::string& key) {
-  const CheckRow* row = find_check(key);
-  return row ? row->unit : unit::kNone;
+  return row ? std::pair{std::string(row->name), row->unit} : std::pair{key, unit::kNone};
 }
 
 std::string checks_text(const Summary& s) {
   std::string out = "  checks\n";
-  for (const Check& k : s.checks)
-    out += fmt::format("    {:<6} {}{:>10}  (limit {})\n", k.ok ? "ok" : "FAILED", padded(name_of(k.name), 34),
-                       with_unit(unit_of(k.name), shown_beside_limit(k.value, k.limit), 3),
-                       limit_text(unit_of(k.name), k.limit));
+  for (const Check& k : s.checks) {
+    const auto& [name, unit] = words_of(k.name);
+    out += fmt::format("    {:<6} {}{:>10}  (limit {})\n", k.ok ? "ok" : "FAILED", padded(name, 34),
+                       with_unit(unit, shown_beside_limit(k.value, k.limit), 3), limit_text(unit, k.limit));
+  }
   for (const Warning& w : s.warnings) {
     const CheckRow* row = find_check(w.name);
-    out += fmt::format("    warn   {}{:>10}  (above {}): {}\n", padded(name_of(w.name), 34),
-                       with_unit(unit_of(w.name), w.value, 3), limit_text(unit_of(w.name), w.limit),
+    const auto& [name, unit] = words_of(w.name);
+    out += fmt::format("    warn   {}{:>10}  (above {}): {}\n", padded(name, 34), with_unit(unit, w.value, 3),
+                       limit_text(unit, w.limit),
                        row && !row->own_text ? fmt::format("{}: {}", row->what, row->advice) : w.text);
   }
   return out;

@@ -1,4 +1,4 @@
-#include "app/surroundings.hpp"
+#include "app/program.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

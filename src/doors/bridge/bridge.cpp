@@ -5,8 +5,7 @@
 #include <memory>
 #include <new>
 
-#include "bridge/functions.hpp"
-#include "bridge/running_call.hpp"
+#include "bridge/call.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "record/json.hpp"
@@ -17,9 +16,7 @@ namespace {
 /// kind: a class of railstrata.errors, or one of Python's own.
 Json fault(const char* kind, const std::string& text, const std::string& remedy = {},
            const std::vector<Diagnostic>& all = {}) {
-  Json diagnostics = Json::array();
-  for (const Diagnostic& d : all) diagnostics.push_back({d.message, d.remedy, d.where});
-  return {{"fault", {{"kind", kind}, {"text", text}, {"remedy", remedy}, {"diagnostics", diagnostics}}}};
+  return {{"fault", {{"kind", kind}, {"text", text}, {"remedy", remedy}, {"diagnostics", diagnostics(all)}}}};
 }
 
 /// A thrown exception as an answer.
@@ -67,8 +64,7 @@ const Functions& functions() {
   static const Functions all = [] {
     Functions out;
     for (const auto& some : {case_functions(), contact_functions(), damage_functions(), folder_functions(),
-                             half_space_functions(), material_functions(), pass_functions(), run_functions(),
-                             sweep_functions(), table_functions(), wheelset_functions()})
+                             half_space_functions(), material_functions(), job_functions(), sweep_functions()})
       out.insert(some.begin(), some.end());
     return out;
   }();

@@ -2,13 +2,10 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <numeric>
 
-#include "bridge/bridge.hpp"
-#include "bridge/running_call.hpp"
 #include "record/json.hpp"
 
 namespace railstrata::bridge {
@@ -55,6 +52,12 @@ std::vector<std::string> texts_of(const Json& list) {
 
 Array array_of(const Json& value) {
   return {at_address<const double>(value.at("__array__")), value.at("shape").get<std::vector<std::size_t>>()};
+}
+
+Json diagnostics(const std::vector<Diagnostic>& all) {
+  Json out = Json::array();
+  for (const Diagnostic& d : all) out.push_back({d.message, d.remedy, d.where});
+  return out;
 }
 
 const Json& Call::argument(const char* name) const {

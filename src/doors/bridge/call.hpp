@@ -1,16 +1,20 @@
 #pragma once
 // A call as the functions of the bridge see it: arguments by name, an answer, and what the caller may look at while it
 // lasts. Numbers that JSON lacks travel as texts: "inf", "-inf", "nan".
+#include <condition_variable>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <typeinfo>
 #include <vector>
 
 #include "core/control.hpp"
+#include "core/faults.hpp"
 
 namespace railstrata::bridge {
 
@@ -39,6 +43,8 @@ Json number(double value);
 std::vector<std::string> texts_of(const Json& list);
 double double_of(const Json& value);
 Array array_of(const Json& value);
+/// A list of (message, remedy, where).
+Json diagnostics(const std::vector<Diagnostic>& all);
 
 class Call {
  public:
@@ -88,4 +94,33 @@ class Call {
   std::string reported_;
 };
 
+// The functions that the bridge offers, by name.
+
+using Functions = std::map<std::string, void (*)(Call&)>;
+
+/// All of them.
+const Functions& functions();
+
+// Functions of the bridge, one list for each source file.
+Functions case_functions();
+Functions contact_functions();
+Functions damage_functions();
+Functions folder_functions();
+Functions half_space_functions();
+Functions material_functions();
+Functions job_functions();
+Functions sweep_functions();
+
 }  // namespace railstrata::bridge
+
+/// A call with its thread.
+struct RailstrataCall {
+  explicit RailstrataCall(railstrata::bridge::Json arguments) : call(std::move(arguments)) {}
+  railstrata::bridge::Call call;
+  std::string answer;    ///< once it has ended
+  std::string progress;  ///< the last one that was asked for
+  std::mutex lock;
+  std::condition_variable at_end;
+  bool ended = false;
+  std::thread thread;
+};

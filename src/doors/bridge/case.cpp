@@ -1,22 +1,16 @@
 #include <memory>
 
-#include "bridge/functions.hpp"
-#include "bridge/values.hpp"
+#include "bridge/records.hpp"
 #include "core/parallel.hpp"
 #include "io/provenance.hpp"
 #include "options/case_schema.hpp"
 #include "reader/case_file.hpp"
+#include "rules/clashes.hpp"
 #include "text/toml_document.hpp"
 #include "text/units.hpp"
 
 namespace railstrata::bridge {
 namespace {
-
-Json diagnostics(const std::vector<Diagnostic>& all) {
-  Json out = Json::array();
-  for (const Diagnostic& d : all) out.push_back({d.message, d.remedy, d.where});
-  return out;
-}
 
 void answer_case(Call& call, LoadedCase loaded) {
   call.answer = {{"title", loaded.spec.title},

@@ -1,39 +1,45 @@
-// Contacts that are solved state by state.
-#include "ask/contact.hpp"
-
+// Contacts and wheelsets that are solved state by state.
 #include <memory>
 #include <mutex>
 
+#include "ask/contact.hpp"
 #include "ask/patch_forces.hpp"
 #include "ask/solve_settings.hpp"
-#include "bridge/functions.hpp"
-#include "bridge/patches.hpp"
+#include "ask/wheelset.hpp"
 #include "bridge/records.hpp"
 #include "core/stop_request.hpp"
 
 namespace railstrata::bridge {
 namespace {
 
-/// A contact, which one thread may use at a time.
-struct SharedContact {
-  explicit SharedContact(const LoadedCase& loaded) : contact(loaded) {}
-  Contact contact;
+/// A contact or a wheelset, which one thread may use at a time.
+template <class T>
+struct Shared {
+  template <class... Cases>
+  explicit Shared(const Cases&... cases) : object(cases...) {}
+  T object;
   std::mutex one_at_a_time;
 };
 
-/// A contact for as long as a call uses it.
-struct HeldContact {
-  explicit HeldContact(Call& call)
-      : shared(call.made<SharedContact>("contact")), hold(shared->one_at_a_time), stop(&call.control.stop) {}
-  Contact* operator->() const { return &shared->contact; }
-  std::shared_ptr<SharedContact> shared;
+/// The same for as long as a call uses it.
+template <class T>
+struct Held {
+  Held(Call& call, const char* name)
+      : shared(call.made<Shared<T>>(name)), hold(shared->one_at_a_time), stop(&call.control.stop) {}
+  T& operator*() const { return shared->object; }
+  T* operator->() const { return &shared->object; }
+  std::shared_ptr<Shared<T>> shared;
   std::lock_guard<std::mutex> hold;
   StopRequest stop;
 };
 
+struct HeldContact : Held<Contact> {
+  explicit HeldContact(Call& call) : Held(call, "contact") {}
+};
+
 void open_contact(Call& call) {
-  const auto made = std::make_shared<SharedContact>(*call.made<LoadedCase>("case"));
-  made->contact.set_cell(call.number("cell"));
+  const auto made = std::make_shared<Shared<Contact>>(*call.made<LoadedCase>("case"));
+  made->object.set_cell(call.number("cell"));
   call.make(made);
 }
 
@@ -57,7 +63,7 @@ void forces_of_patch(Call& call) {
   const Array about = call.array("about");
   if (about.shape != std::vector<std::size_t>{3}) throw std::invalid_argument("about: three numbers are wanted");
   const Vec3 point{about.data[0], about.data[1], about.data[2]};
-  call.answer = json_of(kPatchForces, patch_forces(*contact.operator->(), call.whole("patch"), point));
+  call.answer = json_of(kPatchForces, patch_forces(*contact, call.whole("patch"), point));
 }
 
 void stress(Call& call) {
@@ -69,11 +75,40 @@ void stress(Call& call) {
 
 void forget(Call& call) { HeldContact(call)->start = {}; }
 
+void open_wheelset(Call& call) {
+  const auto made = std::make_shared<Shared<Wheelset>>(*call.made<LoadedCase>("case"), *call.made<LoadedCase>("right"));
+  for (Wheel& wheel : made->object.wheels) wheel.contact.set_cell(call.number("cell"));
+  call.make(made);
+}
+
+void solve_wheelset(Call& call) {
+  const Held<Wheelset> set(call, "wheelset");
+  const ThreadsOfCaller threads(call.whole("threads"));
+  const WheelsetForces found = solve(*set, record_of<WheelsetState>(kWheelsetState, call.argument("state")));
+  call.answer = json_of(kWheelsetForces, found);
+  call.answer["left"] = json_of(kWheelForces, found.wheels[kLeft]);
+  call.answer["right"] = json_of(kWheelForces, found.wheels[kRight]);
+}
+
+template <void (*kStart)(Wheelset&)>
+void start(Call& call) {
+  kStart(*Held<Wheelset>(call, "wheelset"));
+}
+
 }  // namespace
 
 Functions contact_functions() {
-  return {{"open_contact", open_contact},       {"solve_contact", solve},      {"patch_of_contact", patch},
-          {"forces_of_patch", forces_of_patch}, {"stress_of_contact", stress}, {"forget_contact", forget}};
+  return {{"open_contact", open_contact},
+          {"solve_contact", solve},
+          {"patch_of_contact", patch},
+          {"forces_of_patch", forces_of_patch},
+          {"stress_of_contact", stress},
+          {"forget_contact", forget},
+          {"open_wheelset", open_wheelset},
+          {"solve_wheelset", solve_wheelset},
+          {"keep_wheelset", start<railstrata::keep>},
+          {"reset_wheelset", start<railstrata::reset>},
+          {"forget_wheelset", start<railstrata::forget>}};
 }
 
 }  // namespace railstrata::bridge

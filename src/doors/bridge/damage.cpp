@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "bridge/functions.hpp"
+#include "bridge/call.hpp"
 #include "damage/brittle.hpp"
 #include "damage/critical_plane.hpp"
 #include "damage/dang_van.hpp"

@@ -3,8 +3,7 @@
 #include <memory>
 
 #include "ask/answer.hpp"
-#include "bridge/functions.hpp"
-#include "bridge/patches.hpp"
+#include "bridge/records.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "core/stop_request.hpp"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "bridge/functions.hpp"
+#include "bridge/call.hpp"
 #include "calibrate/material_fit.hpp"
 #include "calibrate/test_curves.hpp"
 #include "laboratory/material_run.hpp"
@@ -23,14 +23,14 @@ struct DrivenMaterial {
 /// How a path or a test is given: a file, else numbers by the names of their columns.
 struct Given {
   std::string file;
-  std::vector<std::pair<std::string, std::vector<double>>> columns;
+  std::vector<PathColumn> columns;
 };
 
 Given given_of(const Json& argument) {
   Given out{argument.at("file").get<std::string>(), {}};
   for (const Json& one : argument.at("columns")) {
     const std::span<const double> values = array_of(one.at(1)).all();
-    out.columns.emplace_back(one.at(0).get<std::string>(), std::vector<double>(values.begin(), values.end()));
+    out.columns.push_back({one.at(0).get<std::string>(), {values.begin(), values.end()}});
   }
   return out;
 }
@@ -39,9 +39,7 @@ MaterialPathTable path_of(const Given& given, bool by_stress) {
   const Prescribed absent = by_stress ? Prescribed::stress : Prescribed::strain;
   if (!given.file.empty())
     return read_material_path(read_text_file(given.file, "name a CSV file with a path"), given.file, absent);
-  std::vector<PathColumn> columns;
-  for (const auto& [name, values] : given.columns) columns.push_back({name, values});
-  return material_path_of(columns, absent);
+  return material_path_of(given.columns, absent);
 }
 
 Json law_json(double young, const PlasticParameters<double>& law) {

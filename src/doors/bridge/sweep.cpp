@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "bridge/functions.hpp"
-#include "bridge/values.hpp"
+#include "bridge/records.hpp"
 #include "options/option_table.hpp"
 
 namespace railstrata::bridge {

@@ -1,4 +1,4 @@
-#include "bridge/values.hpp"
+#include "bridge/records.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

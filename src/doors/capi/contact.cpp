@@ -10,7 +10,6 @@
 #include "ask/patch_forces.hpp"
 #include "capi/guarded.hpp"
 #include "capi/handles.hpp"
-#include "capi/structs.hpp"
 #include "io/provenance.hpp"
 
 using namespace railstrata;
@@ -68,14 +67,6 @@ void copy_stresses(const std::vector<Sym3>& stresses, double* out) {
     for (const double number : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) *out++ = number;
 }
 
-/// A contact of a case that `read` gives.
-template <class Read>
-rs_contact* new_contact(rs_error* error, Read&& read) {
-  rs_contact* out = nullptr;
-  guarded(error, [&] { out = capi::handle_of(new Contact(read())); });
-  return out;
-}
-
 }  // namespace
 
 std::vector<std::string> railstrata::capi::overrides_of(const char* const* overrides, int count) {
@@ -94,16 +85,16 @@ int rs_version(void) {
 }
 
 rs_contact* rs_contact_new(const char* case_file, const char* const* overrides, int count, rs_error* error) {
-  return new_contact(error, [&] {
+  return capi::made(error, [&] {
     require(case_file, "case_file", "give its path");
-    return load_case(case_file, capi::overrides_of(overrides, count));
+    return capi::handle_of(new Contact(load_case(case_file, capi::overrides_of(overrides, count))));
   });
 }
 
 rs_contact* rs_contact_from_text(const char* toml, const char* const* overrides, int count, rs_error* error) {
-  return new_contact(error, [&] {
+  return capi::made(error, [&] {
     require(toml, "toml", "give the text of a case");
-    return parse_case(toml, "case.toml", capi::overrides_of(overrides, count));
+    return capi::handle_of(new Contact(parse_case(toml, "case.toml", capi::overrides_of(overrides, count))));
   });
 }
 

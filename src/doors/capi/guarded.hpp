@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <exception>
 #include <new>
-#include <stdexcept>
 #include <string_view>
 
 #include "ask/contact.hpp"
@@ -44,6 +43,14 @@ int guarded(rs_error* error, Work&& work) noexcept {
   } catch (...) {
     return fail(error, RS_INTERNAL, "an unknown fault");
   }
+}
+
+/// The pointer that `make` gives; NULL where it throws.
+template <class Make>
+auto made(rs_error* error, Make&& make) noexcept {
+  decltype(make()) out = nullptr;
+  guarded(error, [&] { out = make(); });
+  return out;
 }
 
 }  // namespace railstrata::capi

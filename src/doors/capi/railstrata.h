@@ -70,7 +70,7 @@ RS_API void rs_contact_free(rs_contact* contact);
 
 /* What is different from the case in one solution. Members whose bit is not set in `given` are not read. */
 typedef struct rs_state {
-  size_t size;          /* sizeof(rs_state): the library may know more members than the caller */
+  size_t size;          /* sizeof(rs_state); another size, of another version, is refused */
   unsigned given;       /* RS_LOAD | ... */
   double load;          /* N, vertical, on the rail; or approach */
   double approach;      /* m, of the bodies along the contact normal: the load is a result */

@@ -16,17 +16,13 @@ struct rs_table {
 
 namespace {
 
-template <class Part>
-const Part* part(const std::vector<Part>& parts, int index) {
-  return index >= 0 && static_cast<std::size_t>(index) < parts.size() ? &parts[static_cast<std::size_t>(index)]
-                                                                      : nullptr;
-}
 const TableAxis* axis_of(const rs_table* table, int axis) {
   if (!table || axis < 0 || static_cast<std::size_t>(axis) >= table->table.axes.size()) return nullptr;
   return &table->table.asked(static_cast<std::size_t>(axis));
 }
 const TableNumber* number_of(const rs_table* table, int number) {
-  return table ? part(table->table.numbers, number) : nullptr;
+  if (!table || number < 0 || static_cast<std::size_t>(number) >= table->table.numbers.size()) return nullptr;
+  return &table->table.numbers[static_cast<std::size_t>(number)];
 }
 
 }  // namespace
@@ -34,12 +30,10 @@ const TableNumber* number_of(const rs_table* table, int number) {
 extern "C" {
 
 rs_table* rs_table_open(const char* file, rs_error* error) {
-  rs_table* out = nullptr;
-  capi::guarded(error, [&] {
+  return capi::made(error, [&] {
     if (!file) throw CaseError("no file was named", "give its path");
-    out = new rs_table(read_force_table(file));
+    return new rs_table(read_force_table(file));
   });
-  return out;
 }
 
 void rs_table_close(rs_table* table) { delete table; }

@@ -8,7 +8,6 @@
 
 #include "capi/guarded.hpp"
 #include "capi/handles.hpp"
-#include "capi/structs.hpp"
 
 using namespace railstrata;
 using capi::guarded;
@@ -42,14 +41,12 @@ void fill(const WheelsetForces& found, rs_wheelset_forces& out) {
 template <class Read>
 rs_wheelset* new_wheelset(const char* const* overrides, int count, const char* const* right, int right_count,
                           rs_error* error, Read&& read) {
-  rs_wheelset* out = nullptr;
-  guarded(error, [&] {
+  return capi::made(error, [&] {
     std::vector<std::string> texts = capi::overrides_of(overrides, count);
     const LoadedCase left = read(texts);
     std::ranges::copy(capi::overrides_of(right, right_count), std::back_inserter(texts));
-    out = capi::handle_of(new Wheelset(left, read(texts)));
+    return capi::handle_of(new Wheelset(left, read(texts)));
   });
-  return out;
 }
 
 }  // namespace

@@ -5,11 +5,6 @@
 
 namespace {
 
-railstrata::Explorer& explorer() {
-  static railstrata::Explorer only;
-  return only;
-}
-
 railstrata::ExplorerAnswer& last() {
   static railstrata::ExplorerAnswer answer;
   return answer;
@@ -20,7 +15,8 @@ railstrata::ExplorerAnswer& last() {
 extern "C" {
 
 const char* rs_explore(const char* request) {
-  last() = explorer().answer(request ? request : "");
+  static railstrata::Explorer explorer;
+  last() = explorer.answer(request ? request : "");
   return last().head.c_str();
 }
 

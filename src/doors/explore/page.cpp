@@ -19,6 +19,7 @@
 #include "record/json.hpp"
 #include "report/result_reference.hpp"
 #include "result/patch.hpp"
+#include "rules/clashes.hpp"
 #include "spec/case_spec.hpp"
 #include "text/text_file.hpp"
 
@@ -77,6 +78,7 @@ std::string engine_version() {
 }
 
 Json seed_of(const LoadedCase& loaded, const fs::path& as_given, double cell) {
+  require_support(uses::kExplorer, loaded);
   const fs::path file = loaded.file.lexically_normal();
   const fs::path stem = file.stem() == "case" ? fs::absolute(file).parent_path().filename() : file.stem();
   Json seed{{"case", loaded.source_text},
@@ -180,12 +182,10 @@ std::string page_of(const LoadedCase& loaded, const Json& seed) {
 }  // namespace
 
 std::string explorer_page(const LoadedCase& loaded, const fs::path& as_given, double cell) {
-  require_support(uses::kExplorer, loaded);
   return page_of(loaded, seed_of(loaded, as_given, cell));
 }
 
 FramedPage what_if_page(const LoadedCase& loaded, const fs::path& as_given, double cell, const ReportRun& reported) {
-  require_support(uses::kExplorer, loaded);
   Json seed = seed_of(loaded, as_given, cell);
   seed["reported"] = reported_json(reported);
   return {page_of(loaded, seed), " " + scripts(), " " + policy_hash(explorer_style()), kWorkers};

@@ -3,25 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <iterator>
 #include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
 #include "ask/judge.hpp"
 #include "core/faults.hpp"
-#include "explore/case_values.hpp"
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
 #include "judge/check_limits.hpp"
 #include "material/elastic.hpp"
 #include "model/model.hpp"
+#include "options/option_table.hpp"
 #include "reader/case_file.hpp"
 #include "record/json.hpp"
 #include "result/result_table.hpp"
@@ -103,6 +104,51 @@ Json layers_json(const CaseSpec& spec) {
   return out;
 }
 
+std::optional<double> number_in(const Slot& slot) {
+  if (const auto* number = std::get_if<double*>(&slot)) return **number;
+  if (const auto* maybe = std::get_if<std::optional<double>*>(&slot)) return **maybe;
+  return std::nullopt;
+}
+
+/// The value as a case file would have it; every derivation is linear.
+double written(const Option& option, const CaseSpec& spec, std::size_t index, double value) {
+  if (!option.derivation) return value;
+  const double at_zero = option.derivation.value(spec, index, 0),
+               slope = option.derivation.value(spec, index, 1) - at_zero;
+  return (value - at_zero) / slope;
+}
+
+std::optional<double> value_of(CaseSpec spec, std::string_view key) {
+  const std::size_t last = key.rfind('.');
+  if (last == std::string_view::npos) return std::nullopt;
+  std::string_view name = key.substr(0, last);
+  std::size_t index = 0;
+  const OptionTable* table = find_table(name);
+  if (const std::size_t dot = name.rfind('.'); !table && dot != std::string_view::npos) {
+    const std::string_view digits = name.substr(dot + 1);
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), index).ptr != digits.data() + digits.size())
+      return std::nullopt;
+    table = find_table(name.substr(0, dot));
+    if (!table || !table->repeated) return std::nullopt;
+  }
+  if (!table || (table->repeated && index >= table->repeated.count(spec))) return std::nullopt;
+  for (const Option& option : table->options)
+    if (option.key == key.substr(last + 1))
+      if (const std::optional<double> value = number_in(option.slot(spec, index)))
+        return written(option, spec, index, *value);
+  return std::nullopt;
+}
+
+/// {key: value}, SI, of keys that hold a number; null: the case has none, or there is no such key.
+Json case_values(const CaseSpec& spec, const std::vector<std::string>& keys) {
+  Json out = Json::object();
+  for (const std::string& key : keys) {
+    const std::optional<double> value = value_of(spec, key);
+    out[key] = value ? Json(*value) : Json(nullptr);
+  }
+  return out;
+}
+
 /// Failed checks and warnings as text.
 Json doubts_json(const Summary& s) {
   const auto unit = [](const CheckRow* row) { return row ? row->unit : unit::kNone; };
@@ -129,10 +175,6 @@ Json faults_json(const CaseError& error) {
   for (const Diagnostic& d : error.diagnostics)
     out.push_back({{"where", d.where}, {"message", d.message}, {"remedy", d.remedy}});
   return out;
-}
-
-Json one_fault(std::string_view message, std::string_view remedy = {}) {
-  return Json::array({{{"where", ""}, {"message", message}, {"remedy", remedy}}});
 }
 
 /// Material and layer data that the influence operators depend on, besides the grid.
@@ -249,11 +291,11 @@ struct Explorer::State {
     } catch (const CaseError& e) {
       json["faults"] = faults_json(e);
     } catch (const EnvironmentError& e) {
-      json["faults"] = one_fault(e.what(), e.remedy);
+      json["faults"] = faults_json(CaseError(e.what(), e.remedy));
     } catch (const std::bad_alloc&) {
-      json["faults"] = one_fault("there is not enough memory", "take larger cells");
+      json["faults"] = faults_json(CaseError("there is not enough memory", "take larger cells"));
     } catch (const std::exception& e) {
-      json["faults"] = one_fault(e.what());
+      json["faults"] = faults_json(CaseError(e.what()));
     }
     if (!json["ok"].get<bool>()) of.reset();
     out.head = json_text(json);

@@ -24,7 +24,7 @@ class Explorer {
   ///   file    its name, for messages and for the folder of profiles; default case.toml
   ///   set     overrides, "key=value", as --set
   ///   cell    m, between kSmallestCell and kLargestCell; default that of the engine
-  ///   values  keys whose values the answer shall hold, SI
+  ///   values  keys whose values the answer shall hold, SI; of a derived one (young_ratio) found from what it gives
   ///   want    of "patch", "stress", "section", "shakedown", "case"; what is not wanted is not computed
   /// The answer holds `ok`. If it is true: `summary` (as summary.json, of what is wanted), `values`, `layers`,
   /// `strengths`, `notes`, `milliseconds`, and `patch`, `section` and `cross` with their arrays,

@@ -141,6 +141,7 @@ class Course {
     RollingContact out = rolling_;
     out.kind = RollingKind::shift;
     out.spin = 0;
+    out.local_spin = {};
     out.extra_slip = {};
     return out;
   }

@@ -36,12 +36,19 @@ struct FrictionShare {
 RAILSTRATA_POINTWISE FrictionShare friction_share(const FallingFriction& law, double slip_velocity) {
   if (!law.falls()) return {};
   const double fall = 1 - law.kinetic_share, v = slip_velocity / law.half_velocity;
-  if (law.form == FrictionForm::falling_exponential) {
-    const double left = fall * std::exp2(-v);
-    return {law.kinetic_share + left, -std::numbers::ln2 * left / law.half_velocity};
+  switch (law.form) {
+    case FrictionForm::falling_exponential: {
+      const double left = fall * std::exp2(-v);
+      return {law.kinetic_share + left, -std::numbers::ln2 * left / law.half_velocity};
+    }
+    case FrictionForm::falling_rational: {
+      const double left = fall / (1 + v);
+      return {law.kinetic_share + left, -left / (1 + v) / law.half_velocity};
+    }
+    case FrictionForm::coulomb:
+      break;
   }
-  const double left = fall / (1 + v);
-  return {law.kinetic_share + left, -left / (1 + v) / law.half_velocity};
+  return {};
 }
 
 }  // namespace railstrata

@@ -30,6 +30,7 @@ State stepped(const PlasticMaterial& m, const State& before, const std::array<do
   advance_plastic<kTerms, kNewton>(m.plastic, e, out.history.data());
   plastic_stress(m.lambda, m.plastic.mu, e, out.history.data(), s);
   std::copy(s, s + 6, out.stress.begin());
+  out.dissipated += plastic_dissipation<kTerms>(m.plastic, s, before.history.data(), out.history.data());
   return out;
 }
 

@@ -35,6 +35,7 @@ struct MaterialPath {
 struct MaterialState {
   std::array<double, 6> strain{}, stress{};                          ///< -, Pa
   std::array<double, kPlasticHistory<kMostBackstresses>> history{};  ///< E^p, p, α_1 ..
+  double dissipated = 0;                                             ///< J/m³ since the beginning
 };
 
 /// A point that the material cannot reach: no strain gives the stress.

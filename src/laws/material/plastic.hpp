@@ -215,4 +215,29 @@ RAILSTRATA_POINTWISE T backstress_energy(const PlasticParameters<Real>& p, const
   return energy;
 }
 
+/// Dissipation of a step, (S − Σ α_i) : ΔE^p + Σ 3 γ_i/(2 C_i) α_i:α_i Δp >= 0 [J/m³], with the stress and history at
+/// its end and the history at its start; isotropic hardening counts as dissipated. With the free energies it is the
+/// work done, S : ΔE, to the second order of the step (backward Euler dissipates (1/2) |Δ|² of each more: > 0).
+template <int terms, class T, class Real>
+RAILSTRATA_POINTWISE T plastic_dissipation(const PlasticParameters<Real>& p, const T (&stress)[6], const T* before,
+                                           const T* after) {
+  T flow[6], relative[6];
+  RAILSTRATA_UNROLL
+  for (int j = 0; j < 6; ++j) {
+    flow[j] = after[j] - before[j];
+    relative[j] = stress[j];
+  }
+  const T increment = after[6] - before[6];
+  T recalled{};
+  RAILSTRATA_UNROLL
+  for (int k = 0; k < terms; ++k) {
+    const T* alpha = after + 7 + 6 * k;
+    RAILSTRATA_UNROLL
+    for (int j = 0; j < 6; ++j) relative[j] -= alpha[j];
+    if (p.modulus[k] > 0)
+      recalled += Real(1.5) * p.recall[k] / p.modulus[k] * double_contraction(alpha, alpha) * increment;
+  }
+  return double_contraction(relative, flow) + recalled;
+}
+
 }  // namespace railstrata

@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
-#include "single_track/history_stress.hpp"
 #include "model/zone.hpp"
 #include "result/stress_cycles.hpp"
 #include "result/stress_of_half_space.hpp"
+#include "single_track/history_stress.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,17 +1,17 @@
 #pragma once
-// Does it last? Shakedown of rail and wheel (damage/shakedown.hpp) under a contact, from either engine.
+// Load factors of shakedown of rail and wheel (damage/shakedown.hpp) under a contact, from either engine.
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "bem/solve_bem.hpp"
 #include "damage/shakedown.hpp"
-#include "single_track/single_track.hpp"
 #include "fatigue/row_strength.hpp"
 #include "model/model.hpp"
 #include "result/band_stress.hpp"
 #include "result/patch.hpp"
 #include "result/summary.hpp"
+#include "single_track/single_track.hpp"
 #include "spec/case_fwd.hpp"
 
 namespace railstrata {
@@ -42,9 +42,9 @@ struct BandBody {
 std::vector<SectionShakedown> fem_shakedown(const Model& model, const PatchMeasures& patch, const BandBody& rail,
                                             const BandBody& wheel);
 
-/// Limit for wheels that all run in the same place (single_track/single_track.hpp) of a section that has its other factors.
-/// Where `upper` exceeds `wandering` by at most 2 % the limit lies between the two and is taken to be `wandering`, the
-/// safe one. Else `input` is asked for and solved, some seconds; what comes out lies between the two.
+/// Limit for wheels that all run in the same place (single_track/single_track.hpp) of a section that has its other
+/// factors. Where `upper` exceeds `wandering` by at most 2 % the limit lies between the two and is taken to be
+/// `wandering`, the safe one. Else `input` is asked for and solved, some seconds; what comes out lies between the two.
 double one_track(const Shakedown& found, const std::function<SingleTrackInput()>& input);
 
 /// The same of every section of `sections`, which half_space_shakedown has found; of a line contact it is `wandering`.

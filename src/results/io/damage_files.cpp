@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "judge/judgement.hpp"
-#include "judge/verdict.hpp"
 #include "record/csv.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"

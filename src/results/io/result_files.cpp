@@ -103,6 +103,38 @@ void write_slices(const std::filesystem::path& file, const std::vector<std::stri
   write_csv(file, provenance, points, columns);
 }
 
+/// The points of a band's picture: the nodes of its grid, station by station, then those below split interfaces.
+class BandPoints {
+ public:
+  explicit BandPoints(const BandStress& b)
+      : sample_(b.sample),
+        grid_((b.body->contact.columns + 1) * (b.body->contact.rows + 1)),
+        below_(nodes_below(*b.body)) {}
+
+  /// visit(node of the section, station, displacement), in order.
+  template <class Visit>
+  void each(Visit&& visit) const {
+    for (int s = 0; s <= sample_.stations; ++s)
+      for (int node = 0; node < grid_; ++node)
+        visit(node, s, sample_.displacement[static_cast<std::size_t>(s) * grid_ + node]);
+    std::size_t k = 0;
+    for (int s = 0; s <= sample_.stations; ++s)
+      for (int node : below_) visit(node, s, sample_.below[k++]);
+  }
+  long long number(int node, int station) const {
+    const long long s = station;
+    if (node < grid_) return s * grid_ + node;
+    const auto doubled = static_cast<long long>(below_.size());
+    return (sample_.stations + 1LL) * grid_ + s * doubled +
+           (std::find(below_.begin(), below_.end(), node) - below_.begin());
+  }
+
+ private:
+  const BandSample& sample_;
+  int grid_;
+  std::vector<int> below_;
+};
+
 }  // namespace
 
 void write_sections(const std::filesystem::path& folder, const std::string& body,
@@ -179,42 +211,6 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
                        vtk_field<std::int32_t>("state", points, select(all, {kPatchState}))};
   return mesh;
 }
-
-namespace {
-
-/// The points of a band's picture: the nodes of its grid, station by station, then those below split interfaces.
-class BandPoints {
- public:
-  explicit BandPoints(const BandStress& b)
-      : sample_(b.sample),
-        grid_((b.body->contact.columns + 1) * (b.body->contact.rows + 1)),
-        below_(nodes_below(*b.body)) {}
-
-  /// visit(node of the section, station, displacement), in order.
-  template <class Visit>
-  void each(Visit&& visit) const {
-    for (int s = 0; s <= sample_.stations; ++s)
-      for (int node = 0; node < grid_; ++node)
-        visit(node, s, sample_.displacement[static_cast<std::size_t>(s) * grid_ + node]);
-    std::size_t k = 0;
-    for (int s = 0; s <= sample_.stations; ++s)
-      for (int node : below_) visit(node, s, sample_.below[k++]);
-  }
-  long long number(int node, int station) const {
-    const long long s = station;
-    if (node < grid_) return s * grid_ + node;
-    const auto doubled = static_cast<long long>(below_.size());
-    return (sample_.stations + 1LL) * grid_ + s * doubled +
-           (std::find(below_.begin(), below_.end(), node) - below_.begin());
-  }
-
- private:
-  const BandSample& sample_;
-  int grid_;
-  std::vector<int> below_;
-};
-
-}  // namespace
 
 VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
   VtkHexahedra mesh;

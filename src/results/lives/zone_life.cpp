@@ -103,9 +103,8 @@ std::optional<WorstPlace> worst_place(const LifeZone& z, const AddKind& add, dou
 struct FoundLives {
   std::vector<LifeRow> rows;
   double units = kNever;  ///< by the best values; without removal where it never fails
-  DamagedPlace place;
+  std::optional<DamagedPlace> place{};
   std::size_t cell = 0;
-  bool any = false;
 };
 void keep_shortest(const LifeZone& z, const AddKind& add, const WorstPlace& worst, FoundLives& out) {
   const DamagedPlace place = damaged_place(z, worst.cell, 1, add);
@@ -115,7 +114,6 @@ void keep_shortest(const LifeZone& z, const AddKind& add, const WorstPlace& wors
   out.units = units;
   out.place = place;
   out.cell = worst.cell;
-  out.any = true;
 }
 
 void add_row(const LifeZone& z, const AddKind& add, const char* mechanism, const std::string& rests_on,
@@ -384,8 +382,8 @@ void add_body(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const Li
     if (layer) add_strengths(z, found.rows);
     top = z.bottom;
   }
-  if (across.body == BodyId::rail && found.any)
-    out.curve = curve_of(across, found.place, found.cell, 1.5 * found.units, mgt);
+  if (across.body == BodyId::rail && found.place)
+    out.curve = curve_of(across, *found.place, found.cell, 1.5 * found.units, mgt);
   if (across.body == BodyId::rail && !layers.empty()) out.curve.layer = spec.layers[layers.front()].thickness;
   for (LifeRow& row : found.rows) {
     for (double LifeRange::*v : kVariants) {

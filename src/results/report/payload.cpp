@@ -256,20 +256,26 @@ std::vector<double> largest_shears(const CsvTable& table) {
   return out;
 }
 
+/// What sections and slices have alike: values index along + along.size() * row.
+Json maps_of(const CsvTable& table, const std::vector<double>& along, std::size_t width,
+             const std::vector<double>& rows, const std::vector<double>& tau_max) {
+  return {{"along", numbers({along.begin(), along.begin() + static_cast<std::ptrdiff_t>(width)})},
+          {"depth", numbers(rows)},
+          {"von_mises", packed(table.column("von_mises_MPa"))},
+          {"sigma_1", packed(table.column("sigma_1_MPa"))},
+          {"sigma_xz", packed(table.column("sigma_xz_MPa"))},
+          {"tau_max", packed(tau_max)}};
+}
+
 Json section(const CsvTable& table, bool longitudinal) {
   const std::vector<double> x = table.column("x_mm"), y = table.column("y_mm"), depth = table.column("depth_mm");
   const std::size_t width = width_of(table, depth, 2);
   const std::vector<double>& along = longitudinal ? x : y;
   std::vector<double> rows;
   for (std::size_t i = 0; i < depth.size(); i += width) rows.push_back(depth[i]);
-  Json out{{"at", short_number(longitudinal ? y[0] : x[0])},
-           {"along", numbers({along.begin(), along.begin() + static_cast<std::ptrdiff_t>(width)})},
-           {"depth", numbers(rows)},
-           {"von_mises", packed(table.column("von_mises_MPa"))},
-           {"sigma_1", packed(table.column("sigma_1_MPa"))},
-           {"sigma_xz", packed(table.column("sigma_xz_MPa"))},
-           {"tau_max", packed(largest_shears(table))},
-           {"material", material_digits(table.column("material"))}};
+  Json out{{"at", short_number(longitudinal ? y[0] : x[0])}};
+  out.update(maps_of(table, along, width, rows, largest_shears(table)));
+  out["material"] = material_digits(table.column("material"));
   for (const CsvColumn& c : table.columns)
     if (c.name == "plastic_strain_accumulated") out["plastic_strain_accumulated"] = packed(c.values);
   return out;
@@ -284,13 +290,9 @@ Json slices_of(const CsvTable& table) {
   std::vector<double> at, rows;
   for (std::size_t i = 0; i < x.size(); i += size) at.push_back(x[i]);
   for (std::size_t i = 0; i < size; i += width) rows.push_back(depth[i]);
-  return {{"at", numbers(at)},
-          {"along", numbers({y.begin(), y.begin() + static_cast<std::ptrdiff_t>(width)})},
-          {"depth", numbers(rows)},
-          {"von_mises", packed(table.column("von_mises_MPa"))},
-          {"sigma_1", packed(table.column("sigma_1_MPa"))},
-          {"sigma_xz", packed(table.column("sigma_xz_MPa"))},
-          {"tau_max", packed(table.column("tau_max_MPa"))}};
+  Json out{{"at", numbers(at)}};
+  out.update(maps_of(table, y, width, rows, table.column("tau_max_MPa")));
+  return out;
 }
 
 Json slices(const ReportRun& run) {

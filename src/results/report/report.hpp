@@ -113,7 +113,7 @@ struct ReportGrid {
   std::vector<std::string> x, y;      ///< values of the keys, in order
   std::vector<ReportGridCell> cells;  ///< x + x.size() * y
 };
-/// A row of grids over two keys, of verdicts (judge/verdict.hpp) or of a value.
+/// A row of grids over two keys, of verdicts (judge/judgement.hpp) or of a value.
 struct ReportGrids {
   std::string id, title, note;
   std::string x, y;   ///< axes, with units

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "judge/check_limits.hpp"
-#include "judge/verdict.hpp"
+#include "judge/judgement.hpp"
 #include "passes/rolled_pass.hpp"
 #include "record/json.hpp"
 #include "result/result_table.hpp"

@@ -11,6 +11,7 @@
 #include "geometry/read_profile.hpp"
 #include "judge/bem_summary.hpp"
 #include "model/drive_at_contact.hpp"
+#include "rules/clashes.hpp"
 
 namespace railstrata {
 namespace {

@@ -10,6 +10,7 @@
 #include "core/faults.hpp"
 #include "core/root.hpp"
 #include "halfspace/hertz.hpp"
+#include "rules/clashes.hpp"
 
 namespace railstrata {
 

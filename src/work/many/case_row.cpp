@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "record/csv.hpp"
+#include "record/escaped_text.hpp"
 #include "record/json.hpp"
 #include "record/output_file.hpp"
-#include "record/spreadsheet_text.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {

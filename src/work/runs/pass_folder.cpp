@@ -13,6 +13,7 @@
 #include "passes/pass_runner.hpp"
 #include "passes/pass_way.hpp"
 #include "result/result_table.hpp"
+#include "rules/clashes.hpp"
 #include "runs/pass_job.hpp"
 
 namespace railstrata {

@@ -7,6 +7,7 @@
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/provenance.hpp"
+#include "rules/clashes.hpp"
 #include "runs/pass_job.hpp"
 #include "runs/rolled_passes.hpp"
 #include "runs/write_fem_result.hpp"

@@ -10,6 +10,7 @@
 #include "io/provenance.hpp"
 #include "model/model.hpp"
 #include "record/escaped_text.hpp"
+#include "rules/clashes.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/write_report.hpp"
 
@@ -118,7 +119,7 @@ void follow_run(const LoadedCase& loaded, const std::filesystem::path& resumed, 
   if (resumed.empty()) require_support(uses::kFiniteElements, loaded);
   require_device(loaded, options.ranks);
   std::optional<RunState> begun;
-  if (!resumed.empty()) begun = read_checkpoint(resumed, identity_in_folder(resumed, loaded)).checkpoint.run;
+  if (!resumed.empty()) begun = read_checkpoint(resumed, case_identity(loaded)).checkpoint.run;
   const RollingSystem system = fem_system(loaded.spec, loaded.folder());
   RunObserver observer;  // what rank 0 asks for: all ranks take part in collecting the state
   const CaseSpec& spec = system.model.spec;

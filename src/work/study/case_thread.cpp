@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "io/output_folder.hpp"
 #include "record/output_file.hpp"
+#include "rules/clashes.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "runs/write_transient.hpp"
 #include "study/running_case.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/faults.hpp"
 #include "judge/check_limits.hpp"
-#include "judge/verdict.hpp"
+#include "judge/judgement.hpp"
 #include "many/axis.hpp"
 #include "many/case_page.hpp"
 #include "record/json.hpp"

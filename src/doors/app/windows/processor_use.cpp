@@ -1,4 +1,4 @@
-#include "app/processor_use.hpp"
+#include "app/processors.hpp"
 
 #include <windows.h>
 

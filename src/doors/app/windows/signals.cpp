@@ -4,17 +4,15 @@
 
 #include "app/control.hpp"
 #include "core/faults.hpp"
-#include "study/running_case.hpp"
 
 namespace railstrata {
 namespace {
 
 Control* asked_by_signals = nullptr;
-bool patient = false;
 
 /// Ctrl-C and Ctrl-Break, the window that is closed, the user who leaves; in a thread of its own.
 BOOL WINAPI ask_to_stop(DWORD event) {
-  if (asked_by_signals->stop.exchange(true) && !patient) std::_Exit(static_cast<int>(ExitCode::interrupted));
+  if (asked_by_signals->stop.exchange(true)) std::_Exit(static_cast<int>(ExitCode::interrupted));
   if (event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT) ::Sleep(INFINITE);  // the end of this call ends the program
   return TRUE;
 }
@@ -23,7 +21,6 @@ BOOL WINAPI ask_to_stop(DWORD event) {
 
 void handle_signals(Control& asked) {
   asked_by_signals = &asked;
-  patient = std::getenv(kIgnoreSecondSignal) != nullptr;
   ::SetConsoleCtrlHandler(ask_to_stop, TRUE);
 }
 

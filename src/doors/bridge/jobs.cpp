@@ -1,9 +1,29 @@
-#include "bridge/functions.hpp"
+// Jobs in folders: runs and passes.
+#include "bridge/call.hpp"
 #include "core/parallel.hpp"
 #include "runs/pass_folder.hpp"
+#include "runs/run_job.hpp"
 
 namespace railstrata::bridge {
 namespace {
+
+void carry_out(Call& call, const LoadedCase& loaded, bool resume, bool force) {
+  std::vector<std::string> notes;
+  call.control.on_progress = [&call](const std::string& phase, double fraction, int) {
+    if (!phase.empty()) call.report({phase, fraction});
+  };
+  call.control.on_warning = [&notes](const std::string& text) { notes.push_back(text); };
+  FemOptions options;
+  options.times.checkpoint_every = call.number("checkpoint_every");
+  options.times.limit = call.number("limit");
+  const JobOrder order{call.text("folder"), resume, force, false, {{"railstrata.run (Python)"}, max_threads()}};
+  const JobEnd end = RunJob(loaded, order, options, call.control).carry_out();
+  call.answer["stopped"] = end == JobEnd::stopped || end == JobEnd::out_of_time;
+  call.answer["notes"] = notes;
+}
+
+void run_case(Call& call) { carry_out(call, *call.made<LoadedCase>("case"), false, call.flag("force")); }
+void go_on(Call& call) { carry_out(call, case_to_resume(call.text("folder")), true, false); }
 
 PassOrder order_of(const Call& call) {
   PassOrder out;
@@ -35,6 +55,6 @@ void solve_passes(Call& call) {
 
 }  // namespace
 
-Functions pass_functions() { return {{"passes", solve_passes}}; }
+Functions job_functions() { return {{"run", run_case}, {"resume", go_on}, {"passes", solve_passes}}; }
 
 }  // namespace railstrata::bridge

@@ -1,4 +1,4 @@
-#include "app/option_values.hpp"
+#include "app/common_options.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/axle_report.hpp"
+#include "app/check_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "bridge/patches.hpp"
+#include "bridge/records.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,0 +1,16 @@
+#pragma once
+// A setting of a case that has no effect, with nothing of the table that says so (clashes.hpp).
+#include <string>
+
+namespace railstrata {
+
+struct Feature;
+struct Use;
+
+/// In one sentence, and the feature that takes its effect away; null: it needs one.
+struct IdleSetting {
+  const Feature* by;
+  std::string text;
+};
+
+}  // namespace railstrata
