@@ -172,6 +172,40 @@ TEST(TransientCase, FrettingFollowsMindlinsAndDeresiewiczsLoopAndLosesItsEnergy)
   EXPECT_TRUE(run.fields.back().slip_is_distance);
 }
 
+// A shift has nothing of rolling: whichever body has the crown, a force that is held moves nothing, and friction takes
+// no more than the force gives.
+TEST(TransientCase, AShiftThatIsHeldStandsStillOnEveryProfile) {
+  const std::string sphere = "wheel_radius = \"460 mm\"\ncant = 0.0\n";
+  const std::string profiles[] = {"rail_profile = \"arc:R=460 mm\"\nwheel_profile = \"flat\"\n" + sphere,
+                                  "rail_profile = \"flat\"\nwheel_profile = \"arc:R=460 mm\"\n" + sphere,
+                                  "rail_profile = \"CN60\"\nwheel_profile = \"LMA\"\n",
+                                  "rail_profile = \"UIC60\"\nwheel_profile = \"S1002\"\nlateral_shift = \"2 mm\"\n"};
+  double on_crown = 0;
+  for (const std::string& geometry : profiles) {
+    const Followed run = follow("[geometry]\n" + geometry +
+                                    "[vehicle]\nwheel_load = \"80 kN\"\n[drive]\nfriction_coefficient = 0.3\n"
+                                    "[transient]\nkind = \"shift\"\nincrements = 8\n"
+                                    "traction_coefficient = [0.0, 0.15, 0.15]\n",
+                                0.5e-3);
+    const TransientRow &pushed = run.rows()[16], &held = run.rows()[24];
+    EXPECT_LT(pushed.displacement_x, -5e-6) << geometry;
+    EXPECT_NEAR(held.displacement_x / pushed.displacement_x, 1, 1e-6) << geometry;
+    EXPECT_NEAR(held.friction_work / pushed.friction_work, 1, 1e-6) << geometry;
+    EXPECT_EQ(run.rows()[8].friction_work, 0) << geometry << "no force yet";
+    double given = 0;
+    for (std::size_t k = 1; k < run.rows().size(); ++k)
+      given -= run.rows()[k].F_x * (run.rows()[k].displacement_x - run.rows()[k - 1].displacement_x);
+    EXPECT_LT(held.friction_work, given) << geometry;
+    if (geometry == profiles[0]) {
+      on_crown = pushed.displacement_x;
+      const HalfSpaceMaterial steel{run.spec.rail_material.young, run.spec.rail_material.poisson};
+      const HertzContact hertz = hertz_estimate(run.spec, run.placement.contact);
+      EXPECT_NEAR(-on_crown / cattaneo_shift(hertz, 0.3, 12e3, steel, steel).shift, 1, 3e-3);
+    }
+    if (geometry == profiles[1]) EXPECT_NEAR(pushed.displacement_x / on_crown, 1, 1e-6) << "the crown changes sides";
+  }
+}
+
 // Where the tangential force rises by less than f times the normal force nothing slips: ring by ring comes into contact
 // and sticks, dδ/dQ = S/(8 a) with the half-width a of the moment, S as above. [Johnson1985 sec. 7.4]
 TEST(TransientCase, ForcesThatRiseTogetherBelowFrictionDoNotSlip) {
