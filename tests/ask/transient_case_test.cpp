@@ -202,7 +202,9 @@ TEST(TransientCase, AShiftThatIsHeldStandsStillOnEveryProfile) {
       const HertzContact hertz = hertz_estimate(run.spec, run.placement.contact);
       EXPECT_NEAR(-on_crown / cattaneo_shift(hertz, 0.3, 12e3, steel, steel).shift, 1, 3e-3);
     }
-    if (geometry == profiles[1]) EXPECT_NEAR(pushed.displacement_x / on_crown, 1, 1e-6) << "the crown changes sides";
+    if (geometry == profiles[1]) {
+      EXPECT_NEAR(pushed.displacement_x / on_crown, 1, 2e-5) << "a torus is a sphere to the fourth order";
+    }
   }
 }
 

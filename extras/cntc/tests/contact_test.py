@@ -5,12 +5,14 @@ Numbers to compare with: REFERENCE_FOLDER, and the printed results of CONTACT's 
 d431cdb, examples/*.ref_out), four digits each.
 """
 import csv
+import ctypes
 import math
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 
@@ -364,6 +366,16 @@ class Interface(OfTheInterface):
         c.call("rscntc_setlayers", 2, 0, [], [], [])
         self.assertEqual(c.calculate(), 0)
         self.assertEqual(c.p_max(), plain)
+
+    def test_the_lines_of_the_page_set_a_layer_through_the_wrapper_s_library(self):
+        c = self.contact()
+        self.assertEqual(c.calculate(), 0)
+        plain = c.p_max()
+        page = (SETS.parents[1] / "docs/contact-interface.md").read_text()
+        lines = re.search(r"```python\n(from ctypes.*?)```", page, re.S).group(1)
+        exec(lines, {"cntc": types.SimpleNamespace(cntc_dll=ctypes.CDLL(LIBRARY))})  # as the wrapper loads it
+        self.assertEqual(c.calculate(), 0, c.error())
+        self.assertGreater(c.p_max(), 1.02 * plain)
 
     def test_falling_friction_without_memory(self):
         c = self.contact()
