@@ -373,6 +373,7 @@ class Interface(OfTheInterface):
         plain = c.p_max()
         page = (SETS.parents[1] / "docs/contact-interface.md").read_text()
         lines = re.search(r"```python\n(from ctypes.*?)```", page, re.S).group(1)
+        lines = lines.replace("setlayers(whole(1)", f"setlayers(whole({c.ire})")
         exec(lines, {"cntc": types.SimpleNamespace(cntc_dll=ctypes.CDLL(LIBRARY))})  # as the wrapper loads it
         self.assertEqual(c.calculate(), 0, c.error())
         self.assertGreater(c.p_max(), 1.02 * plain)
