@@ -244,5 +244,11 @@ TEST(Wheelset, ConesRollInTheWavesOfKlingel) {
   RecordProperty("klingel", std::to_string(klingel));
 }
 
+TEST(Wheelset, FreeingAContactOfItLeavesItWhole) {
+  Set set;
+  rs_contact_free(rs_wheelset_contact(set.handle, RS_LEFT));
+  EXPECT_EQ(set.solve(loaded(0)), RS_OK) << set.error.message;
+}
+
 }  // namespace
 }  // namespace railstrata

@@ -137,7 +137,7 @@ class WhatIf(unittest.TestCase):
         page = self.folder / "never.html"
         done = report(RESULTS / "rest", page, "--what-if")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("history in time", done.stderr)
+        self.assertIn("transient.kind is not supported by the explorer", done.stderr)
         self.assertFalse(page.exists())
 
 

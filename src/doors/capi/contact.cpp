@@ -99,7 +99,7 @@ rs_contact* rs_contact_from_text(const char* toml, const char* const* overrides,
 }
 
 void rs_contact_free(rs_contact* contact) {
-  if (contact) delete &contact_of(contact);
+  if (contact && !contact_of(contact).of_wheelset) delete &contact_of(contact);
 }
 
 int rs_set_cell(rs_contact* contact, double cell, rs_error* error) {

@@ -51,7 +51,7 @@ RS_API int rs_version(void);
  * them. The text form takes the case itself; profile names are then relative to the working folder. */
 RS_API rs_contact* rs_contact_new(const char* case_file, const char* const* overrides, int count, rs_error* error);
 RS_API rs_contact* rs_contact_from_text(const char* toml, const char* const* overrides, int count, rs_error* error);
-/* NULL is allowed. */
+/* NULL is allowed, and a contact of a wheelset, which stays: rs_wheelset_free ends it. */
 RS_API void rs_contact_free(rs_contact* contact);
 
 /* Bits of rs_state.given. */

@@ -102,7 +102,8 @@ class Contact {
   const BemResult* last() const { return last_ ? &*last_ : nullptr; }
   /// Checks that fail and notes of the last solution, one a line.
   const std::string& remarks() const { return remarks_; }
-  NextStart start;  ///< of the next solution
+  NextStart start;           ///< of the next solution
+  bool of_wheelset = false;  ///< a part of a wheelset, which ends with it
 
  private:
   /// The case in a state, with a place of its own where the state moves the wheel.

@@ -309,6 +309,7 @@ WheelForces forces_of(const Wheel& w, double y, bool mirror) {
 
 Wheel::Wheel(const LoadedCase& loaded) : contact(loaded), at_rest(track()) {
   at_rest.lateral_shift = 0;
+  contact.of_wheelset = true;
   require_support(uses::kWheelset, loaded);
 }
 
