@@ -1,5 +1,5 @@
 #pragma once
-// A setting of a case that has no effect, with nothing of the table that says so (clashes.hpp).
+// A setting of a case that has no effect, apart from the table that gives the reason (clashes.hpp).
 #include <string>
 
 namespace railstrata {
