@@ -130,15 +130,6 @@ ContactArrays::ContactArrays(Device& device, const RollingSystem& sys, double dt
   make(parts_, t.totals.parts, std::size_t{kRowNumbers} * kRowParts);
 }
 
-std::size_t ContactArrays::bytes() const {
-  std::size_t out = 0;
-  const auto add = [&](const auto&... arrays) { ((out += arrays.bytes()), ...); };
-  add(tractions_, corrections_, active_, near_, edge_, slips_, hits_, rows_, starts_, weights_, changes_, numbers_,
-      parts_);
-  for (const Nodes* n : {&rail_nodes_, &wheel_nodes_}) add(n->before, n->after, n->force, n->answer);
-  return out;
-}
-
 void ContactArrays::load(const RestartState& state) {
   tractions_.upload(state.state.tractions.all());
   const std::size_t nodes = active_.size();

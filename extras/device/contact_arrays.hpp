@@ -30,7 +30,6 @@ class ContactArrays {
   void load(const RestartState& state);
   void store(RestartState& state) const;
 
-  std::size_t bytes() const;
   std::ptrdiff_t slots() const { return static_cast<std::ptrdiff_t>(tables_.window) * tables_.inner; }
   std::ptrdiff_t facets() const { return static_cast<std::ptrdiff_t>(active_.size()); }
   std::ptrdiff_t hits() const { return static_cast<std::ptrdiff_t>(hits_.size()); }

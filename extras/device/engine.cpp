@@ -121,11 +121,6 @@ Engine::Engine(Device& device, const RollingSystem& system, const RollingBodies&
   tree_ = {{device, pieces}, {device, pieces}};
 }
 
-double Engine::row_bytes(std::size_t body) const {
-  const BodyTables& t = state_[body].tables;
-  return static_cast<double>(t.in_double.rows.bytes() + t.in_single.rows.bytes());
-}
-
 void Engine::load(const RestartState& state) {
   assert(state.state.step % law_.search_interval == 0);
   for (std::size_t k = 0; k < state_.size(); ++k) {

@@ -18,10 +18,6 @@ class Engine : public StepEngine {
   void store(RestartState& state) override;
   std::span<const StepRecord> take(int count, bool energies) override;
 
-  /// Bytes of the rows that a body's elements leave for their corners, and of the contact's arrays.
-  double row_bytes(std::size_t body) const;
-  double contact_bytes() const { return static_cast<double>(contact_.bytes()); }
-
   /// Internal forces alone, of all nodes: f at displacement u, turned by psi. For tests.
   void internal_force(std::size_t body, const Field& u, double psi, Field& f);
 

@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "core/faults.hpp"
-#include "fem/rank_need.hpp"
 #include "small_rolling.hpp"
 #include "thread_ranks.hpp"
 
@@ -271,26 +270,6 @@ TEST(Ranks, MoreThanThereArePiecesAreRefused) {
     EXPECT_NE(std::string(e.what()).find("1000 ranks cannot share this mesh: it has "), std::string::npos) << e.what();
     EXPECT_NE(std::string(e.what()).find("start fewer ranks, with more threads each"), std::string::npos);
   }
-}
-
-// The numbers of `check` are those that are exchanged.
-TEST(SlowRanks, ExchangeTheBytesThatTheirNeedSays) {
-  const RollingSystem system = small_system(small_case());
-  const PreloadResult preload = solve_preload(system, 1e-3);
-  for (int count : {2, 3, 4}) {
-    ThreadRanks ranks(count);
-    ranks.run(1, [&](const Ranks& mine) { Stepper(system, preload, mine).step(); });
-    const RankNeed need = rank_need(system.model, count);
-    EXPECT_EQ(need.ranks, count);
-    EXPECT_EQ(need.bytes, 8.0 * static_cast<double>(ranks.received()));
-    EXPECT_GE(need.largest_share, 1.0 / count);
-    EXPECT_LT(need.largest_share, 1.0);
-  }
-  const RankNeed one = rank_need(system.model, 1), many = rank_need(system.model, 1000000);
-  EXPECT_EQ(one.bytes, 0);
-  EXPECT_EQ(one.largest_share, 1);
-  EXPECT_EQ(relative_step_time(one, 1e-3), 1);
-  EXPECT_EQ(many.ranks, static_cast<int>(system.rail().tiling.tiles.size() + system.wheel().tiling.tiles.size()));
 }
 
 // As on a machine of another kind: the second rank starts from another last bit.

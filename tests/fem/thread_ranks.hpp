@@ -40,8 +40,6 @@ class ThreadRanks {
   }
 
   long gathers() const { return gathers_; }
-  /// Of the last one, by the rank that gave least.
-  std::ptrdiff_t received() const { return received_; }
 
  private:
   struct Seat {
@@ -59,7 +57,6 @@ class ThreadRanks {
     if (seat.rank == 0) {
       ranks.list_.resize(static_cast<std::size_t>(total));
       ++ranks.gathers_;
-      ranks.received_ = total - *std::min_element(sizes, sizes + ranks.seats_.size());
     }
     ranks.barrier_.arrive_and_wait();
     std::copy_n(all + before, sizes[seat.rank], ranks.list_.data() + before);
@@ -72,7 +69,6 @@ class ThreadRanks {
   std::vector<Seat> seats_;
   std::vector<double> list_;
   long gathers_ = 0;
-  std::ptrdiff_t received_ = 0;
 };
 
 }  // namespace railstrata::fem_checks

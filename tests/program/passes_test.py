@@ -252,7 +252,6 @@ class Passes(FromOutside):
         self.refused(2, ["passes", BASE, *COARSE, *strength(400), "--set", "material.rail.elastic=true", "--out",
                          self.folder / "none"], "elastic = true", "yield_strength")
         self.refused(2, ["passes", BASE, *weak, "--roll-length", "80 mm"], "rolls no length", "--engine fem")
-        self.refused(2, ["passes", BASE, *weak, "--wheels", "same"], "--wheels", "--engine fem")
         self.refused(2, ["passes", BASE, *weak, "--engine", "fem", "--cell", "1 mm"], "--cell", "mesh.element_size")
         self.refused(2, ["passes", BASE, "--passes", "0", *weak], "--passes")
         self.assertFalse((self.folder / "none").exists())

@@ -154,7 +154,6 @@ class RolledPasses(FromOutside):
         self.refused(2, self.words("none"), "run.plasticity = true needs material.rail.yield_strength", "hardening")
         short = [word if word != "50 mm" else "40 mm" for word in self.words("none", *WEAK)]
         self.refused(2, short, "leaves no steady stations", "roll 49.2 mm or more")
-        self.refused(2, self.words("none", *WEAK, "--wheels", "same"), "another place of its rim", "--wheels new")
         self.refused(2, self.words("none", *WEAK, "--set", 'mesh.element="one_point"'), 'mesh.element = "full"')
 
 

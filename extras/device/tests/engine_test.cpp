@@ -4,7 +4,6 @@
 
 #include "core/faults.hpp"
 #include "device/card.hpp"
-#include "device/device_need.hpp"
 #include "device/device_of.hpp"
 #include "device/emulated_device.hpp"
 #include "extras/device/tests/engine_checks.hpp"
@@ -146,23 +145,6 @@ TEST(SlowEngine, AWholeRunHasTheHistoryAndSamplesOfTheProcessor) {
     scale = std::max(scale, von_mises(a.rail.stress[k]));
   }
   EXPECT_LT(worst, 1e-9 * scale);
-}
-
-// The bytes that `check` reports are those that an engine allocates there, array for array.
-TEST(SlowEngine, CountsWhatACardWouldNeed) {
-  for (const CaseSpec& spec : {small_case(), layered_case(ArithmeticPrecision::single_precision)}) {
-    const RollingSystem system = small_system(spec);
-    StepPlan plan(system);
-    const DeviceNeed need = device_need(system, plan);
-    EmulatedDevice device(Protection::open);
-    Stepper stepper(system, solve_preload(system, 1e-2));
-    stepper.use(on(device));
-    roll(stepper, 20);
-    EXPECT_EQ(need.memory(), static_cast<double>(device.allocated()));
-    for (const double part : {need.fields, need.rows, need.tables, need.contact}) EXPECT_GT(part, 0);
-    ASSERT_EQ(need.cards.size(), 3u);
-    EXPECT_LT(need.cards[2].step, need.cards[0].step);
-  }
 }
 
 // In a case it goes with run.plasticity, which a device does not take; the kernels have it.

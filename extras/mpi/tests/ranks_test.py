@@ -138,19 +138,6 @@ class Ranks(FromOutside):
         self.assertIn(f"rank 2 (process {lost}) has ended before the others", err)
         self.assertFalse((self.out / "checkpoint.h5").exists())
 
-    def test_check_tells_what_ranks_would_need(self):
-        case = self.case(SMALL)
-        rc, text, err = railstrata("check", case, "--machines")
-        self.assertIn(rc, (0, 1), err)
-        for count in (2, 4):
-            self.assertRegex(text, rf"on {count} ranks     about .*; one has [0-9]+ % of the work and gets")
-        rc, text, err = railstrata("check", case, "--machines", "--json")
-        found = json.loads(text)
-        for count, ranks in zip((2, 4), found["on_ranks"]):
-            self.assertEqual(ranks["ranks"], count)
-            self.assertGreaterEqual(ranks["largest_share"], 1 / count)
-            self.assertEqual(ranks["memory_bytes_each"], found["memory_bytes"])
-
     def test_a_mistake_is_told_once(self):
         wrong = self.case(SMALL.replace("[run]", "[run]\nwindwo = 1"))
         rc, _, err = finished(ranked(2, "run", wrong, "--out", self.out))

@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 #include "app/progress.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "fem/memory_need.hpp"
-#include "geometry/wheelset.hpp"
 #include "io/geometry_json.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/unstructured.hpp"
@@ -63,53 +61,6 @@ nlohmann::ordered_json mesh_json(const std::vector<MeshRow>& rows) {
   return out;
 }
 
-AxleWheel wheel_of(const RigidContact& contact, double mean_radius, double half_distance, double curvature) {
-  return {contact, 1 - half_distance * curvature - contact.rolling_radius / mean_radius, yaw_creepage(contact),
-          wheel_spin(contact) + std::cos(contact.angle) * curvature};
-}
-
-std::optional<AxleOnTrack> axle_if_any(const CaseSpec& spec, const Placement& placement) {
-  if (placement.wheel.primitive() || placement.rail.primitive() || std::isfinite(placement.track.rail_radius))
-    return std::nullopt;
-  try {
-    return axle_of(spec, placement);
-  } catch (const CaseError&) {
-    return std::nullopt;
-  }
-}
-
-std::string line_of(const char* name, const char* wheel, const AxleWheel& w) {
-  return fmt::format(
-      "{:<14} {}: rolling radius {:.3f} mm, contact angle {:.2f} mrad, creepages {:.3e} and {:.3e}, spin {:.4f} 1/m\n",
-      name, wheel, 1e3 * w.contact.rolling_radius, 1e3 * w.contact.angle, w.creepage_x, w.creepage_y, w.spin);
-}
-
-nlohmann::ordered_json json_of(const AxleWheel& w) {
-  return {{"rolling_radius_m", w.contact.rolling_radius},
-          {"angle_rad", w.contact.angle},
-          {"creepage_x", w.creepage_x},
-          {"creepage_y", w.creepage_y},
-          {"spin_per_m", w.spin}};
-}
-
-/// Empty where the wheels stand on no track (an arc, a plane, a roller) or the other wheel misses its rail.
-std::string axle_text(const CaseSpec& spec, const Placement& placement) {
-  const std::optional<AxleOnTrack> axle = axle_if_any(spec, placement);
-  if (!axle) return {};
-  return line_of("axle", "this wheel", axle->here) + line_of("", "the other ", axle->other) +
-         fmt::format("{:<14} rolling radius of the other less this one {:.3f} mm; the curve asks for {:.3f} mm\n", "",
-                     1e3 * axle->radius_difference, 1e3 * axle->wanted_difference);
-}
-
-nlohmann::ordered_json axle_json(const CaseSpec& spec, const Placement& placement) {
-  const std::optional<AxleOnTrack> axle = axle_if_any(spec, placement);
-  if (!axle) return nullptr;
-  return {{"this_wheel", json_of(axle->here)},
-          {"other_wheel", json_of(axle->other)},
-          {"radius_difference_m", axle->radius_difference},
-          {"wanted_difference_m", axle->wanted_difference}};
-}
-
 /// y of the contact point on the wheel, m from the tape circle.
 double wheel_y(const Placement& p) {
   return p.contact.roll == 0 ? p.contact.point.y - p.contact.wheel_offset_y : p.wheel.at(p.contact.wheel_s).position.y;
@@ -147,7 +98,6 @@ void print_geometry(const CaseSpec& spec, const Placement& placement) {
   if (c.yaw != 0)
     fmt::print("yaw            {:.3f} mrad; the contact lies {:.3f} mm before the axle\n", 1e3 * c.yaw, 1e3 * c.x);
   if (c.roll != 0) fmt::print("roll           {:.3f} mrad, field side up\n", 1e3 * c.roll);
-  fmt::print("{}", axle_text(spec, placement));
   if (spec.vehicle.approach)
     fmt::print("approach       {:.4g} mm, given: the load is a result, {:.3f} kN by Hertz\n",
                1e3 * *spec.vehicle.approach, 1e-3 * hertz.load);
@@ -161,63 +111,11 @@ void print_geometry(const CaseSpec& spec, const Placement& placement) {
                1e3 * hertz.b, 1e-6 * hertz.p0);
 }
 
-void print_ranks(const RunEstimate& e) {
-  for (const RunEstimate::OnRanks& r : e.ranks)
-    fmt::print("on {} ranks     about {}; one has {:.0f} % of the work and gets {:.2f} MB a step; {:.0f} MB each\n",
-               r.need.ranks, duration_text(r.seconds), 100 * r.need.largest_share, 1e-6 * r.need.bytes,
-               1e-6 * r.memory_bytes);
-  if (!e.ranks.empty())
-    fmt::print("ranks          at most {}; times for machines like this one, {:.0f} us and {:.1f} GB/s apart\n",
-               e.ranks.front().need.tiles, 1e6 * RankNetwork{}.latency, 1e-9 * RankNetwork{}.bandwidth);
-}
-
-void print_card(const RunEstimate& e) {
-  if (!e.card.refused.empty()) return fmt::print("on a card      not: a device takes no {}\n", e.card.refused);
-  if (e.card.cards.empty()) return;
-  std::string times;
-  for (const device::DeviceNeed::OnCard& c : e.card.cards)
-    times += fmt::format("{}{} on {} ({:.2f} TB/s)", times.empty() ? "" : ", ",
-                         duration_text(static_cast<double>(e.steps) * c.step), c.name, 1e-12 * c.bandwidth);
-  fmt::print("on a card      about {}: counted from data sheets, not measured\n", times);
-  fmt::print(
-      "               {:.0f} MB there: fields {:.0f}, elements' forces {:.0f}, tables {:.0f}, contact {:.1f}; "
-      "{:.0f} bytes a step to the host\n",
-      1e-6 * e.card.memory(), 1e-6 * e.card.fields, 1e-6 * e.card.rows, 1e-6 * e.card.tables, 1e-6 * e.card.contact,
-      e.card.copied);
-}
-
 nlohmann::ordered_json as_json(const std::vector<Warning>& warnings) {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
   for (const Warning& w : warnings)
     out.push_back({{"name", w.name}, {"value", w.value}, {"limit", w.limit}, {"text", w.text}});
   return out;
-}
-
-nlohmann::ordered_json as_json(const std::vector<RunEstimate::OnRanks>& all) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  for (const RunEstimate::OnRanks& r : all)
-    out.push_back({{"ranks", r.need.ranks},
-                   {"most_ranks", r.need.tiles},
-                   {"largest_share", r.need.largest_share},
-                   {"bytes_a_step", r.need.bytes},
-                   {"memory_bytes_each", r.memory_bytes},
-                   {"rolling_wall_s", r.seconds}});
-  return out;
-}
-
-nlohmann::ordered_json as_json(const device::DeviceNeed& need, long steps) {
-  if (!need.refused.empty()) return {{"refused", need.refused}};
-  if (need.cards.empty()) return nullptr;
-  nlohmann::ordered_json cards = nlohmann::ordered_json::array();
-  for (const device::DeviceNeed::OnCard& c : need.cards)
-    cards.push_back({{"name", c.name},
-                     {"bytes_per_s", c.bandwidth},
-                     {"step_s", c.step},
-                     {"rolling_wall_s", static_cast<double>(steps) * c.step}});
-  return {{"measured", false},           {"memory_bytes", need.memory()},
-          {"of_fields", need.fields},    {"of_element_forces", need.rows},
-          {"of_tables", need.tables},    {"of_contact", need.contact},
-          {"bytes_a_step", need.copied}, {"cards", cards}};
 }
 
 }  // namespace
@@ -243,8 +141,6 @@ void print_estimate(const Model& m, const RunEstimate& e) {
   }
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
-  print_ranks(e);
-  print_card(e);
 }
 
 std::string mesh_table(const Model& model) {
@@ -295,12 +191,11 @@ nlohmann::ordered_json placement_json(const CaseSpec& spec, const Placement& pla
             {"roll_rad", c.roll},
             {"rolling_radius_m", c.rolling_radius},
             {"rail_turn_per_m", c.rail_turn}}},
-          {"axle", axle_json(spec, placement)},
           {"load_N", hertz.load},
           {"hertz", {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}}}};
 }
 
-nlohmann::ordered_json run_json(const Model& m, const RunEstimate& e, bool machines) {
+nlohmann::ordered_json run_json(const Model& m, const RunEstimate& e) {
   nlohmann::ordered_json out = placement_json(m.spec, m.placement);
   out.update({{"elements", m.rail.elements() + m.wheel.elements()},
               {"nodes", m.rail.nodes() + m.wheel.nodes()},
@@ -315,20 +210,7 @@ nlohmann::ordered_json run_json(const Model& m, const RunEstimate& e, bool machi
               {"memory_bytes", e.memory_bytes},
               {"blocks", mesh_json(mesh_rows(m))},
               {"warnings", as_json(warnings_of(m, e))}});
-  if (machines) out.update({{"on_ranks", as_json(e.ranks)}, {"on_a_card", as_json(e.card, e.steps)}});
   return out;
-}
-
-AxleOnTrack axle_of(const CaseSpec& spec, const Placement& placement) {
-  TrackGeometry beside = placement.track;
-  for (double TrackGeometry::*odd : {&TrackGeometry::lateral_shift, &TrackGeometry::yaw, &TrackGeometry::roll})
-    beside.*odd = -(beside.*odd);
-  const RigidContact other = place_wheel(placement.wheel, placement.rail, beside);
-  const double here = placement.contact.rolling_radius, mean = 0.5 * (here + other.rolling_radius),
-               curvature = spec.geometry.curve_radius ? 1 / *spec.geometry.curve_radius : 0.0,
-               half = tape_circle_distance(placement.track);
-  return {wheel_of(placement.contact, mean, half, curvature), wheel_of(other, mean, half, -curvature),
-          other.rolling_radius - here, 2 * half * mean * curvature};
 }
 
 }  // namespace railstrata

@@ -23,7 +23,6 @@ namespace railstrata {
 namespace {
 
 struct CheckOptions {
-  bool machines = false;       ///< --machines
   bool mesh = false;           ///< --mesh
   bool receptance = false;     ///< --receptance
   double largest = 3000;       ///< --largest frequency of a receptance, Hz
@@ -157,10 +156,10 @@ ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
   for (const std::string& note : model.placement.notes) spdlog::info("{}", note);
   if (own.mesh) write_meshes(options, loaded, model);
   require_memory(model);
-  const RunEstimate estimate = estimate_run(model, own.machines);
+  const RunEstimate estimate = estimate_run(model);
   const std::string lacking = lacking_here(loaded);
   if (options.json) {
-    nlohmann::ordered_json out = run_json(model, estimate, own.machines);
+    nlohmann::ordered_json out = run_json(model, estimate);
     if (!lacking.empty()) out["not_here"] = lacking;
     fmt::print("{}\n", out.dump(2));
     return ExitCode::ok;
@@ -176,7 +175,6 @@ ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
 CommandWork declare_check(CLI::App& sub, CommandOptions& options) {
   const auto own = std::make_shared<CheckOptions>();
   add_case(sub, options);
-  sub.add_flag("--machines", own->machines, "Also estimate the time on several processes and on a card");
   auto* mesh = sub.add_flag("--mesh", own->mesh, "Write the meshes as VTU into a folder");
   auto* receptance =
       sub.add_flag("--receptance", own->receptance,

@@ -18,14 +18,10 @@ struct PassesOptions {
   bool resume = false;                      ///< --resume
   std::string checkpoint_every = "10 min";  ///< --checkpoint-every: a wall time; fem
   std::string roll_length;                  ///< --roll-length: a length; empty: chosen; fem
-  std::string wheels = "new";               ///< --wheels; fem
 };
 
 /// m; 0: chosen.
 double roll_length(const PassesOptions& options) {
-  if (options.wheels != "new")
-    throw CaseError("--wheels same: on a short roll a wheel touches the rail at another place of its rim in every pass",
-                    "--wheels new");
   return options.roll_length.empty() ? 0 : length_of("--roll-length", options.roll_length);
 }
 
@@ -33,9 +29,6 @@ double roll_length(const PassesOptions& options) {
 void require_stationary(const PassesOptions& options) {
   if (!options.roll_length.empty())
     throw CaseError("--roll-length: the stationary method rolls no length", "take it out, or add --engine fem");
-  if (options.wheels != "new")
-    throw CaseError("--wheels: the stationary method has one elastic wheel for all passes",
-                    "take it out, or add --engine fem");
 }
 
 PassOrder order_of(const PassesOptions& own, const CommandOptions& options, const LoadedCase& loaded) {
@@ -86,9 +79,6 @@ CommandWork declare_passes(CLI::App& sub, CommandOptions& options) {
   sub.add_option(
       "--roll-length", own->roll_length,
       "fem: rolled in a pass (default: 12 half-lengths of the patch); stations in its middle are the result");
-  sub.add_option("--wheels", own->wheels, "fem: of every pass: new")
-      ->check(CLI::IsMember({"new", "same"}))
-      ->capture_default_str();
   return [own, &options] { return command_passes(*own, options); };
 }
 

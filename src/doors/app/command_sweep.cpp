@@ -46,8 +46,7 @@ void print_warnings(const std::vector<SweepCase>& cases) {
       for (const auto& w : c.summary["warnings"]) ++count[w.value("name", "?")];
   if (!count.empty()) fmt::print("\nwarnings (column warnings of sweep.csv):\n");
   for (const auto& [name, cases_with] : count) {
-    const CheckRow* row = find_check(name);
-    fmt::print("  {} of {} cases: {}\n", cases_with, cases.size(), row ? std::string(row->name) : name);
+    fmt::print("  {} of {} cases: {}\n", cases_with, cases.size(), check_words(name).name);
   }
 }
 

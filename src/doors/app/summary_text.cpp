@@ -175,23 +175,17 @@ std::string steps_text(const RunSummary& r) {
       r.added_mass, 1e9 * r.stable_step, 1e9 * r.unscaled_step);
 }
 
-/// Name and unit of a check or warning; its key where the table does not know it.
-std::pair<std::string, Unit> words_of(const std::string& key) {
-  const CheckRow* row = find_check(key);
-  return row ? std::pair{std::string(row->name), row->unit} : std::pair{key, unit::kNone};
-}
-
 std::string checks_text(const Summary& s) {
   std::string out = "  checks\n";
   for (const Check& k : s.checks) {
-    const auto& [name, unit] = words_of(k.name);
-    out += fmt::format("    {:<6} {}{:>10}  (limit {})\n", k.ok ? "ok" : "FAILED", padded(name, 34),
+    const auto [name, unit] = check_words(k.name);
+    out += fmt::format("    {:<6} {}{:>10}  (limit {})\n", k.ok ? "ok" : "FAILED", padded(std::string(name), 34),
                        with_unit(unit, shown_beside_limit(k.value, k.limit), 3), limit_text(unit, k.limit));
   }
   for (const Warning& w : s.warnings) {
     const CheckRow* row = find_check(w.name);
-    const auto& [name, unit] = words_of(w.name);
-    out += fmt::format("    warn   {}{:>10}  (above {}): {}\n", padded(name, 34), with_unit(unit, w.value, 3),
+    const auto [name, unit] = check_words(w.name);
+    out += fmt::format("    warn   {}{:>10}  (above {}): {}\n", padded(std::string(name), 34), with_unit(unit, w.value, 3),
                        limit_text(unit, w.limit),
                        row && !row->own_text ? fmt::format("{}: {}", row->what, row->advice) : w.text);
   }

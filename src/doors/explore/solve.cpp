@@ -151,20 +151,17 @@ Json case_values(const CaseSpec& spec, const std::vector<std::string>& keys) {
 
 /// Failed checks and warnings as text.
 Json doubts_json(const Summary& s) {
-  const auto unit = [](const CheckRow* row) { return row ? row->unit : unit::kNone; };
-  const auto name = [](const CheckRow* row, const std::string& key) { return row ? std::string(row->name) : key; };
   Json out = Json::array();
   for (const Check& c : s.checks) {
-    const CheckRow* row = find_check(c.name);
+    const auto [name, unit] = check_words(c.name);
     if (!c.ok)
-      out.push_back(fmt::format("a check fails: {}: {}, limit {}", name(row, c.name),
-                                with_unit(unit(row), shown_beside_limit(c.value, c.limit), 3),
-                                limit_text(unit(row), c.limit)));
+      out.push_back(fmt::format("a check fails: {}: {}, limit {}", name,
+                                with_unit(unit, shown_beside_limit(c.value, c.limit), 3), limit_text(unit, c.limit)));
   }
   for (const Warning& w : s.warnings) {
     const CheckRow* row = find_check(w.name);
-    out.push_back(fmt::format("{}: {}, above {}: {}", name(row, w.name), with_unit(unit(row), w.value, 3),
-                              limit_text(unit(row), w.limit),
+    const auto [name, unit] = check_words(w.name);
+    out.push_back(fmt::format("{}: {}, above {}: {}", name, with_unit(unit, w.value, 3), limit_text(unit, w.limit),
                               row && !row->own_text ? fmt::format("{}: {}", row->what, row->advice) : w.text));
   }
   return out;

@@ -181,13 +181,6 @@ bool moments_of_tiles(const SweptBody& mesh, const Ties& ties) {
   return ties.levels().size() <= 1 && !axle_carries(mesh);
 }
 
-std::ptrdiff_t sent_numbers(const SentRanges& sent) {
-  std::ptrdiff_t out = 0;
-  for (const StationRanges& line : sent)
-    for (const StationRange& r : line) out += 3 * (r.end - r.begin);
-  return out;
-}
-
 std::vector<SentRanges> sent_ranges(const SharedLines& body, const std::vector<LineReach>& reaches) {
   std::vector<SentRanges> out;
   for (const OwnedChain& s : stretches(body.tiling, body.cut)) {

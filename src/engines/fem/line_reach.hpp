@@ -58,8 +58,6 @@ inline int moment_numbers(const Chain& stretch) { return 2 * (stretch.end_tile -
 
 /// Forces on lines that a stretch's owner gives in a usual step, by section node: those that another rank collects.
 using SentRanges = std::vector<StationRanges>;
-/// Number of values in it.
-std::ptrdiff_t sent_numbers(const SentRanges& sent);
 /// By stretch, in their order (body/tile_cut.hpp).
 std::vector<SentRanges> sent_ranges(const SharedLines& body, const std::vector<LineReach>& reaches);
 

@@ -210,6 +210,16 @@ constexpr const CheckRow* find_check(std::string_view key) {
   return nullptr;
 }
 
+/// What a check or warning is called; for a name that is not in the table the name itself, without a unit.
+struct CheckWords {
+  std::string_view name;
+  Unit unit = unit::kNone;
+};
+constexpr CheckWords check_words(std::string_view key) {
+  const CheckRow* row = find_check(key);
+  return row ? CheckWords{row->name, row->unit} : CheckWords{key};
+}
+
 /// For names that stand in the program; in a constant expression a wrong name does not compile.
 constexpr const CheckRow& check_row(std::string_view key) {
   if (const CheckRow* row = find_check(key)) return *row;

@@ -203,9 +203,8 @@ ReportVerdict verdict_of(const Report& report) {
     judged += c.judged;
     if (!c.judged || c.ok) continue;
     ++failed;
-    const CheckRow* row = find_check(c.name);
-    const Unit& unit = row ? row->unit : unit::kNone;
-    names += fmt::format("{}{}", names.empty() ? "" : "; ", row ? row->name : c.name);
+    const auto [name, unit] = check_words(c.name);
+    names += fmt::format("{}{}", names.empty() ? "" : "; ", name);
     if (std::isfinite(c.value))
       names += fmt::format(" {}, limit {}", with_unit(unit, c.value, 3), limit_text(unit, c.limit));
   }

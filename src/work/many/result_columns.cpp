@@ -40,10 +40,6 @@ const std::vector<ResultColumn>& study_columns() {
       own("section_von_mises_depth", "von Mises on the section, depth", kMillimetres),
       own("section_sigma_1", "σ₁ on the section", kMPa),
       own("section_sigma_1_depth", "σ₁ on the section, depth", kMillimetres),
-      own("whole_points_area", "area of whole points", kSquareMillimetres),
-      own("whole_points_length", "length of whole points", kMillimetres),
-      own("whole_points_slip_fraction", "slip area of whole points", kShare),
-      own("slip_over_stick", "slip area / stick area", kNone),
       {.name = "threads", .path = "/run/threads", .title = "threads"}};
   return columns;
 }

@@ -63,9 +63,8 @@ class SteadyPasses : public PassJob {
     for (const Check& c : contact.checks) {
       if (c.ok) continue;
       sound_ = false;
-      const CheckRow* row = find_check(c.name);
-      const Unit unit = row ? row->unit : unit::kNone;
-      add_doubt(fmt::format("a check of the contact fails: {} is {}, limit {}", c.name, with_unit(unit, c.value, 3),
+      const auto [name, unit] = check_words(c.name);
+      add_doubt(fmt::format("a check of the contact fails: {} is {}, limit {}", name, with_unit(unit, c.value, 3),
                             limit_text(unit, c.limit)));
     }
     for (const Warning& w : contact.warnings) add_doubt(w.text);

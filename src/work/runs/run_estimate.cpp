@@ -34,7 +34,7 @@ double preload_memory(const RollingSystem& system) {
 
 }  // namespace
 
-RunEstimate estimate_run(const Model& model, bool elsewhere) {
+RunEstimate estimate_run(const Model& model) {
   // Node update, ties and contact, which leave less of the elements in the caches than there is here: the steps of five
   // cases of 37,000 to 152,000 elements took 2.15, 1.41, 1.66, 1.70 and 1.79 times these forces on two cores.
   constexpr double kWholeStep = 1.7;
@@ -46,15 +46,6 @@ RunEstimate estimate_run(const Model& model, bool elsewhere) {
   e.seconds =
       kWholeStep * static_cast<double>(e.steps) * (force_seconds(system.rail()) + force_seconds(system.wheel()));
   e.memory_bytes = peak_memory() + preload_memory(system);
-  if (!elsewhere || e.steps == 0) return e;
-  e.card = device::device_need(system, plan);
-  if (system.on_ring()) return e;
-  for (int ranks : {2, 4}) {
-    const RankNeed need = rank_need(model, ranks);
-    if (need.ranks < ranks) break;
-    const double relative = relative_step_time(need, e.seconds / static_cast<double>(e.steps));
-    e.ranks.push_back({need, relative * e.seconds, e.memory_bytes});
-  }
   return e;
 }
 

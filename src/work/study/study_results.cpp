@@ -49,32 +49,6 @@ void add_section_maxima(const fs::path& folder, Json& out) {
   }
 }
 
-/// The patch by whole points, without interpolating its edges: every point that carries load, and the length of the
-/// longest line of them along x.
-void add_whole_points(const fs::path& folder, Json& out) {
-  const ContactField f = read_result_folder(folder).field;
-  double area = 0, slip = 0;
-  int longest = 0;
-  for (int c = 0; c < f.columns; ++c) {
-    int n = 0;
-    for (int s = 0; s < f.stations; ++s) {
-      const std::size_t k = static_cast<std::size_t>(s) * f.columns + c;
-      if (f.p[k] > 0) {
-        ++n;
-        area += f.area[k];
-        slip += f.state[k] == ContactState::slip ? f.area[k] : 0;
-      }
-    }
-    longest = std::max(longest, n);
-  }
-  const double spacing = f.stations > 1 ? std::abs(f.x[f.columns] - f.x[0]) : 0;
-  const ResultColumn &of_area = column_of("whole_points_area"), &of_length = column_of("whole_points_length");
-  out[of_area.name] = of_area.factor * area;
-  out[of_length.name] = of_length.factor * spacing * longest;
-  out[column_of("whole_points_slip_fraction").name] = area > 0 ? Json(slip / area) : Json(nullptr);
-  out[column_of("slip_over_stick").name] = area > slip ? Json(slip / (area - slip)) : Json(nullptr);
-}
-
 /// The largest von Mises stress and principal stress of the rail wherever they are, the surface included, with their
 /// depth.
 void add_rail_maxima(const Json& summary, Json& out) {
@@ -102,7 +76,6 @@ Json numbers_of(const fs::path& folder) {
   Json out = Json::object();
   add_rail_maxima(read_json(folder / "summary.json"), out);
   add_section_maxima(folder, out);
-  add_whole_points(folder, out);
   return out;
 }
 
