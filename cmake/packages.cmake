@@ -1,7 +1,7 @@
 # Debian packages by `cpack -G DEB` in a build folder (packaging/README.md):
 #
 #   railstrata               the program, its commands, cases and profiles, manual page
-#   librailstrata0.3         librailstrata.so and CONTACT's interface
+#   librailstrata0.4         librailstrata.so and CONTACT's interface
 #   librailstrata-dev        headers, CMake package, pkg-config
 #   python3-railstrata       the Python package
 #   railstrata-mpi           the plug-in for runs over Open MPI (with RAILSTRATA_MPI)

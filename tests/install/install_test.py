@@ -175,7 +175,7 @@ class CMakeConsumer(Consumer):
 
     def test_another_minor_version_is_not_taken(self):
         file = self.folder / "source/CMakeLists.txt"
-        file.write_text(file.read_text().replace("RailStrata 0.3", "RailStrata 0.2"))
+        file.write_text(file.read_text().replace("RailStrata 0.4", "RailStrata 0.3"))
         out = self.configure()
         self.assertNotEqual(out.returncode, 0)
         self.assertIn("RailStrata", out.stderr)
