@@ -19,10 +19,10 @@ namespace railstrata {
 namespace {
 
 /// A text in a field of so many columns; letters beyond ASCII count once.
-std::string padded(std::string text, std::size_t width) {
+std::string padded(std::string_view text, std::size_t width) {
   const auto letters = static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-  return letters < width ? text.append(width - letters, ' ') : text;
+  return std::string(text) + std::string(width - std::min(letters, width), ' ');
 }
 
 /// " ± 6.1" after a value in its unit; empty without an error bar.
@@ -37,7 +37,7 @@ std::string numbers_text(const Summary& s) {
     if (!std::isfinite(v)) continue;
     const ResultNumber* error = find_error_bar(n);
     const std::string bar = error ? bar_text(n.unit.factor * error->value(s)) : "";
-    out += fmt::format("  {}{:>10} {}{}\n", padded(std::string(n.label), 18), significant(n.unit.factor * v, n.digits),
+    out += fmt::format("  {}{:>10} {}{}\n", padded(n.label, 18), significant(n.unit.factor * v, n.digits),
                        padded(std::string(n.unit.shown) + bar, bars ? 16 : 7), n.name);
   }
   return out + fmt::format("  {}{:>10}\n", padded("F_x/F_z", 18), fixed(s.contact.F_x / s.contact.F_z, 4));
@@ -179,13 +179,13 @@ std::string checks_text(const Summary& s) {
   std::string out = "  checks\n";
   for (const Check& k : s.checks) {
     const auto [name, unit] = check_words(k.name);
-    out += fmt::format("    {:<6} {}{:>10}  (limit {})\n", k.ok ? "ok" : "FAILED", padded(std::string(name), 34),
+    out += fmt::format("    {:<6} {}{:>10}  (limit {})\n", k.ok ? "ok" : "FAILED", padded(name, 34),
                        with_unit(unit, shown_beside_limit(k.value, k.limit), 3), limit_text(unit, k.limit));
   }
   for (const Warning& w : s.warnings) {
     const CheckRow* row = find_check(w.name);
     const auto [name, unit] = check_words(w.name);
-    out += fmt::format("    warn   {}{:>10}  (above {}): {}\n", padded(std::string(name), 34), with_unit(unit, w.value, 3),
+    out += fmt::format("    warn   {}{:>10}  (above {}): {}\n", padded(name, 34), with_unit(unit, w.value, 3),
                        limit_text(unit, w.limit),
                        row && !row->own_text ? fmt::format("{}: {}", row->what, row->advice) : w.text);
   }
