@@ -2,7 +2,8 @@
 """Checks every #include of src/ against src/LAYERS: a room sees itself and the rooms on lower floors, nothing else. A
 room is a folder of its wing, src/<wing>/<room>. extras/LAYERS gives for each extra the floors of src/ it sees and the
 rooms that see it. Every room has a card, README.md, whose first heading is the room's name; the files that a card names
-exist. Below the highest room nothing prints, logs, ends the program or touches signals: others can call it.
+exist. Below the highest room nothing prints, logs, ends the program or touches signals: others can call it. Nothing has
+std::ranges algorithms, which the compiler of the explorer's engine (Emscripten of Debian 12) lacks.
 
 usage: check_layers.py SRC
 """
@@ -157,6 +158,8 @@ def room_complaints(folder, levels, extras):
             found.append(f"{file}:{number}: {folder.name} must not print, log, exit or handle signals: {word}")
         if folder.name != "record" and FACTOR.search(line.split("//")[0]):
             found.append(f"{file}:{number}: factors of units stand in record/unit.hpp alone")
+        if "std::ranges::" in line:
+            found.append(f"{file}:{number}: std::ranges is not in the explorer's compiler: use the algorithms of std::")
         include = INCLUDE.match(line)
         reason = include and complaint(folder.name, include.group(1), levels, extras)
         if reason:
@@ -184,7 +187,8 @@ def test_includes():
             (folder / "README.md").write_text(f"# {room}\n")
             (folder / "a.hpp").write_text(f'#include <vector>\n#include "{room}/b.hpp"\n#include "{include}"\n')
         (src / "ground/left/b.cpp").write_text('// puts("here")\nvoid f() { std::puts("there"); }\n')
-        (src / "roof/top/b.cpp").write_text('void f() { std::puts("here"); }\nconstexpr double kToMilli = 1e3;\n')
+        (src / "roof/top/b.cpp").write_text('void f() { std::puts("here"); }\nconstexpr double kToMilli = 1e3;\n'
+                                         'std::ranges::sort(a);\n')
         found = check(src)
         expected = [
             "stray: not a room",
@@ -193,6 +197,7 @@ def test_includes():
             'low must not include "top/a.hpp"',
             'top must not include "a.hpp"',
             "b.cpp:2: factors of units",
+            "b.cpp:3: std::ranges",
         ]
         assert len(found) == len(expected) and all(e in f for e, f in zip(expected, found)), found
 

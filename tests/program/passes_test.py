@@ -230,7 +230,7 @@ class Passes(FromOutside):
         words[words.index("1 mm")] = "5 mm"
         rc, _, err = railstrata("passes", LAYERED, *words, *strength(450), "--passes", 1, "--no-report", "--out", out)
         self.assertEqual(rc, 1, err)
-        self.assertIn("a check of the contact fails: cell_of_patch", err)
+        self.assertIn("a check of the contact fails: Patch resolved is ", err)
         self.assertRegex(err, "the case gives no strength, so it stays elastic: give layer.0.yield_strength")
         notes = " ".join(json.loads((out / "passes.json").read_text())["notes"])
         self.assertIn("cell_of_patch", notes)

@@ -44,7 +44,8 @@ rs_wheelset* new_wheelset(const char* const* overrides, int count, const char* c
   return capi::made(error, [&] {
     std::vector<std::string> texts = capi::overrides_of(overrides, count);
     const LoadedCase left = read(texts);
-    std::ranges::copy(capi::overrides_of(right, right_count), std::back_inserter(texts));
+    const auto of_right = capi::overrides_of(right, right_count);
+    texts.insert(texts.end(), of_right.begin(), of_right.end());
     return capi::handle_of(new Wheelset(left, read(texts)));
   });
 }

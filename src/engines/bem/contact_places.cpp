@@ -32,7 +32,8 @@ void put_in_order(std::vector<ContactPlace>& places) {
   std::size_t next = 0;
   for (auto& [old, now] : number) now = next++;
   for (ContactPlace& p : places) p.patch = number[p.patch];
-  std::ranges::sort(places, {}, [](const ContactPlace& p) { return p.contact.rail_s; });
+  std::sort(places.begin(), places.end(),
+            [](const ContactPlace& a, const ContactPlace& b) { return a.contact.rail_s < b.contact.rail_s; });
 }
 
 std::vector<RigidContact> contacts_of(const std::vector<ContactPlace>& places, std::size_t patch) {

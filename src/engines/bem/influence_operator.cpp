@@ -37,10 +37,11 @@ std::vector<RectangleInfluence> influence_table(const SurfaceCompliance& pair, c
 }
 
 bool same(const LayeredHalfSpace& a, const LayeredHalfSpace& b) {
-  return a.substrate == b.substrate &&
-         std::ranges::equal(a.layers, b.layers, [](const HalfSpaceLayer& one, const HalfSpaceLayer& other) {
-           return one.thickness == other.thickness && one.material == other.material;
-         });
+  return a.substrate == b.substrate && std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
+                                                  [](const HalfSpaceLayer& one, const HalfSpaceLayer& other) {
+                                                    return one.thickness == other.thickness &&
+                                                           one.material == other.material;
+                                                  });
 }
 
 /// Wherever they lie.

@@ -137,7 +137,7 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
 
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return points[k].z; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a].z < points[b].z; });
   std::vector<InteriorPoint> out(points.size());
   StatePlane s;
   DisplacementPlane u;
