@@ -24,10 +24,7 @@ ENTRY = "explore/calls.cpp"
 # Rooms whose headers others include for the types, and whose functions nobody calls here: the linker would say.
 TYPES_ALONE = ("body/", "element/", "fem/", "mesh/", "contact/", "io/provenance.cpp")
 CALLED_HERE = ("contact/patch_extent.cpp",)  # of these, what is called here
-# Headers whose functions are in several sources.
-DEFINED_IN = {"fft/fft.hpp": ("fft/fft_lengths.cpp", "fft/fft_kiss.cpp"),
-              "options/case_tables.hpp": ("options/*_options.cpp",), "bem/subsurface.hpp": ("bem/subsurface_*.cpp",),
-              "result/result_table.hpp": ("result/table_columns.cpp",)}
+NOT_HERE = ("fft/fft_fftw.cpp", "halfspace/circular_pressure.cpp", "hdf5/")
 # Whole libraries of headers beside the system's own, which are not for this compiler.
 HEADERS = {"fmt": "/usr/include/fmt", "eigen3": "/usr/include/eigen3", "nlohmann": "/usr/include/nlohmann",
            "toml++": "/usr/include/toml++"}
@@ -57,7 +54,13 @@ def includes(file):
 
 
 def sources():
-    """Files to compile, by room, sorted."""
+    """Files to compile, by room, sorted: those whose first header is one of their room that is used."""
+    defined_in = {}
+    for source in (*SRC.glob("*/*/*.cpp"), *EXTRAS.glob("*/*.cpp")):
+        name = "/".join(source.parts[-2:])
+        header = next(iter(includes(name)), "")
+        if header.startswith(f"{source.parts[-2]}/"):
+            defined_in.setdefault(header, []).append(name)
     seen, todo = set(), [ENTRY]
     while todo:
         file = todo.pop()
@@ -66,10 +69,8 @@ def sources():
         seen.add(file)
         for header in includes(file):
             todo.append(header)
-            own = header.removesuffix(".hpp") + ".cpp"
-            if placed(own) and (own in CALLED_HERE or not own.startswith(TYPES_ALONE)):
-                todo.append(own)
-        todo += ("/".join(f.parts[-2:]) for pattern in DEFINED_IN.get(file, ()) for f in SRC.glob(f"*/{pattern}"))
+            todo += [own for own in defined_in.get(header, ())
+                     if own in CALLED_HERE or not own.startswith(TYPES_ALONE + NOT_HERE)]
     return sorted(f for f in seen if f.endswith(".cpp"))
 
 

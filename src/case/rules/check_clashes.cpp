@@ -1,4 +1,6 @@
 // What reads the table of clashes, and ranges that are narrower for a use.
+#include "rules/support.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include "geometry/height_field.hpp"
 #include "options/option_table.hpp"
 #include "rules/irregularity_rules.hpp"
-#include "rules/support.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {
