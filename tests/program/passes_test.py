@@ -233,7 +233,7 @@ class Passes(FromOutside):
         self.assertIn("a check of the contact fails: Patch resolved is ", err)
         self.assertRegex(err, "the case gives no strength, so it stays elastic: give layer.0.yield_strength")
         notes = " ".join(json.loads((out / "passes.json").read_text())["notes"])
-        self.assertIn("cell_of_patch", notes)
+        self.assertIn("Patch resolved", notes)
         self.assertIn("stays elastic", notes)
         self.assertIn("after 1 pass:", err)
 
