@@ -18,11 +18,11 @@ class WheelForces:
 
     force: N, on the wheel. moment: N m, of the contact on the wheelset, about its centre. normal_force, lateral_force:
     N, along the contact normal and across it, on the wheel. spin_moment: N m, on the wheel about the contact normal.
-    creepage_x, creepage_y: of the contact that touches first. spin: 1/m, of that contact. approach: m, along the normal
-    of the contact that touches first; < 0: lifted. point: m, the contact that touches first, from the middle of the
-    track below the centre. on_wheel, on_rail: m, y and z of it in the profiles' own axes, y to the field side.
-    contact_angle: rad, of the common tangent to y. rolling_radius: m. p_max: Pa. patch_area: m². dissipation: W, in the
-    patch. patches, cells: 0: lifted, which is an answer. ok: every check of the result holds.
+    creepage_x, creepage_y: at point. spin: 1/m, there. approach: m, along the normal there; < 0: lifted. point: m, of
+    the patch, or between several; from the middle of the track below the centre. on_wheel, on_rail: m, y and z of it in
+    the profiles' own axes, y to the field side. contact_angle: rad, of the common tangent to y. rolling_radius: m.
+    p_max: Pa. patch_area: m². dissipation: W, in the patch. patches, cells: 0: lifted, which is an answer. ok: every
+    check of the result holds.
     """
 
     force: tuple[float, float, float]

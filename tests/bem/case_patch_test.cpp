@@ -113,10 +113,10 @@ TEST(CarryCreepages, FollowsTheVelocitiesOfARigidWheelset) {
       -(kPitch * spec.geometry.wheel_radius + kSpeed / kRadius * tape_circle_distance(placement.track)) / kSpeed;
   spec.drive.lateral_creepage = kSideways / kSpeed;
   for (const RigidContact& c : {tread, flange}) {
-    const CaseSpec there = with_drive_at_contact(spec, c);
-    EXPECT_EQ(there.drive.creepage_of, CreepageOf::contact);
-    EXPECT_NEAR(there.drive.creepage.value(), slip(c).creepage_x, 2e-5);
-    EXPECT_NEAR(there.drive.lateral_creepage.value(), slip(c).creepage_y, 1e-12);
+    const DriveSpec there = drive_at_contact(spec, c);
+    EXPECT_EQ(there.creepage_of, CreepageOf::contact);
+    EXPECT_NEAR(there.creepage.value(), slip(c).creepage_x, 2e-5);
+    EXPECT_NEAR(there.lateral_creepage.value(), slip(c).creepage_y, 1e-12);
   }
   EXPECT_GT(std::abs(from.creepage_x - to.creepage_x), 1e-3);
 }

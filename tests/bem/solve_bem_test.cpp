@@ -49,7 +49,7 @@ TEST(SolveBem, NormalAndLateralForceTogetherBearTheWeightAtSteepContactAngles) {
     const double weight = spec.vehicle.load(), c = std::cos(r.contact.angle), s = std::sin(r.contact.angle);
     EXPECT_NEAR((r.force.normal * c - r.force.tangential * s) / weight, 1, 1e-5) << shift;
     EXPECT_NEAR(-r.force.z / weight, 1, 1e-5) << shift;
-    EXPECT_NEAR(r.force.x / (-0.05 * weight), 1, 1e-5) << shift;
+    EXPECT_NEAR(r.force.x, -0.05 * weight, 1e-5 * 0.3 * r.force.normal) << shift;
     double sum = 0;
     for (double p : r.field.p) sum += p * r.grid.cell_area();
     EXPECT_NEAR(sum / r.force.normal, 1, 1e-6) << shift;
@@ -97,7 +97,7 @@ TEST(SolveBem, SpinWithTheSurfacesOwnAnglesHasContactsLateralFriction) {
     return std::abs(solve_bem(spec, place(spec, {})).force.tangential);
   };
   EXPECT_NEAR(lateral_friction(SpinAngle::local) / 2484, 1, 0.015);
-  EXPECT_LT(lateral_friction(SpinAngle::patch) / 2484, 0.9) << "one spin for the patch, of its plane";
+  EXPECT_LT(lateral_friction(SpinAngle::patch) / 2484, 0.975) << "one spin for the patch, of its plane";
 }
 
 TEST(SolveBem, StiffLayerRaisesThePeakPressureAndSoftLayerLowersIt) {

@@ -13,15 +13,15 @@ double spin_at(const CaseSpec& spec, const RigidContact& contact) {
   return spec.drive.spin.value_or(wheel_spin(contact) + std::cos(contact.angle) * turn_about_vertical(spec, contact));
 }
 
-CaseSpec with_drive_at_contact(CaseSpec spec, const RigidContact& contact) {
-  DriveSpec& drive = spec.drive;
-  if (drive.creepage_of == CreepageOf::contact) return spec;
+DriveSpec drive_at_contact(const CaseSpec& spec, const RigidContact& contact) {
+  DriveSpec drive = spec.drive;
+  if (drive.creepage_of == CreepageOf::contact) return drive;
   drive.creepage_of = CreepageOf::contact;
   if (drive.creepage)
     drive.creepage = 1 - (1 - *drive.creepage) * contact.rolling_radius / spec.geometry.wheel_radius -
                      (contact.point.y - contact.wheel_offset_y) * turn_about_vertical(spec, contact);
   if (drive.lateral_creepage) *drive.lateral_creepage /= std::cos(contact.angle);
-  return spec;
+  return drive;
 }
 
 }  // namespace railstrata

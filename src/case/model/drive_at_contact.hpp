@@ -18,7 +18,7 @@ double turn_about_vertical(const CaseSpec& spec, const RigidContact& contact);
 /// Spin of a contact, 1/m: given, or wheel_spin and cos(delta) Omega/V of a curve (centre on the field side: R > 0).
 double spin_at(const CaseSpec& spec, const RigidContact& contact);
 
-/// The case with creepages of the contact where those given are of the wheel (drive.creepage_of).
-CaseSpec with_drive_at_contact(CaseSpec spec, const RigidContact& contact);
+/// The case's drive with creepages of the contact where those given are the wheel's (drive.creepage_of).
+DriveSpec drive_at_contact(const CaseSpec& spec, const RigidContact& contact);
 
 }  // namespace railstrata

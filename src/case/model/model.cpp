@@ -287,8 +287,10 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, con
   m.rail_at_surface = materials_at_surface(spec, BodyId::rail, m.rail_materials);
   m.wheel_at_surface = materials_at_surface(spec, BodyId::wheel, m.wheel_materials);
   const RigidContact& contact = m.placement.contact;
-  m.spec = with_drive_at_contact(std::move(m.spec), contact);
   m.hertz = hertz_estimate(spec, contact);
+  m.reference = overlap_place(m.placement.wheel, m.placement.rail, m.placement.track, contact, {},
+                              contact.wheel_offset_z - m.hertz.approach / std::cos(contact.angle));
+  m.spec.drive = drive_at_contact(m.spec, m.reference);
   const double last = spec.run.rolling ? *std::max_element(spec.run.positions.begin(), spec.run.positions.end()) : 0.0;
   m.x_end = spec.run.rolling ? last + 0.5 * spec.run.window : 0.0;
   // The fine range holds the patch and room for its search at both ends of the path.

@@ -45,6 +45,9 @@ struct Model {
                                                ///< of a graded layer has the table's first modulus
   double load = 0;                             ///< G, N
   HertzContact hertz = {};
+  /// The place that creepages, contact angle and spin are of: that of the overlap under Hertz's approach
+  /// (geometry/placement.hpp).
+  RigidContact reference = {};
   double x_end = 0;  ///< wheel position at which the run ends, m
   double reach = 0;  ///< m, how much farther from the axle heights make the wheel touch
   /// Section curves of the running surfaces in section coordinates of the bodies.

@@ -55,10 +55,10 @@ std::vector<Option> creepage_options() {
              kNumber, {-10, 10}),
       choice_at<&C::drive, &D::creepage_of>(
           "creepage_of",
-          "Where creepages are measured, here and in a collective. contact: in the plane of the contact that touches "
-          "first; wheel: (V - omega wheel_radius) / V at the tape circle and the horizontal lateral slip, from which "
-          "each contact's creepages follow by its radius and angle. Use \"wheel\" where tread and flange touch: there "
-          "a small shift changes which contact touches first",
+          "Where creepages are measured, here and in a collective. contact: in the plane of the patch; wheel: (V - "
+          "omega wheel_radius) / V at the tape circle and the horizontal lateral slip, from which each contact's "
+          "creepages follow by its radius and angle. Use \"wheel\" where tread and flange touch: there \"contact\" is "
+          "a place between the two",
           {{"contact", CreepageOf::contact}, {"wheel", CreepageOf::wheel}}),
       option("spin", at<&C::drive, &D::spin>,
              "Rotation about the normal of the contact plane, divided by V; positive from the rolling direction "

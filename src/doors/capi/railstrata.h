@@ -196,7 +196,7 @@ typedef struct rs_patch {
 RS_API int rs_patch_forces(const rs_contact* contact, int patch, const double* about, rs_patch* out, rs_error* error);
 
 /* Stresses [Pa] at n points below (rail) or above (wheel) the patch of the largest pressure. xyz: n times x, y from the
- * rigid contact point along the rolling direction and the common tangent, and the depth into the body [m]. out: n times
+ * contact point along the rolling direction and the common tangent, and the depth into the body [m]. out: n times
  * xx, yy, zz, xy, yz, xz in these axes. */
 #define RS_RAIL 0
 #define RS_WHEEL 1
@@ -281,10 +281,10 @@ typedef struct rs_wheel {
   double moment[3];                   /* N m, of the contact on the wheelset, about its centre */
   double normal_force, lateral_force; /* N, along the contact normal and across it, on the wheel */
   double spin_moment;                 /* N m, on the wheel about the contact normal */
-  double creepage_x, creepage_y;      /* of the contact that touches first */
-  double spin;                        /* 1/m, of that contact */
-  double approach;                    /* m, along the normal of the contact that touches first; < 0: lifted */
-  double point[3];                /* m, the contact that touches first, from the middle of the track below the centre */
+  double creepage_x, creepage_y;      /* at point */
+  double spin;                        /* 1/m, there */
+  double approach;                    /* m, along the normal there; < 0: lifted */
+  double point[3]; /* m, of the patch, or between several; from the middle of the track below the centre */
   double on_wheel[2], on_rail[2]; /* m, y and z of it in the profiles' own axes, y to the field side */
   double contact_angle;           /* rad, of the common tangent to y */
   double rolling_radius;          /* m */

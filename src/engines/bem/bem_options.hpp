@@ -18,7 +18,7 @@ struct RailSurface {
 struct BemNeighbour {
   PatchGrid grid;
   RollingSolution solution;
-  bool common = false;  ///< of several contacts, in one plane for all
+  double descent = 0;  ///< m, of the wheel below the place where it touches first
   bool empty() const { return solution.normal.pressure.empty(); }
 };
 

@@ -184,7 +184,7 @@ Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidCo
 }
 
 void drive_contact(const CaseSpec& spec, const RigidContact& contact, double weight, RollingContact& problem) {
-  const DriveSpec& drive = spec.drive;
+  const DriveSpec drive = drive_at_contact(spec, contact);
   problem.x = {drive.creepage.value_or(0), {}};
   problem.y = {drive.lateral_creepage.value_or(yaw_creepage(contact)), {}};
   if (!(problem.friction > 0)) return;
@@ -259,11 +259,12 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
 }
 
 CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement,
-                        const BemOptions& options, const NormalTarget& target) {
+                        const BemOptions& options, const NormalTarget& target, const PatchRoom& room) {
   CasePatch patch = bodies_of(spec);
   patch.grid = grid;
   InfluenceCache own;
   gap_and_influence(placement, options, options.cache ? *options.cache : own, patch);
+  keep_to_room(grid, room, patch.profile.gap);
   set_problem(spec, placement, target, patch);
   return patch;
 }

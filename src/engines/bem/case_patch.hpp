@@ -72,7 +72,7 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
 /// The same on a grid that is given, without the frictionless contact: the caller looks at reaches_edge of his
 /// solution.
 CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement,
-                        const BemOptions& options, const NormalTarget& target);
+                        const BemOptions& options, const NormalTarget& target, const PatchRoom& room = {});
 
 /// Fills the patch's contact problem from the case; the grid and the gap are there already.
 void set_problem(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, CasePatch& patch);

@@ -7,22 +7,14 @@
 namespace railstrata {
 namespace {
 
-NormalTarget target_of(const CaseSpec& spec, double normal) {
-  return spec.vehicle.approach ? NormalTarget{{}, spec.vehicle.approach} : NormalTarget{normal, {}};
+double descent_in(const CaseSpec& spec, const Placement& placement, double descent) {
+  return spec.vehicle.approach ? descent_of(placement, *spec.vehicle.approach) : descent;
 }
 
-bool same_place(const RigidContact& a, const RigidContact& b) {
-  return a.rail_s == b.rail_s && a.wheel_s == b.wheel_s && a.x == b.x && a.yaw == b.yaw && a.roll == b.roll;
-}
-
-void add(RollingDerivative& d, double factor, const RollingDerivative& other) {
-  d.normal.load += factor * other.normal.load;
-  d.normal.approach += factor * other.normal.approach;
-  d.tangential.force_x += factor * other.tangential.force_x;
-  d.tangential.force_y += factor * other.tangential.force_y;
-  d.tangential.moment += factor * other.tangential.moment;
-  d.tangential.creepage_x += factor * other.tangential.creepage_x;
-  d.tangential.creepage_y += factor * other.tangential.creepage_y;
+OnePatch lowered(const CaseSpec& spec, const Placement& placement, double descent) {
+  OnePatch out(spec, placement, first_place(spec, placement, descent));
+  out.lower(descent);
+  return out;
 }
 
 }  // namespace
@@ -33,60 +25,43 @@ ContactDerivatives::ContactDerivatives(const CaseSpec& spec, const Placement& pl
       placement_(placement),
       options_(options),
       solved_(solved),
-      patch_(case_patch_on(solved.grid, spec, placement, options, target_of(spec, solved.solution.normal.load))) {
-  drive_contact(spec, placement.contact, spec.vehicle.load(), patch_.contact);
+      one_(lowered(spec, placement, descent_in(spec, placement, solved.descent))),
+      patch_(one_.lay_on(solved.grid, {{}, solved.solution.normal.approach}, options)) {
+  one_.drive(spec.vehicle.load(), patch_.contact);
 }
 
 bool ContactDerivatives::linear() const {
   const RollingContact& c = patch_.contact;
-  const bool force_over_result = spec_.vehicle.approach && (c.x.force.value_or(0) != 0 || c.y.force.value_or(0) != 0);
-  return c.kind == RollingKind::steady && !c.heat && !force_over_result &&
+  const bool force_over_result = spec_.vehicle.approach && (c.x.force.value_or(0) != 0 || c.y.force.value_or(0) != 0),
+             one_place = !one_.place().beside_low && !one_.place().beside_high;
+  return c.kind == RollingKind::steady && !c.heat && !force_over_result && one_place &&
          !VaryingBound::needed(TangentialProblem{c, {}, {}, {}});
 }
 
-/// The problem of a case that differs a little, under the normal force of this one.
-CasePatch ContactDerivatives::beside(const PlacedCase& there, double normal) const {
-  const NormalTarget target = target_of(there.spec, normal);
-  CasePatch out;
-  if (same_place(there.placement.contact, placement_.contact)) {
-    out = patch_;
-    set_problem(there.spec, there.placement, target, out);
+ContactDerivatives::Beside ContactDerivatives::beside(const PlacedCase& there, double descent) const {
+  const OnePatch one = lowered(there.spec, there.placement, descent);
+  Beside out;
+  out.angle = one.plane().angle;
+  if (same_place(one.plane(), one_.plane())) {
+    out.patch = patch_;
+    set_problem(there.spec, one.placement(), {{}, one.own_approach()}, out.patch);
   } else {
-    out = case_patch_on(solved_.grid, there.spec, there.placement, options_, target);
+    out.patch = one.lay_on(solved_.grid, {{}, one.own_approach()}, options_);
   }
-  drive_contact(there.spec, there.placement.contact, there.spec.vehicle.load(), out.contact);
+  one.drive(there.spec.vehicle.load(), out.patch.contact);
   return out;
 }
 
-/// Lateral friction by the normal force, N/N.
-double ContactDerivatives::by_weight() {
-  constexpr double kShare = 1e-6;
-  const double normal = solved_.solution.normal.load, step = kShare * normal;
-  if (!by_load_) {
-    RollingContact more = patch_.contact, less = patch_.contact;
-    more.target.load = normal + step;
-    less.target.load = normal - step;
-    by_load_ = rolling_->by(more, less, step);
-  }
-  return by_load_->tangential.force_y;
-}
-
-ContactDerivative ContactDerivatives::by(const PlacedCase& more, const PlacedCase& less, double step) {
-  const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
+/// As of the target's approach, not of what follows it.
+ContactDerivative ContactDerivatives::between(const Beside& more, const Beside& less, double step) {
   if (!rolling_) rolling_.emplace(*patch_.influence, patch_.grid, patch_.contact, solved_.solution);
+  const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
+  const RollingDerivative d = rolling_->by(more.patch.contact, less.patch.contact, step);
   const double normal = solved_.solution.normal.load, lateral = solved_.solution.tangential.force_y,
-               angle = placement_.contact.angle, cosine = std::cos(angle), sine = std::sin(angle);
-  const CasePatch up = beside(more, normal), down = beside(less, normal);
-  RollingDerivative d = rolling_->by(up.contact, down.contact, step);
+               cosine = std::cos(one_.plane().angle), sine = std::sin(one_.plane().angle),
+               force_y = d.tangential.force_y;
   ContactDerivative out;
-  out.angle = slope(more.placement.contact.angle, less.placement.contact.angle);
-  if (!spec_.vehicle.approach) {
-    const double by_normal = by_weight(), missing = slope(more.spec.vehicle.load(), less.spec.vehicle.load()) +
-                                                    (normal * sine + lateral * cosine) * out.angle +
-                                                    d.tangential.force_y * sine;
-    add(d, missing / (cosine - by_normal * sine), *by_load_);
-  }
-  const double force_y = d.tangential.force_y;
+  out.angle = slope(more.angle, less.angle);
   out.force.x = d.tangential.force_x;
   out.force.y = d.normal.load * sine + force_y * cosine + (normal * cosine - lateral * sine) * out.angle;
   out.force.z = -d.normal.load * cosine + force_y * sine + (normal * sine + lateral * cosine) * out.angle;
@@ -95,8 +70,41 @@ ContactDerivative ContactDerivatives::by(const PlacedCase& more, const PlacedCas
   out.force.moment = d.tangential.moment;
   out.creepage_x = d.tangential.creepage_x;
   out.creepage_y = d.tangential.creepage_y;
-  out.spin = slope(up.contact.spin, down.contact.spin);
+  out.spin = slope(more.patch.contact.spin, less.patch.contact.spin);
   out.approach = d.normal.approach;
+  return out;
+}
+
+const ContactDerivative& ContactDerivatives::by_descent() {
+  constexpr double kShare = 5e-7;  // near enough to the kinks of front and sets, far enough from round-off of the gap
+  if (!by_descent_) {
+    const double step = kShare * one_.descent();
+    const PlacedCase here{spec_, placement_};
+    by_descent_ = between(beside(here, one_.descent() + step), beside(here, one_.descent() - step), step);
+  }
+  return *by_descent_;
+}
+
+ContactDerivative ContactDerivatives::by(const PlacedCase& more, const PlacedCase& less, double step) {
+  const auto at = [&](const PlacedCase& there) {
+    return beside(there, descent_in(there.spec, there.placement, one_.descent()));
+  };
+  ContactDerivative out = between(at(more), at(less), step);
+  if (spec_.vehicle.approach) return out;
+  const ContactDerivative& deeper = by_descent();
+  const double load = (more.spec.vehicle.load() - less.spec.vehicle.load()) / (2 * step),
+               sinking = (load + out.force.z) / -deeper.force.z;
+  out.force.x += sinking * deeper.force.x;
+  out.force.y += sinking * deeper.force.y;
+  out.force.z += sinking * deeper.force.z;
+  out.force.normal += sinking * deeper.force.normal;
+  out.force.tangential += sinking * deeper.force.tangential;
+  out.force.moment += sinking * deeper.force.moment;
+  out.creepage_x += sinking * deeper.creepage_x;
+  out.creepage_y += sinking * deeper.creepage_y;
+  out.spin += sinking * deeper.spin;
+  out.approach += sinking * deeper.approach;
+  out.angle += sinking * deeper.angle;
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bem/case_patch.hpp"
+#include "bem/one_patch.hpp"
 #include "bem/solve_bem.hpp"
 
 namespace railstrata {
@@ -21,32 +22,39 @@ struct PlacedCase {
   const Placement& placement;
 };
 
-/// Under a weight G the normal force N follows each input (solve_bem.hpp),
-///   N cos(delta) - T sin(delta) = G:
-///   dN (cos(delta) - dT/dN sin(delta)) = dG + (N sin(delta) + T cos(delta)) d delta + dT sin(delta),
-/// dT on the right at a constant N. Geometry changes by differences, all else by one solution of the linear equations.
+/// All derivatives are taken at a descent d of the wheel, which the plane follows too. Under a weight G it follows each
+/// input u by V(u, d) = N cos(delta) - T sin(delta) = G (solve_bem.hpp):
+///   dV/du + dV/dd d' = dG/du,   dV = dN cos(delta) - dT sin(delta) - (N sin(delta) + T cos(delta)) d delta.
+/// Geometry changes by differences, all else by one solution of the linear equations.
 class ContactDerivatives {
  public:
   /// solved: of the case, and kept by reference; not empty.
   ContactDerivatives(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                      const BemNeighbour& solved);
   /// Whether the case has these equations: steady rolling, friction that neither slip nor heat changes, no force over a
-  /// load that is a result.
+  /// load that is a result, one place or several that hang together.
   bool linear() const;
   /// more, less: the case with the input larger and smaller by `step`.
   ContactDerivative by(const PlacedCase& more, const PlacedCase& less, double step);
 
  private:
-  CasePatch beside(const PlacedCase& there, double normal) const;
-  double by_weight();
+  /// The patch of a case that differs a little, at a descent.
+  struct Beside {
+    CasePatch patch;
+    double angle = 0;
+  };
+  Beside beside(const PlacedCase& there, double descent) const;
+  ContactDerivative between(const Beside& more, const Beside& less, double step);
+  const ContactDerivative& by_descent();
 
   const CaseSpec& spec_;
   const Placement& placement_;
   const BemOptions& options_;
   const BemNeighbour& solved_;
+  OnePatch one_;
   CasePatch patch_;
   std::optional<RollingDerivatives> rolling_;
-  std::optional<RollingDerivative> by_load_;  // normal force
+  std::optional<ContactDerivative> by_descent_;
 };
 
 }  // namespace railstrata

@@ -14,8 +14,9 @@ double along_plane(const RigidContact& contact, Vec2 point) {
   return dot(point - contact.point, {std::cos(contact.angle), std::sin(contact.angle)});
 }
 
-std::vector<ContactPlace> places_of(const Placement& p, double descent) {
+std::vector<ContactPlace> places_of(const CaseSpec& spec, const Placement& p, double descent) {
   std::vector<ContactPlace> out{{p.contact, 0}};
+  if (spec.geometry.in_line() || p.contact.settled) return out;
   for (const RigidContact& c : further_contacts(p.wheel, p.rail, p.track, p.contact, descent)) {
     const auto with = std::find_if(out.begin(), out.end(), [&](const ContactPlace& other) {
       return std::abs(c.angle - other.contact.angle) <= kAngleOfOnePlane &&
@@ -36,16 +37,76 @@ void put_in_order(std::vector<ContactPlace>& places) {
             [](const ContactPlace& a, const ContactPlace& b) { return a.contact.rail_s < b.contact.rail_s; });
 }
 
-std::vector<RigidContact> contacts_of(const std::vector<ContactPlace>& places, std::size_t patch) {
-  std::vector<RigidContact> out;
-  for (const ContactPlace& p : places)
-    if (p.patch == patch) out.push_back(p.contact);
+const RigidContact& PatchPlace::first() const {
+  return *std::max_element(contacts.begin(), contacts.end(), [](const RigidContact& a, const RigidContact& b) {
+    return a.wheel_offset_z < b.wheel_offset_z;
+  });
+}
+
+std::vector<PatchPlace> patch_places(const Placement& p, const std::vector<ContactPlace>& places) {
+  std::vector<PatchPlace> out;
+  for (const ContactPlace& place : places) {
+    if (place.patch >= out.size()) out.resize(place.patch + 1);
+    out[place.patch].contacts.push_back(place.contact);
+  }
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const std::size_t left = places[i].patch, right = places[i + 1].patch;
+    if (left == right) continue;
+    const Ridge ridge = ridge_between(p.wheel, p.rail, p.track, places[i].contact, places[i + 1].contact);
+    out[left].stretch.high = out[right].stretch.low = ridge.rail_s;
+    out[left].beside_high = right;
+    out[right].beside_low = left;
+  }
   return out;
 }
 
-RigidContact plane_of(const Placement& p, const std::vector<RigidContact>& contacts, double descent) {
-  if (contacts.size() == 1) return contacts.front();
-  return common_contact(p.wheel, p.rail, p.track, contacts, p.contact.wheel_offset_z - descent);
+bool PatchPlace::same_as(const PatchPlace& other) const {
+  return std::equal(contacts.begin(), contacts.end(), other.contacts.begin(), other.contacts.end(), same_place) &&
+         stretch.low == other.stretch.low && stretch.high == other.stretch.high;
+}
+
+PatchPlace first_place(const CaseSpec& spec, const Placement& placement, double descent) {
+  std::vector<ContactPlace> places = places_of(spec, placement, descent);
+  put_in_order(places);
+  return patch_places(placement, places).front();
+}
+
+RigidContact plane_of(const Placement& p, const PatchPlace& place, double descent) {
+  return overlap_place(p.wheel, p.rail, p.track, place.first(), place.stretch, p.contact.wheel_offset_z - descent);
+}
+
+PatchRoom room_of(const Placement& p, const PatchPlace& place, const RigidContact& plane) {
+  PatchRoom out;
+  for (const RigidContact& c : place.contacts) {
+    const double t = along_plane(plane, c.point);
+    out.held_low = std::min(out.held_low, t);
+    out.held_high = std::max(out.held_high, t);
+  }
+  const auto along = [&](double s) { return along_plane(plane, rail_to_model(p.track, p.rail.at(s).position)); };
+  if (place.beside_low) out.low = along(place.stretch.low);
+  if (place.beside_high) out.high = along(place.stretch.high);
+  return out;
+}
+
+RigidContact reference_of(const Placement& p, double descent) {
+  return overlap_place(p.wheel, p.rail, p.track, p.contact, {}, p.contact.wheel_offset_z - descent);
+}
+
+double descent_of(const Placement& p, double approach) {
+  constexpr int kMostRounds = 30;
+  constexpr double kClose = 1e-13;  // of it
+  double descent = approach / std::cos(p.contact.angle);
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double before = descent;
+    descent = approach / std::cos(reference_of(p, descent).angle);
+    if (std::abs(descent - before) <= kClose * descent) break;
+  }
+  return descent;
+}
+
+bool same_place(const RigidContact& a, const RigidContact& b) {
+  return a.rail_s == b.rail_s && a.wheel_s == b.wheel_s && a.x == b.x && a.yaw == b.yaw && a.roll == b.roll &&
+         a.angle == b.angle;
 }
 
 void require_one_plane(const Placement& p, double approach, const std::string& key, const std::string& remedy) {

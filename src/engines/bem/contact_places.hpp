@@ -2,9 +2,11 @@
 // The places where a wheel touches its rail when it is lowered, and which of them are one patch.
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bem/case_patch.hpp"
 #include "model/model.hpp"
 
 namespace railstrata {
@@ -21,18 +23,44 @@ struct ContactPlace {
 };
 
 /// The first contact and those beside it that the wheel overlaps after a descent [m]. Neighbours nearly in one plane
-/// are one patch where it overlaps the rail all the way between them.
-std::vector<ContactPlace> places_of(const Placement& placement, double descent);
+/// are one patch where it overlaps the rail all the way between them. A contact in a line is one
+/// place, and so is one that is settled.
+std::vector<ContactPlace> places_of(const CaseSpec& spec, const Placement& placement, double descent);
 
 /// The patches' numbers without gaps, and the places in order along the rail.
 void put_in_order(std::vector<ContactPlace>& places);
 
-/// The contacts of one patch.
-std::vector<RigidContact> contacts_of(const std::vector<ContactPlace>& places, std::size_t patch);
+/// What one patch has: its contacts, and the stretch of the rail between the ridges to its neighbours.
+struct PatchPlace {
+  std::vector<RigidContact> contacts;
+  RailStretch stretch;
+  std::optional<std::size_t> beside_low, beside_high;  ///< the patches beyond its ends
+  /// The contact that touches first.
+  const RigidContact& first() const;
+  bool same_as(const PatchPlace& other) const;
+};
+/// In the order of their numbers, of places that are in order.
+std::vector<PatchPlace> patch_places(const Placement& placement, const std::vector<ContactPlace>& places);
 
-/// Where a patch of these contacts is solved under a wheel that is lowered by `descent` [m] from the placement's
-/// contact: in the contact's own plane, or in one for all of them (common_contact).
-RigidContact plane_of(const Placement& placement, const std::vector<RigidContact>& contacts, double descent);
+/// The patch of the contact that touches first, under a wheel that is lowered by `descent` [m].
+PatchPlace first_place(const CaseSpec& spec, const Placement& placement, double descent);
+
+/// The place and plane of a patch under a wheel that is lowered by `descent` [m] from the placement's contact
+/// (overlap_place).
+RigidContact plane_of(const Placement& placement, const PatchPlace& place, double descent);
+
+/// What the grid in a plane has to hold, and where it ends.
+PatchRoom room_of(const Placement& placement, const PatchPlace& place, const RigidContact& plane);
+
+/// The place that a wheel's creepages and its approach are of, where it is lowered by `descent` [m]: that of the whole
+/// overlap. It is the plane's of a wheel that touches at one place.
+RigidContact reference_of(const Placement& placement, double descent);
+
+/// The descent [m] of a wheel with this approach along the normal of its reference.
+double descent_of(const Placement& placement, double approach);
+
+/// Whether the places of two contacts of one wheel are the same.
+bool same_place(const RigidContact& a, const RigidContact& b);
 
 /// t of a point of the section in a contact's plane, m.
 double along_plane(const RigidContact& contact, Vec2 point);

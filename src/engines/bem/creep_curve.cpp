@@ -3,8 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "bem/case_patch.hpp"
-#include "bem/several_patches.hpp"
+#include "bem/one_patch.hpp"
 #include "core/faults.hpp"
 #include "halfspace/creep_theories.hpp"
 #include "model/drive_at_contact.hpp"
@@ -16,16 +15,16 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
                                          const std::vector<double>& creepages, const BemOptions& options) {
   require_support(uses::kCreepCurve, spec);
   const std::optional<double>& approach = spec.vehicle.approach;
-  CasePatch patch = make_case_patch(
-      spec, placement, options,
-      approach ? NormalTarget{{}, approach} : NormalTarget{normal_load(spec.vehicle.load(), 0, placement.contact), {}});
-  const double weight = approach ? std::cos(placement.contact.angle) * patch.frictionless.load : spec.vehicle.load();
-  const RollingEllipse ellipse = rolling_ellipse(hertz_estimate(spec, placement.contact), patch.contact.friction,
-                                                 patch.wheel.substrate, patch.rail.substrate);
+  FirstPatch first = press_first(spec, placement, options);
+  CasePatch& patch = first.laid;
+  const RigidContact& plane = first.one.plane();
+  const double weight = approach ? std::cos(plane.angle) * patch.frictionless.load : spec.vehicle.load();
+  const RollingEllipse ellipse =
+      rolling_ellipse(hertz_estimate(spec, plane), patch.contact.friction, patch.wheel.substrate, patch.rail.substrate);
   const double hertz_bound = ellipse.friction * ellipse.contact.load;
   const bool along_x = varied == VariedCreepage::longitudinal;
   const auto share = [&](const CreepForce& force) { return (along_x ? force.x : force.y) / hertz_bound; };
-  drive_contact(with_drive_at_contact(spec, placement.contact), placement.contact, weight, patch.contact);
+  drive_contact(spec, plane, weight, patch.contact);
   require_one_plane(placement, patch.frictionless.approach, "geometry.lateral_shift",
                     "a creep curve needs a single contact patch: move the wheel (geometry.lateral_shift) or lower the "
                     "load until it touches at one place; `railstrata bem` solves several patches together");

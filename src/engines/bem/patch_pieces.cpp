@@ -82,12 +82,7 @@ std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole) {
     });
     out.push_back(std::move(piece));
   }
-  if (out.size() > 1) return out;
-  const auto held = std::count_if(whole.contacts.begin(), whole.contacts.end(), [&](const RigidContact& c) {
-    return std::any_of(extents.begin(), extents.end(),
-                       [&](const PartExtent& e) { return t_of(c) >= e.low && t_of(c) <= e.high; });
-  });
-  return {{held == 1 ? out.front().place : whole.contact, whole}};
+  return out.size() > 1 ? std::move(out) : std::vector<PatchPiece>{{whole.contact, whole}};
 }
 
 }  // namespace railstrata

@@ -20,9 +20,6 @@ namespace {
 
 constexpr double kLeastApproach = 1e-9;  // m
 
-constexpr int kMostRounds = 20;    // of a plane and the descent that it depends on
-constexpr double kSettled = 1e-6;  // of the descent
-
 double modulus_of(const CaseSpec& spec) {
   return contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
                          {spec.rail_material.young, spec.rail_material.poisson});
@@ -68,16 +65,16 @@ struct PressureOnRail {
 
 /// One patch of the wheel while the load is being shared.
 struct Member {
-  Placement placement;
-  std::vector<RigidContact> contacts{};
+  PatchPlace place;
+  Placement placement;  ///< its contact is the plane under the descent
   PatchRoom room{};
-  std::optional<std::size_t> beside_low{}, beside_high{};  ///< the patches that its room ends at
-  HertzContact estimate{};                                 ///< under the weight
-  double below = 0;                                        ///< h, m
-  double approach = 0, laid_for = 0;                       ///< m; the approach for which the grid was laid
-  double normal = 0;                                       ///< N, of the last solution; to begin with an estimate
-  double expected = 0;                                     ///< N, of the next
-  double approach_before = 0, normal_before = 0;           ///< of the solution before
+  bool turned = false;                            ///< the plane is another one than that of the grid
+  HertzContact estimate{};                        ///< under the weight
+  double below = 0;                               ///< h, m
+  double approach = 0, laid_for = 0;              ///< m; the approach for which the grid was laid
+  double normal = 0;                              ///< N, of the last solution; to begin with an estimate
+  double expected = 0;                            ///< N, of the next
+  double approach_before = 0, normal_before = 0;  ///< of the solution before
   CasePatch patch{};
   RollingSolution solution{};
 
@@ -89,42 +86,14 @@ struct Member {
   }
 };
 
-/// What the grid in a plane has to hold.
-PatchRoom room_of(const RigidContact& plane, const std::vector<RigidContact>& contacts) {
-  PatchRoom out;
-  for (const RigidContact& c : contacts) {
-    const double t = along_plane(plane, c.point);
-    out.held_low = std::min(out.held_low, t);
-    out.held_high = std::max(out.held_high, t);
-  }
-  return out;
-}
-
-std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement,
-                               const std::vector<ContactPlace>& places, double descent) {
+std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement, std::vector<PatchPlace> places) {
   std::vector<Member> out;
-  for (std::size_t k = 0;; ++k) {
-    std::vector<RigidContact> contacts = contacts_of(places, k);
-    if (contacts.empty()) break;
-    Member m{.placement = placement};
-    m.placement.contact = plane_of(placement, contacts, descent);
+  for (PatchPlace& place : places) {
+    Member m{.place = std::move(place), .placement = placement};
+    m.placement.contact = m.place.first();
     m.estimate = hertz_estimate(spec, m.contact());
     m.below = placement.contact.axle_height - m.contact().axle_height;
-    m.room = room_of(m.contact(), contacts);
-    m.contacts = std::move(contacts);
     out.push_back(std::move(m));
-  }
-  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    const std::size_t left = places[i].patch, right = places[i + 1].patch;
-    if (left == right) continue;
-    const double s =
-        ridge_between(placement.wheel, placement.rail, placement.track, places[i].contact, places[i + 1].contact)
-            .rail_s;
-    const Vec2 ridge = rail_to_model(placement.track, placement.rail.at(s).position);
-    out[left].room.high = along_plane(out[left].contact(), ridge);
-    out[left].beside_high = right;
-    out[right].room.low = along_plane(out[right].contact(), ridge);
-    out[right].beside_low = left;
   }
   return out;
 }
@@ -132,16 +101,16 @@ std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement,
 /// The wheel on its patches: descent and creepage are sought.
 class WheelOnPatches {
  public:
-  WheelOnPatches(const CaseSpec& spec, const RigidContact& first, std::vector<Member> members,
+  WheelOnPatches(const CaseSpec& spec, const Placement& placement, std::vector<Member> members,
                  const BemOptions& options)
       : spec_(spec),
-        first_(first),
+        placement_(placement),
         members_(std::move(members)),
         options_(options),
         weight_(spec.vehicle.load()),
         modulus_(modulus_of(spec)),
-        along_{spec.drive.creepage.value_or(0), 0},
-        across_{spec.drive.lateral_creepage.value_or(yaw_creepage(first)), 0} {
+        along_{},
+        across_{yaw_creepage(placement.contact), 0} {
     options_.rolling.tangential.tolerance = std::min(options_.rolling.tangential.tolerance, kSharp * options_.balance);
     options_.rolling.tangential.share_of_first = options_.rolling.normal.share_of_first = 1;  // starts are its own
     options_.cache = options.cache ? options.cache : &cache_;
@@ -162,9 +131,6 @@ class WheelOnPatches {
         "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
   }
 
-  /// m, of the wheel below the place where it touches first.
-  double descent() const { return descent_; }
-
   /// Two patches of which one reaches the ridge between them.
   std::optional<std::pair<std::size_t, std::size_t>> merged() const {
     for (std::size_t k = 0; k < members_.size(); ++k) {
@@ -173,8 +139,8 @@ class WheelOnPatches {
       const PatchGrid& g = m.patch.grid;
       for (int j = 0; j < g.ny; ++j) {
         if (!carries(m, j)) continue;
-        if (m.beside_low && g.y(j) - g.dy < m.room.low) return {{k, *m.beside_low}};
-        if (m.beside_high && g.y(j) + g.dy > m.room.high) return {{k, *m.beside_high}};
+        if (m.place.beside_low && g.y(j) - g.dy < m.room.low) return {{k, *m.place.beside_low}};
+        if (m.place.beside_high && g.y(j) + g.dy > m.room.high) return {{k, *m.place.beside_high}};
       }
     }
     return {};
@@ -184,7 +150,8 @@ class WheelOnPatches {
     SharedLoad out;
     out.load_iterations = iterations_;
     for (Member& m : members_)
-      if (m.loaded()) out.patches.push_back({m.contact(), std::move(m.patch), std::move(m.solution), m.contacts});
+      if (m.loaded()) out.patches.push_back({m.contact(), std::move(m.patch), std::move(m.solution), m.place.contacts});
+    out.descent = descent_;
     return out;
   }
 
@@ -272,11 +239,10 @@ class WheelOnPatches {
     return sum;
   }
 
-  /// Of a given approach that of the wheel on its first contact, else where Hertz's contacts without friction bear the
-  /// weight; lays them there.
+  /// That of a given approach, else where Hertz's contacts without friction bear the weight; lays them there.
   double first_descent() {
     if (spec_.vehicle.approach) {
-      const double descent = *spec_.vehicle.approach / std::cos(first_.angle);
+      const double descent = descent_of(placement_, *spec_.vehicle.approach);
       lay(descent);
       return descent;
     }
@@ -290,9 +256,25 @@ class WheelOnPatches {
     return high;
   }
 
+  /// Planes, reference and the creepages that are given, at a descent.
+  void stand(double descent) {
+    reference_ = reference_of(placement_, descent);
+    const DriveSpec drive = drive_at_contact(spec_, reference_);
+    if (!drive.traction()) along_.creepage = drive.creepage.value_or(0);
+    if (!drive.lateral_traction_coefficient)
+      across_.creepage = drive.lateral_creepage.value_or(yaw_creepage(reference_));
+    for (Member& m : members_) {
+      const RigidContact plane = plane_of(placement_, m.place, descent);
+      m.turned = !same_place(plane, m.contact());
+      m.placement.contact = plane;
+      m.room = room_of(placement_, m.place, plane);
+    }
+  }
+
   /// Solves all patches at a descent, with the depressions of the normal forces that are expected. Returns by how much
   /// one of these was missed at most, N.
   double solve_at(double descent, const Eigen::MatrixXd& bent) {
+    stand(descent);
     for (std::size_t k = 0; k < members_.size(); ++k) {
       Member& m = members_[k];
       m.approach_before = m.approach;
@@ -311,14 +293,19 @@ class WheelOnPatches {
     return moved;
   }
 
-  /// A patch smaller than ten cells gets smaller ones, as far as its longer semi-axis has no more than fifty.
+  /// A patch smaller than ten cells gets smaller ones, as far as its longer semi-axis has no more than some fifty:
+  /// halves of halves, for which the influence of the last one serves.
   void lay_grid(Member& m) {
-    if (m.approach < 2 * m.laid_for && m.approach > 0.5 * m.laid_for) return;
     BemOptions own = options_;
+    if (m.approach < 2 * m.laid_for && m.approach > 0.5 * m.laid_for) {
+      if (m.turned) m.patch = case_patch_on(m.patch.grid, spec_, m.placement, own, {.approach = m.approach}, m.room);
+      return;
+    }
     const double scale = std::sqrt(m.approach / m.estimate.approach),
                  shorter = scale * std::min(m.estimate.a, m.estimate.b),
                  longer = scale * std::max(m.estimate.a, m.estimate.b);
-    own.cell = std::min(options_.cell, std::max({0.15 * shorter, 0.02 * longer, kSmallestCell}));
+    const double wanted = std::max({0.15 * shorter, 0.02 * longer, kSmallestCell});
+    while (own.cell > std::numbers::sqrt2 * wanted) own.cell *= 0.5;
     m.patch = make_case_patch(spec_, m.placement, own, {.approach = m.approach}, m.room);
     m.laid_for = m.approach;
     m.solution = {};
@@ -329,7 +316,7 @@ class WheelOnPatches {
     problem.target.approach = m.approach;
     problem.x = {along_.creepage, {}};
     problem.y = {across_.creepage, {}};
-    carry_creepages(turn_about_vertical(spec_, first_), first_, m.contact(), problem);
+    carry_creepages(turn_about_vertical(spec_, reference_), reference_, m.contact(), problem);
     const bool fresh = m.solution.normal.pressure.empty();
     m.solution =
         solve_rolling(*m.patch.influence, m.patch.grid, problem, options_.rolling, fresh ? nullptr : &m.solution);
@@ -423,63 +410,41 @@ class WheelOnPatches {
   }
 
   const CaseSpec& spec_;
-  const RigidContact& first_;
+  const Placement& placement_;
+  RigidContact reference_;
   std::vector<Member> members_;
   InfluenceCache cache_;
   BemOptions options_;
   double weight_, modulus_;
-  Sought along_, across_;  // creepages of the first contact
+  Sought along_, across_;  // creepages of the reference
   double descent_ = 0;
   int iterations_ = 0;
 };
 
-/// The one patch that has all contacts, after a descent that was found in other planes.
-SharedLoad one_patch(const CaseSpec& spec, const Placement& placement, std::vector<RigidContact> contacts,
-                     double descent, const BemOptions& options) {
-  SharedLoad out;
-  Placement own = placement;
-  for (int round = 0; round < kMostRounds; ++round) {
-    own.contact = plane_of(placement, contacts, descent);
-    out.room = room_of(own.contact, contacts);
-    if (contacts.size() == 1 || spec.vehicle.approach) break;
-    const double before = descent;
-    const CasePatch patch =
-        make_case_patch(spec, own, options, {.load = normal_load(spec.vehicle.load(), 0, own.contact)}, out.room);
-    descent = patch.frictionless.approach / std::cos(own.contact.angle) + placement.contact.axle_height -
-              own.contact.axle_height;
-    if (std::abs(descent - before) <= kSettled * before) break;
-  }
-  out.plane = own.contact;
-  out.contacts = std::move(contacts);
-  return out;
-}
-
 }  // namespace
 
-SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options) {
-  double descent = approach / std::cos(placement.contact.angle);
-  std::vector<ContactPlace> places = places_of(placement, descent);
-  for (int round = 0;; ++round) {
+SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double descent, const BemOptions& options) {
+  std::vector<ContactPlace> places = places_of(spec, placement, descent);
+  for (;;) {
     put_in_order(places);
-    std::vector<Member> members = members_of(spec, placement, places, descent);
-    if (members.size() == 1) return one_patch(spec, placement, std::move(members.front().contacts), descent, options);
-    const bool common = members.size() < places.size();
-    WheelOnPatches wheel(spec, placement.contact, std::move(members), options);
+    SharedLoad alone;
+    alone.descent = descent;
+    std::vector<PatchPlace> patches = patch_places(placement, places);
+    alone.alone = patches.front();
+    alone.places = places.size();
+    if (patches.size() == 1) return alone;
+    WheelOnPatches wheel(spec, placement, members_of(spec, placement, std::move(patches)), options);
     wheel.settle();
-    if (const auto merged = wheel.merged()) {
-      const auto [into, from] = std::minmax(merged->first, merged->second);
-      for (ContactPlace& p : places)
-        if (p.patch == from) p.patch = into;
-      round = 0;
-    } else if (common && round < kMostRounds && std::abs(wheel.descent() - descent) > kSettled * descent) {
-      descent = wheel.descent();
-    } else {
+    const auto merged = wheel.merged();
+    if (!merged) {
       SharedLoad out = wheel.take();
-      const PatchOnWheel& front = out.patches.front();
-      const bool first_alone =
-          out.patches.size() == 1 && front.contacts.size() == 1 && front.contact.rail_s == placement.contact.rail_s;
-      return first_alone ? one_patch(spec, placement, {placement.contact}, descent, options) : std::move(out);
+      if (out.patches.size() > 1 || out.patches.front().contacts.size() > 1) return out;
+      const bool first = out.patches.front().contacts.front().rail_s == placement.contact.rail_s;
+      return first ? alone : out;
     }
+    const auto [into, from] = std::minmax(merged->first, merged->second);
+    for (ContactPlace& p : places)
+      if (p.patch == from) p.patch = into;
   }
 }
 

@@ -5,14 +5,14 @@
 // With the contact angle delta_k, the rolling radius r_k, the resultants N_k of the pressure and T_k, X_k of the
 // friction (on the rail)
 //   approach_k = (d - h_k) cos(delta_k) - sum over j of cos(delta_k - delta_j)/(pi E*) ∫ p_j/r_jk dA,
-//   xi_k = 1 - (1 - xi) r_k/r_1 (of a rail that turns too R_k/R_1 for the 1) - (y_k - y_1) Omega/V,   eta_k = eta_1
-//   cos(delta_1)/cos(delta_k), sum of N_k cos(delta_k) - T_k sin(delta_k) = G,   sum of X_k = X,   sum of T_k = T where
+//   xi_k = 1 - (1 - xi) r_k/r_0 (of a rail that turns too R_k/R_0 for the 1) - (y_k - y_0) Omega/V,   eta_k = eta_0
+//   cos(delta_0)/cos(delta_k), sum of N_k cos(delta_k) - T_k sin(delta_k) = G,   sum of X_k = X,   sum of T_k = T where
 //   these forces are given.
 // The sum in approach_k is the depression of both surfaces at the patch's centre of pressure by the other patches
 // [Johnson1985 eq. 3.22a]: exact to first order where the planes are one, an estimate where they are not. Its curvature
 // over the patch is left out (bending_by_others). T is the sum along the planes of the patches, each its own: what one
-// lateral creepage makes. xi, eta and a given spin are those of the contact that touches first;
-// a given spin turns the wheel about the vertical.
+// lateral creepage makes. xi, eta and a given spin are those of the wheel's
+// reference (reference_of), 0; a given spin turns the wheel about the vertical. Planes and reference follow d.
 #include <vector>
 
 #include "bem/case_patch.hpp"
@@ -28,19 +28,17 @@ struct PatchOnWheel {
 };
 
 struct SharedLoad {
-  std::vector<PatchOnWheel> patches;   ///< that carry load; empty: the first patch carries it all, in one plane
-  PatchRoom room;                      ///< extent that the grid of the first patch must cover
-  RigidContact plane;                  ///< and its plane
-  std::vector<RigidContact> contacts;  ///< that it has
+  std::vector<PatchOnWheel> patches;  ///< that carry load; empty: one patch carries it all, at `alone`
+  PatchPlace alone;
+  std::size_t places = 0;  ///< that were looked at
+  double descent = 0;      ///< m, of the wheel below the place where it touches first
   int load_iterations = 0;
 };
 
-/// Looks for more contacts than a first one, solved alone under the whole load, where its approach is `approach`
-/// [m], and shares the load if there are.
-/// Patches that reach the ridge between them become one. Its plane is common_contact under the descent of the wheel, of
-/// one patch that of its frictionless contact: it then is the same whichever contact was first. Throws CaseError:
-/// traction above friction, friction that bears the weight (a wedged wheel).
-SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options);
+/// Looks where a wheel touches that is lowered by `descent` [m], that of a first patch that bears the whole load, or
+/// given, and shares the load if there are several patches. Patches that reach the ridge between them become one.
+/// Throws CaseError: traction above friction, friction that bears the weight (a wedged wheel).
+SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double descent, const BemOptions& options);
 
 /// By how much the other patches bend the surfaces over one patch, of the contact's own smaller curvature kappa:
 /// the sum of 2/(pi E*) ∫ p_j/r_j³ dA over kappa, in the plane the second derivative of the depression.

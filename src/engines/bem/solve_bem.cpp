@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "bem/one_patch.hpp"
 #include "bem/several_patches.hpp"
 #include "core/faults.hpp"
 #include "model/drive_at_contact.hpp"
@@ -184,81 +186,60 @@ BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const Pa
   return r;
 }
 
-/// One contact under the whole load.
-struct OnePatch {
-  Placement placement;  ///< its contact is the plane
-  PatchRoom room;
-  const RigidContact& first;  ///< that the creepages are of
-  bool common() const { return placement.contact.rail_s != first.rail_s; }
-  /// Of the plane, where that of `first` is given [m].
-  double approach(double of_first) const {
-    const RigidContact& plane = placement.contact;
-    if (!common()) return of_first;
-    return (of_first / std::cos(first.angle) + plane.wheel_offset_z - first.wheel_offset_z) * std::cos(plane.angle);
-  }
-};
-
-/// Creepages or forces of the case, of the contact that touches first, in the patch's plane.
-void drive_patch(const CaseSpec& spec, const OnePatch& one, double weight, RollingContact& problem) {
-  drive_contact(spec, one.first, weight, problem);
-  if (one.common()) carry_creepages(turn_about_vertical(spec, one.first), one.first, one.placement.contact, problem);
-}
+constexpr double kWedged = 0.02;  // of the slope without friction
+constexpr int kMostIterations = 20;
 
 struct LoadedPatch : PatchOnWheel {
   int load_iterations = 1;
   bool wedged = false;  ///< the solution is that of the last normal load tried
 };
 
-bool holds(const PatchGrid& g, const PatchRoom& room) {
-  return g.y(0) <= room.held_low && g.y(g.ny - 1) >= room.held_high;
-}
-
-bool starts_from_neighbour(const CaseSpec& spec, const OnePatch& one, const BemOptions& options) {
-  const PatchRoom whole;
-  return options.neighbour && !options.neighbour->empty() && options.neighbour->common == one.common() &&
-         one.room.low == whole.low && one.room.high == whole.high && holds(options.neighbour->grid, one.room) &&
-         suits(options.neighbour->grid, spec, one.placement, options);
-}
-
-/// Solves under a normal load [N]: from a neighbour, on the grid of the load before, on a new one if there is none or
-/// the patch reached its edge.
-void solve_under(double normal, double weight, const CaseSpec& spec, const OnePatch& one, const BemOptions& options,
+/// Solves under a normal load or approach from the solution before, else from a neighbour, else on a new grid; and on a
+/// new one where the patch reaches the edge of the other.
+void solve_under(const NormalTarget& target, double weight, const OnePatch& one, const BemOptions& options,
                  LoadedPatch& out) {
   const auto solve = [&](const RollingSolution* start) {
-    out.patch.contact.target.load = normal;
+    one.drive(weight, out.patch.contact);
+    out.patch.contact.target = target;
     out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling, start);
   };
-  if (out.patch.influence) {
+  if (!out.solution.normal.pressure.empty()) {
     solve(&out.solution);
     if (!out.solution.normal.touches_edge) return;
-  } else if (starts_from_neighbour(spec, one, options)) {
-    out.patch = case_patch_on(options.neighbour->grid, spec, one.placement, options, {.load = normal});
-    drive_patch(spec, one, weight, out.patch.contact);
+    out.patch = one.lay(target, options);
+  } else if (!out.patch.influence && one.starts_from_neighbour(options)) {
+    out.patch = one.lay_on(options.neighbour->grid, target, options);
     solve(&options.neighbour->solution);
     if (!reaches_edge(out.patch.grid, out.solution.normal.pressure)) return;
+    out.patch = one.lay(target, options);
   }
-  out.patch = make_case_patch(spec, one.placement, options, {.load = normal}, one.room);
-  drive_patch(spec, one, weight, out.patch.contact);
+  if (!out.patch.influence) out.patch = one.lay(target, options);
   solve(nullptr);
 }
 
-/// Finds the normal force N with N cos(delta) - T_y(N) sin(delta) = G by secants (case_patch.hpp): lateral friction T_y
-/// carries a share of the weight that grows with the contact angle, and itself depends on N. Where that share grows as
-/// fast as N does, the slope of the left side is zero and no N is large enough: the wheel is wedged. Where it carries
-/// so much that a secant would take away half of N or more, the next N is on the chord from N = 0, which keeps it
-/// positive.
-LoadedPatch balance_vertical_load(const CaseSpec& spec, const OnePatch& one, const BemOptions& options, double weight) {
-  constexpr double kWedged = 0.02;
-  constexpr int kMostIterations = 20;
-  const RigidContact& contact = one.placement.contact;
-  const double cosine = std::cos(contact.angle), sine = std::sin(contact.angle);
-  const bool near = starts_from_neighbour(spec, one, options);
+/// The patch on its grid in the plane as it stands now, with what was noted when the grid was laid.
+CasePatch laid_again(const OnePatch& one, const NormalTarget& target, const BemOptions& options,
+                     const CasePatch& before) {
+  CasePatch out = one.lay_on(before.grid, target, options);
+  out.notes = before.notes;
+  return out;
+}
+
+/// Finds the normal force N with N cos(delta) - T_y(N) sin(delta) = G by secants (case_patch.hpp), in a plane that
+/// stays: lateral friction T_y carries a share of the weight that grows with the contact angle, and itself depends on
+/// N. Where that share grows as fast as N does, the slope of the left side is zero and no N is large enough: the wheel
+/// is wedged. Where it carries so much that a secant would take away half of N or more, the next N is on the chord from
+/// N = 0, which keeps it positive.
+LoadedPatch balance_in_plane(const OnePatch& one, CasePatch laid, const BemOptions& options, double weight) {
+  const double cosine = std::cos(one.plane().angle), sine = std::sin(one.plane().angle);
+  const bool near = !laid.influence && one.starts_from_neighbour(options);
   const double lateral = near ? options.neighbour->solution.tangential.force_y : 0.0;
-  double normal = normal_load(weight, lateral, contact), slope = cosine, previous_normal = 0, previous_excess = 0;
+  double normal = normal_load(weight, lateral, one.plane()), slope = cosine, previous_normal = 0, previous_excess = 0;
   LoadedPatch out;
-  out.contact = contact;
+  out.contact = one.plane();
+  out.patch = std::move(laid);
   for (;; ++out.load_iterations) {
-    solve_under(normal, weight, spec, one, options, out);
+    solve_under({.load = normal}, weight, one, options, out);
     const double excess = normal * cosine - out.solution.tangential.force_y * sine - weight;
     if (std::abs(excess) <= options.balance * weight) return out;
     if (out.load_iterations > 1) slope = (excess - previous_excess) / (normal - previous_normal);
@@ -270,23 +251,68 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const OnePatch& one, con
   }
 }
 
+double vertical_force(const LoadedPatch& p) {
+  return p.solution.normal.load * std::cos(p.contact.angle) - p.solution.tangential.force_y * std::sin(p.contact.angle);
+}
+
+/// The same where the plane turns with the descent d of the wheel: by secants of V(d) = N cos(delta) - T_y sin(delta),
+/// the plane and the approach those of d. It begins under the normal force that a plane nearby asks for, for forces of
+/// the drive may be more than friction bears at another d. The first slope is Hertz's, 1.5 V/d.
+LoadedPatch balance_by_descent(OnePatch& one, CasePatch laid, const BemOptions& options, double weight) {
+  constexpr double kShareOfBalance = 0.1, kFinest = 1e-11;  // of the descent that the plane is of
+  const bool near = !laid.influence && one.starts_from_neighbour(options);
+  const double lateral = near ? options.neighbour->solution.tangential.force_y : 0.0;
+  LoadedPatch out;
+  out.patch = std::move(laid);
+  out.contact = one.plane();
+  solve_under({.load = normal_load(weight, lateral, one.plane())}, weight, one, options, out);
+  double excess = vertical_force(out) - weight, descent = one.descent_at(out.solution.normal.approach),
+         slope = 1.5 * weight / descent;
+  const double settled = std::max(kShareOfBalance * options.balance, kFinest);
+  if (std::abs(excess) <= options.balance * weight && std::abs(descent - one.descent()) <= settled * descent)
+    return out;
+  for (;;) {
+    const double previous_descent = descent, previous_excess = excess;
+    descent -= std::clamp(excess / slope, -descent, 0.5 * descent);
+    one.lower(descent);
+    out.patch = laid_again(one, {{}, one.own_approach()}, options, out.patch);
+    out.contact = one.plane();
+    solve_under({{}, one.own_approach()}, weight, one, options, out);
+    excess = vertical_force(out) - weight;
+    if (std::abs(excess) <= options.balance * weight) return out;
+    if (++out.load_iterations > 2) slope = (excess - previous_excess) / (descent - previous_descent);
+    const double usual = 1.5 * out.solution.normal.load * std::cos(out.contact.angle) / descent;
+    out.wedged = !(slope > kWedged * usual) || out.load_iterations == kMostIterations;
+    if (out.wedged) return out;
+  }
+}
+
 SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  constexpr int kMostRounds = 5;
   const double load = spec.vehicle.load();
   check_friction(spec, load, normal_load(load, 0, placement.contact));
-  LoadedPatch alone = balance_vertical_load(spec, {placement, {}, placement.contact}, options, load);
-  SharedLoad shared;
-  if (!alone.patch.grid.line) shared = share_load(spec, placement, alone.solution.normal.approach, options);
-  if (!shared.patches.empty()) return shared;
-  if (shared.contacts.size() > 1) {
-    OnePatch one{placement, shared.room, placement.contact};
-    one.placement.contact = shared.plane;
-    alone = balance_vertical_load(spec, one, options, load);
-    alone.contacts = std::move(shared.contacts);
+  std::optional<FirstPatch> first;
+  if (!options.neighbour || options.neighbour->empty()) first.emplace(press_first(spec, placement, options));
+  double descent = first ? first->one.descent_at(first->laid.frictionless.approach) : options.neighbour->descent;
+  for (int round = 1;; ++round) {
+    SharedLoad shared = share_load(spec, placement, descent, options);
+    if (!shared.patches.empty()) return shared;
+    const bool as_laid = first && first->one.place().same_as(shared.alone);
+    OnePatch one = as_laid ? first->one : OnePatch(spec, placement, shared.alone);
+    if (!as_laid) one.lower(descent);
+    CasePatch laid = as_laid ? std::move(first->laid) : CasePatch{};
+    LoadedPatch alone = one.level() ? balance_in_plane(one, std::move(laid), options, load)
+                                    : balance_by_descent(one, std::move(laid), options, load);
+    if (alone.wedged) refuse_wedged("weight", alone.contact);
+    first.reset();
+    descent = one.level() ? one.descent_at(alone.solution.normal.approach) : one.descent();
+    if (round < kMostRounds && places_of(spec, placement, descent).size() != shared.places) continue;
+    shared.load_iterations = alone.load_iterations;
+    shared.descent = descent;
+    alone.contacts = std::move(shared.alone.contacts);
+    shared.patches.push_back(std::move(alone));
+    return shared;
   }
-  if (alone.wedged) refuse_wedged("weight", alone.contact);
-  shared.load_iterations = alone.load_iterations;
-  shared.patches.push_back(std::move(alone));
-  return shared;
 }
 
 /// Whether the drive has forces, which count over the load.
@@ -298,42 +324,45 @@ bool forces_wanted(const CaseSpec& spec) {
 /// Under a given approach the vertical force F_z is a result. Forces of the drive count over it: F_z and they are found
 /// in turn, from the frictionless contact on.
 SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  constexpr int kMostIterations = 40;
-  OnePatch one{placement, {}, placement.contact};
-  SharedLoad out{{PatchOnWheel{}}, {}, {}, {}, 1};
+  constexpr int kMostRounds = 40;
+  const double descent = descent_of(placement, *spec.vehicle.approach);
+  SharedLoad out;
   if (!forces_wanted(spec)) {
-    SharedLoad shared = share_load(spec, placement, *spec.vehicle.approach, options);
-    if (!shared.patches.empty()) return shared;
-    one.room = shared.room;
-    one.placement.contact = shared.plane;
-    if (one.common()) out.patches.front().contacts = std::move(shared.contacts);
+    out = share_load(spec, placement, descent, options);
+    if (!out.patches.empty()) return out;
   } else {
     require_one_plane(
         placement, *spec.vehicle.approach, "vehicle.approach",
         "give creepages instead of forces, or a load instead of vehicle.approach: the contacts share the force");
+    out.alone = first_place(spec, placement, descent);
   }
-  const RigidContact& contact = out.patches.front().contact = one.placement.contact;
-  const NormalTarget target{{}, one.approach(*spec.vehicle.approach)};
+  OnePatch one(spec, placement, out.alone);
+  one.lower(descent);
+  out.descent = descent;
+  out.load_iterations = 1;
+  out.patches.push_back({one.plane(), {}, {}, std::move(out.alone.contacts)});
+  const NormalTarget target{{}, one.approach()};
   CasePatch& patch = out.patches.front().patch;
   RollingSolution& solution = out.patches.front().solution;
-  if (!forces_wanted(spec) && starts_from_neighbour(spec, one, options)) {
-    patch = case_patch_on(options.neighbour->grid, spec, one.placement, options, target);
-    drive_patch(spec, one, 0, patch.contact);
+  if (!forces_wanted(spec) && one.starts_from_neighbour(options)) {
+    patch = one.lay_on(options.neighbour->grid, target, options);
+    one.drive(0, patch.contact);
     solution =
         solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling, &options.neighbour->solution);
     if (!reaches_edge(patch.grid, solution.normal.pressure)) return out;
   }
-  patch = make_case_patch(spec, one.placement, options, target, one.room);
-  double vertical = std::cos(contact.angle) * patch.frictionless.load;
+  patch = one.lay(target, options);
+  const double cosine = std::cos(one.plane().angle), sine = std::sin(one.plane().angle);
+  double vertical = cosine * patch.frictionless.load;
   for (;; ++out.load_iterations) {
-    drive_patch(spec, one, vertical, patch.contact);
+    one.drive(vertical, patch.contact);
     solution = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling,
                              out.load_iterations > 1 ? &solution : nullptr);
     const double before = vertical;
-    vertical = std::cos(contact.angle) * solution.normal.load - std::sin(contact.angle) * solution.tangential.force_y;
+    vertical = cosine * solution.normal.load - sine * solution.tangential.force_y;
     const bool driven = patch.contact.x.force.value_or(0) != 0 || patch.contact.y.force.value_or(0) != 0;
     if (!driven || std::abs(vertical - before) <= options.balance * std::abs(vertical)) return out;
-    if (out.load_iterations == kMostIterations)
+    if (out.load_iterations == kMostRounds)
       throw CaseError("the ratio of forces to the resulting load does not converge with a given approach",
                       "lower the traction coefficients, or give a load instead of vehicle.approach",
                       "vehicle.approach");
@@ -414,8 +443,6 @@ BemResult bem_result(const CaseSpec& spec, const Placement& placement, const Pat
 
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  if (spec.drive.creepage_of == CreepageOf::wheel)
-    return solve_bem(with_drive_at_contact(spec, placement.contact), placement, options);
   require_support(spec.run.rolling ? uses::kSteadyRolling : uses::kHalfSpaces, spec);
   SharedLoad shared =
       spec.vehicle.approach ? press_to_approach(spec, placement, options) : bear_weight(spec, placement, options);
@@ -428,7 +455,7 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
     *options.neighbour = {};
     if (shared.patches.size() == 1)
       *options.neighbour = {shared.patches.front().patch.grid, std::move(shared.patches.front().solution),
-                            shared.patches.front().contacts.size() > 1};
+                            shared.descent};
   }
   r.effort.load_iterations = shared.load_iterations;
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -1,5 +1,7 @@
 #include "bem/transient.hpp"
 
+#include "bem/one_patch.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,14 +36,14 @@ class Course {
  public:
   Course(const CaseSpec& spec, const Placement& placement, const BemOptions& options)
       : spec_(spec),
-        placement_(placement),
+        placement_(in_plane(spec, placement, options)),
         options_(options.rolling),
-        history_(spec, placement.contact),
+        history_(spec, placement_.contact),
         patch_(make_case_patch(
-            spec, placement, options,
+            spec, placement_, options,
             {.load = largest_normal_load(history_,
                                          spec.friction.lateral_coefficient.value_or(spec.drive.friction_coefficient),
-                                         placement.contact)})),
+                                         placement_.contact)})),
         rolling_(patch_.contact) {
     // the next step corrects the force error of this one within one cell, so the first creepage from rest would err by
     // twenty times the force's tolerance over friction
@@ -239,7 +241,7 @@ class Course {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   const CaseSpec& spec_;
-  const Placement& placement_;
+  const Placement placement_;
   RollingOptions options_;
   LoadHistory history_;
   CasePatch patch_;

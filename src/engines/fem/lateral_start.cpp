@@ -55,7 +55,7 @@ double lateral_force(const RollingEllipse& e, const DriveSpec& drive, double alo
 
 LateralStart lateral_start(const Model& m) {
   const DriveSpec& drive = m.spec.drive;
-  const RigidContact& contact = m.placement.contact;
+  const RigidContact& contact = m.reference;
   if (!m.spec.run.rolling) return {};
   const double along = -drive.traction().value_or(0) * m.load, spin = wheel_spin(contact);
   if (drive.lateral_traction_coefficient) {
@@ -72,7 +72,7 @@ LateralStart lateral_start(const Model& m) {
 double estimated_creepage(const Model& m, double traction) {
   const DriveSpec& drive = m.spec.drive;
   if (!(drive.friction_coefficient > 0)) return 0;
-  const RigidContact& contact = m.placement.contact;
+  const RigidContact& contact = m.reference;
   const RollingEllipse e = ellipse_of(m);
   const double across = drive.lateral_creepage.value_or(yaw_creepage(contact)), spin = wheel_spin(contact);
   return creepage_at(-traction * m.load, [&](double x) { return fastsim(e, {x, across, spin}).x; });

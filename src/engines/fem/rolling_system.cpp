@@ -90,7 +90,7 @@ ExplicitOptions explicit_options(const Model& m) {
   const CaseSpec& spec = m.spec;
   ExplicitOptions out;
   const DriveSpec& drive = spec.drive;
-  const RigidContact& contact = m.placement.contact;
+  const RigidContact& contact = m.reference;
   out.keeps_pace = drive.creepage.has_value();
   const LateralStart lateral = lateral_start(m);
   out.free_sideways = drive.lateral_traction_coefficient.has_value();
@@ -167,7 +167,8 @@ RollingSystem::RollingSystem(const Model& m)
   }
   const DriveSpec& drive = m.spec.drive;
   if (m.spec.run.rolling)
-    start_spin = drive.speed * (1 - drive.creepage.value_or(drive.creepage_start)) / rolling_radius;
+    start_spin = drive.creepage ? drive.speed * (1 - *drive.creepage) / m.reference.rolling_radius
+                                : drive.speed * (1 - drive.creepage_start) / rolling_radius;
   const double traction = drive.traction().value_or(0) * m.load;
   torque = traction * (rolling_radius + (on_ring() ? 0.0 : spin_inertia / (travel_mass * rolling_radius)));
   if (on_ring()) {

@@ -150,9 +150,9 @@ AxlePose Stepper::pose_in_frame() const {
 AxleDrive Stepper::axle_drive() const { return {drive_torque(sys_, state_.time), side_force_}; }
 
 double Stepper::lateral_creepage() const {
-  const RigidContact& contact = sys_.model.placement.contact;
+  const RigidContact& contact = sys_.model.reference;
   const AxleMotion& a = state_.axle;
-  return (a.vy - a.spin * sys_.rolling_radius * std::tan(contact.yaw)) / (speed() * std::cos(contact.angle));
+  return (a.vy - a.spin * contact.rolling_radius * std::tan(contact.yaw)) / (speed() * std::cos(contact.angle));
 }
 
 void Stepper::step() {

@@ -75,7 +75,7 @@ class Stepper {
   /// V, m/s, of the wheel along the rail.
   double speed() const { return sys_.on_ring() ? sys_.spec().drive.speed : state_.axle.vx; }
   /// Rigid slip of wheel against rail over the speed, (V - omega r)/V: negative when driving.
-  double creepage() const { return (speed() - state_.axle.spin * sys_.rolling_radius) / speed(); }
+  double creepage() const { return (speed() - state_.axle.spin * sys_.model.reference.rolling_radius) / speed(); }
   /// Of the axle and of a rail that is a ring, model frame.
   AxlePose pose() const;
   /// Rigid slip in the contact plane over the speed, positive where the wheel slides to the field side.

@@ -87,16 +87,21 @@ class Gap {
   };
   WalkedWheel walk() const { return {RunningSurface(wheel_), OutlineWalk(turned_)}; }
   /// The same at a place of the rail, in its own frame; nothing where that does not face the wheel.
-  std::optional<double> value_if_faced(Vec2 on_rail, WalkedWheel& wheel) const {
+  struct Faced {
+    double gap = 0, x = 0;  ///< x: of GapSamples
+  };
+  std::optional<Faced> faced(Vec2 on_rail, WalkedWheel& wheel) const {
     const Vec2 rail = roll(cant_, on_rail);
     const double y = rail.y - offset_y_;
     if (!(y >= wheel_begin_ && y <= wheel_end_)) return {};
-    if (rolled()) return wheel.outline.height(y) - rail.z;
-    if (track_.yaw == 0) return wheel.upright.height(y) - rail.z;
+    if (rolled()) return Faced{wheel.outline.height(y) - rail.z, wheel.outline.x()};
+    if (track_.yaw == 0) return Faced{wheel.upright.height(y) - rail.z, 0};
     const LowestPoint p = lowest_point(
         wheel_, [&](double at) { return wheel.upright.place(at); }, track_, y, rail_radius(rail.z));
-    return over(rail, p, wheel.upright.height(p.y));
+    return Faced{over(rail, p, wheel.upright.height(p.y)), along_rail(track_, p)};
   }
+  /// x of GapSamples at any place.
+  double x(double s) const { return rolled() ? outline(s).position.x : along_rail(track_, on_wheel(s)); }
   double derivative(double s) const {
     if (rolled()) {
       const Vec2 rail = rail_to_model(track_, rail_.at(s).tangent), wheel = outline(s).along;
@@ -205,12 +210,14 @@ GapSamples sample_overlap(const Gap& gap, const Profile& rail) {
   GapSamples out;
   out.s.reserve(places.size());
   out.gap.reserve(places.size());
+  out.x.reserve(places.size());
   for (int i = 0; i <= n; ++i) {
     const double s = i == n ? end : begin + (end - begin) * i / n;
-    const std::optional<double> value = gap.value_if_faced(places[static_cast<std::size_t>(i)], walked);
-    if (!value) continue;
+    const std::optional<Gap::Faced> faced = gap.faced(places[static_cast<std::size_t>(i)], walked);
+    if (!faced) continue;
     out.s.push_back(s);
-    out.gap.push_back(*value);
+    out.gap.push_back(faced->gap);
+    out.x.push_back(faced->x);
   }
   return out;
 }
@@ -318,6 +325,53 @@ std::size_t sample_near(const GapSamples& samples, double s) {
   return static_cast<std::size_t>(next - samples.s.begin());
 }
 
+/// Sums over an overlap, each with the weight of its depth.
+struct OverlapSums {
+  double weight = 0, s = 0, x = 0, angle = 0;
+  void add(double depth, double at, double along, double inclination) {
+    const double w = depth * depth * std::sqrt(depth);  // depth^2.5
+    weight += w;
+    s += w * at;
+    x += w * along;
+    angle += w * inclination;
+  }
+};
+
+/// Over the samples of a stretch; where fewer than kFew of them overlap, between these too.
+OverlapSums overlap_sums(const Gap& gap, const Profile& rail, const TrackGeometry& track, const GapSamples& samples,
+                         const RailStretch& stretch, double offset_z) {
+  constexpr std::size_t kFew = 60;
+  const Rotation<double> cant = rotation_of_tangent(track.cant);
+  const auto inclination = [&](double s) {
+    const Vec2 t = roll(cant, rail.at(s).tangent);
+    return std::atan2(t.z, t.y);
+  };
+  const auto depth = [&](std::size_t i) { return -offset_z - samples.gap[i]; };
+  const auto at = [&](double s) {
+    return static_cast<std::size_t>(std::lower_bound(samples.s.begin(), samples.s.end(), s) - samples.s.begin());
+  };
+  const std::size_t begin = at(stretch.low), end = at(stretch.high);
+  OverlapSums out;
+  std::size_t overlapped = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!(depth(i) > 0)) continue;
+    ++overlapped;
+    out.add(depth(i), samples.s[i], samples.x[i], inclination(samples.s[i]));
+  }
+  if (overlapped == 0 || overlapped >= kFew) return out;
+  out = {};
+  const std::size_t parts = kFew / overlapped + 1;
+  for (std::size_t i = begin; i + 1 < end; ++i) {
+    if (!(depth(i) > 0) && !(depth(i + 1) > 0)) continue;
+    for (std::size_t k = 0; k < parts; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(parts),
+                   s = samples.s[i] + share * (samples.s[i + 1] - samples.s[i]), deep = -offset_z - gap.value(s);
+      if (deep > 0) out.add(deep, s, gap.x(s), inclination(s));
+    }
+  }
+  return out;
+}
+
 std::string pair_name(const Profile& wheel, const Profile& rail) {
   return fmt::format("wheel {} on rail {}", wheel.name(), rail.name());
 }
@@ -390,44 +444,29 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
     places.push_back(i);
     const double s = refine(gap, samples.s[i - 1], samples.s[i], samples.s[i + 1]);
     out.push_back(contact_at(gap, wheel, rail, track, first.wheel_offset_y, s));
+    out.back().searched = searched;
   }
   return out;
 }
 
-RigidContact common_contact(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
-                            std::vector<RigidContact> contacts, double offset_z) {
-  constexpr double kPower = 2.5;
-  const auto lower = [](const RigidContact& a, const RigidContact& b) { return a.wheel_offset_z < b.wheel_offset_z; };
-  const RigidContact first = *std::max_element(contacts.begin(), contacts.end(), lower);
-  std::sort(contacts.begin(), contacts.end(),
-            [](const RigidContact& a, const RigidContact& b) { return a.rail_s < b.rail_s; });
+RigidContact overlap_place(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                           const RigidContact& first, const RailStretch& stretch, double offset_z) {
+  constexpr double kSamePlace = 1e-8, kSameAngle = 1e-7;  // m, rad
+  if (first.settled) return first;
   const Gap gap(wheel, rail, track, first.wheel_offset_y);
   const auto searched = samples_of(first, gap, rail);
-  const GapSamples& samples = *searched;
-  const auto depth = [&](std::size_t i) { return -offset_z - samples.gap[i]; };
-  std::size_t at = sample_near(samples, contacts.front().rail_s);
-  while (at > 0 && depth(at - 1) > 0) --at;
-  double total = 0, s = 0, x = 0, angle = 0;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const RigidContact& c = contacts[k];
-    const std::size_t middle = sample_near(samples, c.rail_s),
-                      end = k + 1 < contacts.size()
-                                ? ridge_sample(samples, middle, sample_near(samples, contacts[k + 1].rail_s))
-                                : samples.s.size();
-    double weight = 0;
-    for (; at < end && (at <= middle || end < samples.s.size() || depth(at) > 0); ++at)
-      weight += std::pow(std::max(depth(at), 0.0), kPower);
-    total += weight;
-    s += weight * c.rail_s;
-    x += weight * c.x;
-    angle += weight * c.angle;
-  }
-  if (!(total > 0)) return first;
-  RigidContact out = contact_at(gap, wheel, rail, track, first.wheel_offset_y, s / total);
+  const OverlapSums sums = overlap_sums(gap, rail, track, *searched, stretch, offset_z);
+  if (!(sums.weight > 0)) return first;
+  const double s = sums.s / sums.weight, angle = sums.angle / sums.weight;
+  if (std::abs(s - first.rail_s) < kSamePlace && std::abs(angle - first.angle) < kSameAngle) return first;
+  RigidContact out = contact_at(gap, wheel, rail, track, first.wheel_offset_y, s);
+  const double half_gap = 0.5 * (gap.value(s) + first.wheel_offset_z);
+  out.point.z += half_gap;
+  out.rolling_radius += half_gap;
   out.wheel_offset_z = first.wheel_offset_z;
   out.axle_height = first.axle_height;
-  out.x = x / total;
-  out.angle = angle / total;
+  out.x = sums.x / sums.weight;
+  out.angle = angle;
   out.curvature_wheel_lateral = first.curvature_wheel_lateral;
   out.curvature_rail_lateral = first.curvature_rail_lateral;
   out.curvature_rolling = std::cos(out.angle - out.roll) / out.rolling_radius + std::cos(out.angle) * out.rail_turn;

@@ -28,8 +28,9 @@ struct TrackGeometry {
 };
 
 /// The vertical gap along the rail [m], over arc lengths where it faces the wheel; of a tape circle at the height 0.
+/// x: where the wheel is lowest, from the middle of the tape circle along the rail.
 struct GapSamples {
-  std::vector<double> s, gap;
+  std::vector<double> s, gap, x;
 };
 
 /// The wheel just touching the rail.
@@ -50,6 +51,7 @@ struct RigidContact {
   double curvature_rolling = 0;  ///< of wheel and rail together across them, cos(angle) (1/rolling_radius + rail_turn)
                                  ///< [1/m]
   double rail_turn = 0;  ///< 1/m, over the depth of the rail's axle below the contact point; < 0: above; 0: straight
+  bool settled = false;  ///< the place and plane of a patch, which later ones keep
   std::shared_ptr<const GapSamples> searched;  ///< what place_wheel looked at for it; null: of other contacts
 };
 
@@ -104,13 +106,20 @@ RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackG
 std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
                                            const RigidContact& first, double descent);
 
-/// Contacts of one wheel that are solved in one plane: the means of their places, x and angles. Each has the weight sum
-/// of depth^2.5 over where the wheel, lowered to the height `offset_z` [m] of its tape circle, overlaps the rail around
-/// it up to the ridges beside it: the squared depth, summed along rolling too, as CONTACT combines contacts. Height and
-/// curvatures are those of the one that touches first. Continuous where another becomes the first, and where one
-/// begins.
-RigidContact common_contact(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
-                            std::vector<RigidContact> contacts, double offset_z);
+/// A stretch of the rail's profile, by arc lengths [m].
+struct RailStretch {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+};
+
+/// The place and plane of what a wheel, lowered to the height `offset_z` [m] of its tape circle, overlaps of a stretch
+/// of the rail: means of the rail's arc length, of x and of the rail's inclination with the weight depth^2.5, the
+/// squared depth summed along rolling too, as CONTACT weighs an overlap. The wheel's inclination has the same mean, for
+/// the overlap ends where its depth is 0. Rolling radius and point are those of the middle between the two surfaces
+/// there, of the wheel that just touches; height and curvatures are those of `first`, the contact of the stretch that
+/// touches first. Continuous over the placement and the height: what begins to overlap has no weight. `first` itself
+/// where nothing overlaps and where the means differ from it by less than 1e-8 m and 1e-7 rad.
+RigidContact overlap_place(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                           const RigidContact& first, const RailStretch& stretch, double offset_z);
 
 /// The largest vertical gap between two contacts: where the surface of the one ends and that of the other begins. gap
 /// [m] is that of a wheel with its tape circle at the height 0.

@@ -56,6 +56,8 @@ class OutlineWalk {
   explicit OutlineWalk(const TurnedWheel& wheel) : wheel_(wheel) {}
   /// At y, to some 1e-13 m. Clamped as TurnedWheel::s_at_y.
   double height(double y);
+  /// Of the place whose height was asked for last.
+  double x() const { return last_.position.x; }
 
  private:
   const TurnedWheel& wheel_;

@@ -16,7 +16,7 @@ namespace {
 
 Check fem_check(std::string_view name, double value) { return at_most(name, value, check_row(name).fem_limit); }
 
-/// N m, on the wheel about the contact plane's normal at the rigid contact point.
+/// N m, on the wheel about the contact plane's normal at the reference.
 double spin_moment(const RigidContact& contact, const ContactField& f) {
   double sum = 0;
   for (int i = 0; i < f.size(); ++i) {
@@ -33,7 +33,7 @@ ContactSummary contact_summary(const RollingSystem& sys, const RunResult& run, c
   c.F_x = m.F_x;
   c.F_y = m.F_y;
   c.F_z = m.F_z;
-  turn_into_contact_plane(c, sys.model.placement.contact.angle);
+  turn_into_contact_plane(c, sys.model.reference.angle);
   c.lateral_force = m.patch.force_y;
   c.approach = run.preload.foot_z - run.preload.axle_z;
   c.penetration_max = run.penetration;
@@ -41,7 +41,7 @@ ContactSummary contact_summary(const RollingSystem& sys, const RunResult& run, c
   c.creepage_x = m.creepage;
   c.creepage_y = m.lateral_creepage;
   c.spin_per_m = m.spin_per_m;
-  c.spin_moment = spin_moment(sys.model.placement.contact, m.field);
+  c.spin_moment = spin_moment(sys.model.reference, m.field);
   c.p_max_scatter = m.p_max_scatter;
   return c;
 }

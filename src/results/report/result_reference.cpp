@@ -147,7 +147,7 @@ constexpr std::string_view kRoundOff =
 constexpr std::string_view kSeveralPatches =
     "\nWhere the wheel touches at several places (half-spaces), `contact` describes the patch with the largest "
     "pressure, except\nthat `F_x_N`, `F_y_N` and `F_z_N` are totals. `patches` lists every patch, that one first: the "
-    "keys of `contact`, and\n`y_m`, `rail_y_m`, `wheel_y_m` of its rigid contact point in the model's and in each "
+    "keys of `contact`, and\n`y_m`, `rail_y_m`, `wheel_y_m` of its place in the model's and in each "
     "profile's own frame. Stresses are\nthose below the first. The same holds for the columns of tables; their column "
     "`patches` is the number of patches.\n";
 

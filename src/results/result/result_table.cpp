@@ -94,7 +94,7 @@ std::vector<ResultNumber> field_numbers() {
       row("F_z", kKilonewtons, contact<&C::F_z>, "F_z", "F_z on the wheel", "Contact force on the wheel, upwards",
           kMain | kOfAll),
       row("contact_angle", kDegrees, contact<&C::contact_angle>, "contact angle", "Contact angle",
-          "Angle of the common tangent at the rigid contact point", kFile, kOfAngle),
+          "Angle of the plane of the patch, the mean over the overlap of the profiles", kFile, kOfAngle),
       row("normal_force", kKilonewtons, contact<&C::normal_force>, "normal force", "Normal force in the contact plane",
           "Component of (F_y, F_z) along the normal of the contact plane", kMain),
       row("lateral_force", kKilonewtons, contact<&C::lateral_force>, "lateral force",
@@ -103,7 +103,7 @@ std::vector<ResultNumber> field_numbers() {
           "finite elements: sum over the nodes, each in its own plane",
           kColumn | kShown, kOfForce),
       row("spin_moment", kNewtonMetres, contact<&C::spin_moment>, "spin moment", "Moment about the contact normal",
-          "Moment of the friction on the wheel about the normal at the rigid contact point", kShown, kOfMoment)};
+          "Moment of the friction on the wheel about the normal of the plane, at its place", kShown, kOfMoment)};
 }
 
 std::vector<ResultNumber> motion_numbers() {

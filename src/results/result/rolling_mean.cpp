@@ -139,7 +139,7 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     m.F_z += weight * s.forces.z;
     m.creepage += weight * s.creepage;
     m.lateral_creepage += weight * s.lateral_creepage;
-    if (sys.start_spin > 0) m.spin_per_m += weight * (1 - s.creepage) * wheel_spin(sys.model.placement.contact);
+    if (sys.start_spin > 0) m.spin_per_m += weight * (1 - s.creepage) * wheel_spin(sys.model.reference);
     add(m.rail, s.rail, weight);
     add(m.wheel, s.wheel, weight);
   }

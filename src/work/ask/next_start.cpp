@@ -56,6 +56,7 @@ BemNeighbour NextStart::of(const CaseSpec& spec) const {
   if (!(square > 0) || !(along > 0) || along > kFarthest * square) return start;
   const double share = along / square;
   continue_pressure(share, before_.solved.solution.normal.pressure, start.solution.normal.pressure);
+  start.descent = continued(start.descent, before_.solved.descent, share);
   continue_traction(share, before_.solved.solution.tangential, start.solution.tangential);
   return start;
 }

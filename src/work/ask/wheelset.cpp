@@ -7,6 +7,7 @@
 #include <exception>
 #include <string>
 
+#include "bem/contact_places.hpp"
 #include "core/faults.hpp"
 #include "core/root.hpp"
 #include "halfspace/hertz.hpp"
@@ -14,17 +15,17 @@
 
 namespace railstrata {
 
-double Stiffening::force_at(double a) const { return a > 0 ? scale * std::pow(a, power) : 0.0; }
-double Stiffening::approach_at(double q) const { return std::pow(q / scale, 1 / power); }
+double Stiffening::force_at(double d) const { return d > 0 ? scale * std::pow(d, power) : 0.0; }
+double Stiffening::descent_at(double q) const { return std::pow(q / scale, 1 / power); }
 
-void Stiffening::add(double a, double q) {
+void Stiffening::add(double d, double q) {
   constexpr double kNear = 1e-4, kFar = 1, kLeast = 0.8, kMost = 3;
-  if (!(a > 0) || !(q > 0)) return;
-  const double apart = approach > 0 ? std::abs(std::log(a / approach)) : 0;
-  if (apart > kNear && apart < kFar) power = std::clamp(std::log(q / force) / std::log(a / approach), kLeast, kMost);
-  approach = a;
+  if (!(d > 0) || !(q > 0)) return;
+  const double apart = descent > 0 ? std::abs(std::log(d / descent)) : 0;
+  if (apart > kNear && apart < kFar) power = std::clamp(std::log(q / force) / std::log(d / descent), kLeast, kMost);
+  descent = d;
   force = q;
-  scale = q / std::pow(a, power);
+  scale = q / std::pow(d, power);
 }
 
 namespace {
@@ -69,41 +70,42 @@ void add_up(Wheel& w) {
   }
 }
 
-/// Solves a wheel under an approach along the normal of its first contact.
-void press(Wheel& w, double approach) {
-  const WheelSlip slip = slip_at(w.track(), w.touching(), w.motion, w.rail);
+/// Solves a wheel that is lowered by `descent` below where it touches.
+void press(Wheel& w, double descent) {
+  w.reference = descent > 0 ? reference_of(w.contact.placement(), descent) : w.touching();
+  const WheelSlip slip = slip_at(w.track(), w.reference, w.motion, w.rail);
   State state;
-  state.approach = approach;
+  state.approach = descent * std::cos(w.reference.angle);
   state.speed = w.motion.speed;
   state.creepage_x = slip.creepage_x;
   state.creepage_y = slip.creepage_y;
   state.spin = slip.spin;
   w.forces = w.contact.solve(state);
-  w.approach = approach;
   add_up(w);
 }
 
-void press(Wheelset& set, const std::array<double, 2>& approach) {
+void press(Wheelset& set, const std::array<double, 2>& descents) {
   ++set.solutions;
   for (std::size_t k : {0, 1}) {
-    press(set.wheels[k], approach[k]);
-    set.stiffening[k].add(approach[k], set.wheels[k].force.z);
+    press(set.wheels[k], descents[k]);
+    set.stiffening[k].add(descents[k], set.wheels[k].force.z);
   }
 }
 
-/// Approach of a wheel at the height z of the wheelset.
-double approach_at(const Wheel& w, double z) {
+/// Descent of a wheel at the height z of the wheelset.
+double descent_at(const Wheel& w, double z) {
   WheelsetMotion m = w.motion;
   m.z = z;
-  return descent(w.track(), w.touching(), m, w.rail) * std::cos(w.touching().angle);
+  return descent(w.track(), w.touching(), m, w.rail);
 }
 
 void begin_stiffening(Wheelset& set) {
   for (std::size_t k : {0, 1}) {
     if (set.stiffening[k].scale > 0) continue;
     const CaseSpec& spec = set.wheels[k].contact.spec();
-    const double approach = hertz_estimate(spec, set.wheels[k].touching()).approach;
-    set.stiffening[k].scale = spec.vehicle.load() / std::pow(approach, 1.5);
+    const RigidContact& touching = set.wheels[k].touching();
+    const double descent = hertz_estimate(spec, touching).approach / std::cos(touching.angle);
+    set.stiffening[k].scale = spec.vehicle.load() / std::pow(descent, 1.5);
   }
 }
 
@@ -111,11 +113,11 @@ double tolerance_of(const Wheelset& set) {
   return std::max(set.wheels[0].contact.load_tolerance(), set.wheels[1].contact.load_tolerance());
 }
 
-/// z where the forces that are expected of the approaches bear the load.
+/// z where the forces that are expected of the descents bear the load.
 double expected_height(const Wheelset& set, double load) {
   const auto borne = [&](double z) {
-    return set.stiffening[0].force_at(approach_at(set.wheels[0], z)) +
-           set.stiffening[1].force_at(approach_at(set.wheels[1], z));
+    return set.stiffening[0].force_at(descent_at(set.wheels[0], z)) +
+           set.stiffening[1].force_at(descent_at(set.wheels[1], z));
   };
   double high = std::max(
       height_of_descent(0, set.wheels[0].track(), set.wheels[0].touching(), set.wheels[0].motion, set.wheels[0].rail),
@@ -134,7 +136,7 @@ double sink(Wheelset& set, double load) {
   begin_stiffening(set);
   for (int i = 0; i < kMostSolutions; ++i) {
     const double z = expected_height(set, load);
-    press(set, {approach_at(set.wheels[0], z), approach_at(set.wheels[1], z)});
+    press(set, {descent_at(set.wheels[0], z), descent_at(set.wheels[1], z)});
     if (std::abs(set.wheels[0].force.z + set.wheels[1].force.z - load) <= tolerance_of(set) * load) return z;
   }
   throw NumericalError("the height of the wheelset under its load was not found");
@@ -158,8 +160,8 @@ std::array<double, 2> wanted_forces(const Wheelset& set, double load, double rol
   return {left, load - left};
 }
 
-/// The roll at which both wheels have their approaches, and the height; none was found: nothing.
-std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std::array<double, 2>& approach,
+/// The roll at which both wheels have their descents, and the height; none was found: nothing.
+std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std::array<double, 2>& descents,
                            bool hold) {
   constexpr double kClose = 1e-10;  // m
   double height[2];
@@ -167,8 +169,7 @@ std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std:
     place(set, state, roll, hold);
     for (std::size_t k : {0, 1}) {
       const Wheel& w = set.wheels[k];
-      height[k] =
-          height_of_descent(approach[k] / std::cos(w.touching().angle), w.track(), w.touching(), w.motion, w.rail);
+      height[k] = height_of_descent(descents[k], w.track(), w.touching(), w.motion, w.rail);
     }
     return height[0] - height[1];
   };
@@ -186,19 +187,19 @@ std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std:
   return {};
 }
 
-/// Height and roll by wheels whose force follows their own approach, which is soon done. Where the wheels touch changes
+/// Height and roll by wheels whose force follows their own descent, which is soon done. Where the wheels touch changes
 /// with the roll; after some solutions they keep to a place. None: a wheel on tread and flange does not follow it.
-std::optional<double> lean_by_approaches(Wheelset& set, const WheelsetState& state) {
+std::optional<double> lean_by_descents(Wheelset& set, const WheelsetState& state) {
   constexpr int kSoon = 8;
   place(set, state, set.roll);
   begin_stiffening(set);
   std::array<double, 2> wanted{0.5 * *state.load, 0.5 * *state.load};
   while (set.solutions < kSoon) {
-    const std::array<double, 2> approach{set.stiffening[0].approach_at(wanted[0]),
-                                         set.stiffening[1].approach_at(wanted[1])};
-    const std::optional<double> z = tilt(set, state, approach, set.solutions > kFreeSolutions);
+    const std::array<double, 2> descents{set.stiffening[0].descent_at(wanted[0]),
+                                         set.stiffening[1].descent_at(wanted[1])};
+    const std::optional<double> z = tilt(set, state, descents, set.solutions > kFreeSolutions);
     if (!z) return {};
-    press(set, approach);
+    press(set, descents);
     wanted = wanted_forces(set, *state.load, state.roll_moment);
     const double missed =
         std::max(std::abs(wanted[0] - set.wheels[0].force.z), std::abs(wanted[1] - set.wheels[1].force.z));
@@ -207,17 +208,23 @@ std::optional<double> lean_by_approaches(Wheelset& set, const WheelsetState& sta
   return {};
 }
 
+[[noreturn]] void refuse_jump(const Wheelset& set, double missed) {
+  throw NoAnswer(fmt::format("no equilibrium: near a roll of {:.6g} rad the roll moment jumps past the one wanted, by "
+                             "{:.4g} N m at the least",
+                             set.roll, missed),
+                 "give the roll, or another y");
+}
+
 /// Height and roll: of all rolls, under each of which the wheelset sinks until it bears its load, the one whose moment
-/// is that wanted. The moment falls as the roll grows, until a wheel is lifted; with the place of the first contact it
-/// jumps by some 1e-4.
+/// is that wanted. The moment falls as the roll grows, until a wheel is lifted. Throws NoAnswer where it jumps.
 std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, double from) {
-  constexpr double kSame = 1e-10;  // rad
-  double z = 0;
+  constexpr double kSame = 1e-10, kRoundOff = 10;  // rad; of what is close
+  double z = 0, last = 0;
   bool hold = false;
   const auto excess = [&](double roll) {
     place(set, state, roll, hold);
     z = sink(set, *state.load);
-    return set.wheels[0].moment.x - set.wheels[1].moment.x + state.roll_moment;
+    return last = set.wheels[0].moment.x - set.wheels[1].moment.x + state.roll_moment;
   };
   const double arm = tape_circle_distance(set.wheels[0].at_rest), close = tolerance_of(set) * *state.load * arm;
   double a = from, at_a = excess(a);
@@ -227,8 +234,11 @@ std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, 
     const double b = a + step, at_b = excess(b);
     if (std::abs(at_b) <= close) return z;
     hold = at_a * at_b < 0;
-    if (hold)
-      return narrow_root(a, at_a, b, at_b, close, kSame, kMostSolutions, excess) ? std::optional(z) : std::nullopt;
+    if (hold) {
+      if (!narrow_root(a, at_a, b, at_b, close, kSame, kMostSolutions, excess)) return {};
+      if (std::abs(last) > kRoundOff * close) refuse_jump(set, std::abs(last));
+      return z;
+    }
     a = b;
     at_a = at_b;
     step *= 2;
@@ -241,7 +251,7 @@ double lean(Wheelset& set, const WheelsetState& state) {
   const std::array<Stiffening, 2> stiffening = set.stiffening;
   std::exception_ptr refused;
   try {
-    if (const std::optional<double> z = lean_by_approaches(set, state)) return *z;
+    if (const std::optional<double> z = lean_by_descents(set, state)) return *z;
   } catch (const NoAnswer&) {  // perhaps of forces on the way
     refused = std::current_exception();
   }
@@ -277,9 +287,9 @@ Vec3 in_track(Vec3 v, bool mirror, bool axial) {
 
 WheelForces forces_of(const Wheel& w, double y, bool mirror) {
   const double odd = mirror ? -1 : 1;
-  const RigidContact& touching = w.touching();
-  const WheelSlip slip = slip_at(w.track(), touching, w.motion, w.rail);
-  const Vec3 arm = arm_of(w.track(), touching, w.motion, touching.x, touching.point);
+  const RigidContact& place = w.reference;
+  const WheelSlip slip = slip_at(w.track(), place, w.motion, w.rail);
+  const Vec3 arm = arm_of(w.track(), place, w.motion, place.x, place.point);
   WheelForces out;
   out.force = in_track(w.force, mirror, false);
   out.moment = in_track(w.moment, mirror, true);
@@ -289,13 +299,13 @@ WheelForces forces_of(const Wheel& w, double y, bool mirror) {
   out.creepage_x = slip.creepage_x;
   out.creepage_y = odd * slip.creepage_y;
   out.spin = odd * slip.spin;
-  out.approach = w.approach;
-  out.point = in_track({arm.x, arm.y, touching.point.z + w.rail.z}, mirror, false);
+  out.approach = w.forces.approach;
+  out.point = in_track({arm.x, arm.y, place.point.z + w.rail.z}, mirror, false);
   out.point.y += y;
-  out.on_wheel = w.contact.placement().wheel.at(touching.wheel_s).position;
-  out.on_rail = w.contact.placement().rail.at(touching.rail_s).position;
-  out.contact_angle = odd * touching.angle;
-  out.rolling_radius = touching.rolling_radius;
+  out.on_wheel = w.contact.placement().wheel.at(place.wheel_s).position;
+  out.on_rail = w.contact.placement().rail.at(place.rail_s).position;
+  out.contact_angle = odd * place.angle;
+  out.rolling_radius = place.rolling_radius;
   out.p_max = w.forces.p_max;
   out.patch_area = w.forces.patch_area;
   out.dissipation = w.forces.dissipation;
@@ -320,7 +330,7 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
   WheelsetForces out;
   if (state.z) {
     out.z = *state.z;
-    press(set, {approach_at(set.wheels[0], out.z), approach_at(set.wheels[1], out.z)});
+    press(set, {descent_at(set.wheels[0], out.z), descent_at(set.wheels[1], out.z)});
   } else {
     out.z = state.roll ? sink(set, *state.load) : lean(set, state);
   }

@@ -87,14 +87,14 @@ inline constexpr std::array<Named<WheelsetForces, double, int, Vec3>, 5> kWheels
      {"moment", "N m", &WheelsetForces::moment},
      {"solutions", "", &WheelsetForces::solutions}}};
 
-/// How the vertical force of a wheel grows with its approach, Q = scale a^power: Hertz's 1.5 to begin with.
+/// How the vertical force of a wheel grows with its descent, Q = scale d^power: Hertz's 1.5 to begin with.
 struct Stiffening {
   double scale = 0, power = 1.5;
-  double approach = 0, force = 0;  ///< that it goes through
-  double force_at(double a) const;
-  double approach_at(double q) const;
-  double slope() const { return approach > 0 ? power * force / approach : 0; }  ///< there
-  void add(double a, double q);
+  double descent = 0, force = 0;  ///< that it goes through
+  double force_at(double d) const;
+  double descent_at(double q) const;
+  double slope() const { return descent > 0 ? power * force / descent : 0; }  ///< there
+  void add(double d, double q);
 };
 
 /// One wheel as the left one of its motion.
@@ -105,8 +105,8 @@ struct Wheel {
   WheelsetMotion motion;
   RailMotion rail;
   Forces forces;
-  double approach = 0;  ///< m, of the last solution
-  Vec3 force, moment;   ///< N, N m about the wheelset's centre
+  RigidContact reference;  ///< of the last solution: the place that its creepages are of (reference_of)
+  Vec3 force, moment;      ///< N, N m about the wheelset's centre
   const RigidContact& touching() const { return contact.placement().contact; }
   const TrackGeometry& track() const { return contact.placement().track; }
 };

@@ -6,6 +6,7 @@
 
 #include "ask/answer.hpp"
 #include "ask/solve_settings.hpp"
+#include "bem/one_patch.hpp"
 #include "core/faults.hpp"
 #include "jobs/state_table.hpp"
 #include "judge/check_limits.hpp"
@@ -45,7 +46,7 @@ class SteadyPasses : public PassJob {
     wanted.shakedown = wanted.single_track = true;
     for (CaseSpec spec : specs) {
       spec.run.judged = JudgedBodies::rail;
-      placements.push_back(place(spec, loaded_.folder()));
+      placements.push_back(in_plane(spec, place(spec, loaded_.folder()), how.bem));
       Answer answer = ask(spec, placements.back(), wanted, how);
       wanted = kContactAlone;
       doubt(answer.summary);
