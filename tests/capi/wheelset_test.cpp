@@ -192,6 +192,24 @@ TEST(Wheelset, AWheelThatChangesItsPlaceBearsItsLoad) {
   EXPECT_NEAR(set.forces.moment[0], 0, 22);
 }
 
+// Towards the flange and beyond what a load without a roll moment can hold: an answer is an equilibrium.
+TEST(Wheelset, OnTheFlangeIsInEquilibriumOrRefused) {
+  Set set(kEuropean);
+  ASSERT_NE(set.handle, nullptr) << set.error.message;
+  int answered = 0;
+  for (const double y : {6.0, 6.2, 6.3, 6.4, 6.5, 6.6, 7.0, -6.4, -6.5}) {
+    const int code = set.solve(loaded(1e-3 * y));
+    if (code != RS_OK) {
+      EXPECT_EQ(code, RS_NO_ANSWER) << y << ": " << set.error.message;
+      continue;
+    }
+    ++answered;
+    EXPECT_NEAR(set.forces.force[2], 160e3, 16) << y;
+    EXPECT_NEAR(set.forces.moment[0], 0, 160) << y;
+  }
+  EXPECT_GE(answered, 4);
+}
+
 /// Rates of force and moment, by y and yaw and by their rates, at rest in the middle of the track.
 struct Linear {
   double force[4], moment[4];

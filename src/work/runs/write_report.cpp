@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "bem/contact_places.hpp"
 #include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
@@ -56,7 +57,10 @@ double shear_on_elements(const fs::path& case_file) {
     spec.bem.leading_edge = LeadingEdge::whole_cell;
     AskOptions how;
     how.bem.cell = std::max(spec.mesh.element_size, kFinest);
-    return solve_contact(spec, place(spec, loaded.folder()), how).result.patch.largest_traction;
+    Placement at = place(spec, loaded.folder());
+    const double deepest = 2 * hertz_estimate(spec, at.contact).approach;
+    at.contact.settled = places_of(spec, at, deepest).size() == 1;  // cells from the place that elements begin at
+    return solve_contact(spec, at, how).result.patch.largest_traction;
   } catch (const CaseError&) {
     return std::numeric_limits<double>::quiet_NaN();
   } catch (const NumericalError&) {
