@@ -24,6 +24,7 @@ struct BemNeighbour {
 
 struct BemOptions {
   double cell = kDefaultCell;    ///< m
+  double across = 0;             ///< m, the cells across rolling; 0: as long as wide
   double largest_patch = 60e-3;  ///< m, of the potential contact area, per direction
   RollingOptions rolling;
   double balance = 1e-5;              ///< of the weight: how well normal and lateral force together bear it

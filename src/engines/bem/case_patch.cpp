@@ -42,6 +42,11 @@ void keep_to_room(const PatchGrid& g, const PatchRoom& room, Plane& gap) {
     if (g.y_of(k) < room.low || g.y_of(k) > room.high) gap[k] = ProfileGap::kNoSurface;
 }
 
+double across_of(const BemOptions& options) { return options.across > 0 ? options.across : options.cell; }
+
+/// On each side of the middle.
+int most_cells(const BemOptions& options, double cell) { return static_cast<int>(0.5 * options.largest_patch / cell); }
+
 std::string describe(const NormalTarget& target) {
   return target.load ? fmt::format("load of {:.1f} kN", 1e-3 * *target.load)
                      : fmt::format("approach of {:.3g} mm", 1e3 * *target.approach);
@@ -59,7 +64,7 @@ void gap_and_influence(const Placement& placement, const BemOptions& options, In
 
 void fit_grid(const Placement& placement, const NormalTarget& target, const PatchRoom& room, const BemOptions& options,
               InfluenceCache& cache, CasePatch& patch) {
-  const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
+  const int most_x = most_cells(options, options.cell), most_y = most_cells(options, across_of(options));
   for (int grown = 0;; ++grown) {
     PatchGrid& g = patch.grid;
     gap_and_influence(placement, options, cache, patch);
@@ -72,14 +77,14 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
                                           1e3 * g.nx * g.dx, 1e3 * g.ny * g.dy));
       return;
     }
-    const int half_x = edge.x ? std::min(g.nx * 7 / 10 + 1, most) : g.nx / 2,
-              half_y = edge.y ? std::min(g.ny * 7 / 10 + 1, most) : g.ny / 2;
+    const int half_x = edge.x ? std::min(g.nx * 7 / 10 + 1, most_x) : g.nx / 2,
+              half_y = edge.y ? std::min(g.ny * 7 / 10 + 1, most_y) : g.ny / 2;
     if (half_x == g.nx / 2 && half_y == g.ny / 2)
       throw CaseError(fmt::format("the {} flattens the whole potential contact area of {:.0f} mm", describe(target),
                                   1e3 * options.largest_patch),
                       "check the load, the profiles and the moduli; half-space theory no longer applies",
                       target.load ? "vehicle.wheel_load" : "vehicle.approach");
-    g = g.line ? line_grid(half_x, g.dx, g.dy) : centred_grid(half_x, half_y, options.cell, options.cell);
+    g = g.line ? line_grid(half_x, g.dx, g.dy) : centred_grid(half_x, half_y, g.dx, g.dy);
   }
 }
 
@@ -141,13 +146,13 @@ PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const Bem
   const HertzContact estimate = hertz_estimate(spec, placement.contact);
   const double scale = target.approach ? std::sqrt(*target.approach / estimate.approach) : 1.0,
                held = std::max(-room.held_low, room.held_high);
-  const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
-  const auto cells = [&](double half) {
-    return static_cast<int>(std::min(std::ceil(half / options.cell) + 2, static_cast<double>(most)));
+  const auto cells = [&](double half, double cell) {
+    return static_cast<int>(std::min(std::ceil(half / cell) + 2, static_cast<double>(most_cells(options, cell))));
   };
-  const int half_x = cells(1.15 * scale * estimate.a);
+  const double across = across_of(options);
+  const int half_x = cells(1.15 * scale * estimate.a, options.cell);
   if (spec.geometry.in_line()) return line_grid(half_x, options.cell, *spec.geometry.line_length);
-  return centred_grid(half_x, cells(std::max(1.15 * scale * estimate.b, held)), options.cell, options.cell);
+  return centred_grid(half_x, cells(std::max(1.15 * scale * estimate.b, held), across), options.cell, across);
 }
 
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {

@@ -26,6 +26,8 @@ struct PatchGrid {
   double x_of(std::size_t cell) const { return x(static_cast<int>(cell) / ny); }
   double y_of(std::size_t cell) const { return y(static_cast<int>(cell) % ny); }
   double cell_area() const { return dx * dy; }
+  /// The shorter side of a cell; of a line, whose dy is its length, dx.
+  double finest() const { return line ? dx : std::min(dx, dy); }
 };
 
 /// The largest value in the outermost ring of cells, at least 0; of a line at its two ends.

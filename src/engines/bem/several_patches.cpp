@@ -116,19 +116,14 @@ class WheelOnPatches {
     options_.cache = options.cache ? options.cache : &cache_;
   }
 
+  /// Without friction first, which shows at little cost which patches merge; where none do, with friction from there.
   void settle() {
-    const bool pressed = spec_.vehicle.approach.has_value();
-    double& descent = descent_ = first_descent();
-    for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
-      const Eigen::MatrixXd bent = depressions();
-      const double moved = solve_at(descent, bent), close = options_.balance * (pressed ? vertical() : weight_);
-      if (moved <= close && (pressed || std::abs(vertical() - weight_) <= kClosure * close)) return;
-      descent += step(descent, bent);
-    }
-    if (pressed) throw NumericalError("no forces were found for a wheel with several contacts and a given approach");
-    throw CaseError(
-        "no vertical position of the wheel balances the weight on its contacts: the wheel is wedged by friction",
-        "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
+    descent_ = first_descent();
+    rubs_ = false;
+    descend();
+    if (merged()) return;
+    rubs_ = true;
+    descend();
   }
 
   /// Two patches of which one reaches the ridge between them.
@@ -160,6 +155,20 @@ class WheelOnPatches {
   static constexpr double kSharp = 0.01;     // of the same, of friction: forces are known better than they close
   static constexpr double kNoWidth = 1e-13;  // of a creepage
   static constexpr int kMostIterations = 60;
+
+  void descend() {
+    const bool pressed = spec_.vehicle.approach.has_value();
+    for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
+      const Eigen::MatrixXd bent = depressions();
+      const double moved = solve_at(descent_, bent), close = options_.balance * (pressed ? vertical() : weight_);
+      if (moved <= close && (pressed || std::abs(vertical() - weight_) <= kClosure * close)) return;
+      descent_ += step(descent_, bent);
+    }
+    if (pressed) throw NumericalError("no forces were found for a wheel with several contacts and a given approach");
+    throw CaseError(
+        "no vertical position of the wheel balances the weight on its contacts: the wheel is wedged by friction",
+        "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
+  }
 
   static bool carries(const Member& m, int column) {
     const PatchGrid& g = m.patch.grid;
@@ -293,22 +302,26 @@ class WheelOnPatches {
     return moved;
   }
 
-  /// A patch smaller than ten cells gets smaller ones, as far as its longer semi-axis has no more than some fifty:
-  /// halves of halves, for which the influence of the last one serves.
+  /// An axis of a patch shorter than ten cells gets shorter ones: halves of halves, for which the influence of the last
+  /// patch serves.
   void lay_grid(Member& m) {
     BemOptions own = options_;
     if (m.approach < 2 * m.laid_for && m.approach > 0.5 * m.laid_for) {
       if (m.turned) m.patch = case_patch_on(m.patch.grid, spec_, m.placement, own, {.approach = m.approach}, m.room);
       return;
     }
-    const double scale = std::sqrt(m.approach / m.estimate.approach),
-                 shorter = scale * std::min(m.estimate.a, m.estimate.b),
-                 longer = scale * std::max(m.estimate.a, m.estimate.b);
-    const double wanted = std::max({0.15 * shorter, 0.02 * longer, kSmallestCell});
-    while (own.cell > std::numbers::sqrt2 * wanted) own.cell *= 0.5;
+    const double scale = std::sqrt(m.approach / m.estimate.approach);
+    own.cell = cell_for(scale * m.estimate.a);
+    own.across = cell_for(scale * m.estimate.b);
     m.patch = make_case_patch(spec_, m.placement, own, {.approach = m.approach}, m.room);
     m.laid_for = m.approach;
     m.solution = {};
+  }
+
+  double cell_for(double semi_axis) const {
+    double out = options_.cell;
+    while (out > std::numbers::sqrt2 * std::max(0.15 * semi_axis, kSmallestCell)) out *= 0.5;
+    return out;
   }
 
   void solve(Member& m) const {
@@ -318,8 +331,14 @@ class WheelOnPatches {
     problem.y = {across_.creepage, {}};
     carry_creepages(turn_about_vertical(spec_, reference_), reference_, m.contact(), problem);
     const bool fresh = m.solution.normal.pressure.empty();
+    double friction = rubs_ ? problem.friction : 0.0;
+    Plane local = rubs_ ? problem.local_friction : Plane{};
+    std::swap(friction, problem.friction);
+    std::swap(local, problem.local_friction);
     m.solution =
         solve_rolling(*m.patch.influence, m.patch.grid, problem, options_.rolling, fresh ? nullptr : &m.solution);
+    problem.friction = friction;
+    problem.local_friction = std::move(local);
   }
 
   /// Solves all patches under the creepages as they stand.
@@ -346,7 +365,7 @@ class WheelOnPatches {
   /// every lateral one that is tried.
   void balance_traction() {
     const DriveSpec& drive = spec_.drive;
-    const bool friction = drive.friction_coefficient > 0;
+    const bool friction = rubs_ && drive.friction_coefficient > 0;
     const auto along = [&] {
       solve_all();
       return sum(&TangentialSolution::force_x) + drive.traction().value_or(0) * weight_;
@@ -418,6 +437,7 @@ class WheelOnPatches {
   double weight_, modulus_;
   Sought along_, across_;  // creepages of the reference
   double descent_ = 0;
+  bool rubs_ = false;  // the patches have friction
   int iterations_ = 0;
 };
 

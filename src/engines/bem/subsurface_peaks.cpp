@@ -77,7 +77,7 @@ class GridSearch {
 
   /// Largest values for depths in [top, bottom] of one material; at the top its own (lower) side is taken.
   ZonePeaks zone(double top, double bottom, Wanted wanted) {
-    const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / (2 * grid_.dx))), 2, 16);
+    const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / (2 * grid_.finest()))), 2, 16);
     std::vector<double> depth;
     for (int i = 0; i <= pieces; ++i) depth.push_back(i == pieces ? bottom : top + (bottom - top) * i / pieces);
     ZonePeaks best;
@@ -99,7 +99,7 @@ class GridSearch {
       if (m == 0 ||
           m + 1 == depth.size()) {  // at the end of the zone: halve the end interval, the peak may hide inside
         const double inner = m == 0 ? 0.5 * (depth[0] + depth[1]) : 0.5 * (depth[m] + depth[m - 1]);
-        if (std::abs(inner - depth[m]) < 0.05 * grid_.dx) return;
+        if (std::abs(inner - depth[m]) < 0.05 * grid_.finest()) return;
         depth.insert(m == 0 ? depth.begin() + 1 : depth.end() - 1, inner);
         keep_larger(best, at(inner, false));
         continue;
@@ -109,7 +109,7 @@ class GridSearch {
       const double numerator = (b - a) * (b - a) * (fb - fc) - (b - c) * (b - c) * (fb - fa),
                    denominator = (b - a) * (fb - fc) - (b - c) * (fb - fa);
       const double next = denominator != 0 ? b - 0.5 * numerator / denominator : b;
-      if (!(next > a && next < c) || std::abs(next - b) < 0.01 * grid_.dx) return;
+      if (!(next > a && next < c) || std::abs(next - b) < 0.01 * grid_.finest()) return;
       keep_larger(best, at(next, false));
       depth.insert(depth.begin() + static_cast<std::ptrdiff_t>(next < b ? m : m + 1), next);
     }
@@ -191,7 +191,8 @@ SubsurfacePeaks Subsurface::peaks(SearchDepths depths) const {
     out.below_interface.push_back(search.at(layer.bottom, true));
     top = layer.bottom;
   }
-  out.matrix = search.zone_without_floor(std::max(top, depths.from), std::max(depths.deepest, top + 4 * grid_.dx));
+  out.matrix =
+      search.zone_without_floor(std::max(top, depths.from), std::max(depths.deepest, top + 4 * grid_.finest()));
   keep_larger(out.subsurface, out.matrix);
   return out;
 }

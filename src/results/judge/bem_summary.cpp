@@ -125,25 +125,31 @@ SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSumma
   return {subsurface_begin(contact.patch, first), bottom + longer_axis(contact.patch)};
 }
 
+/// A cell over the patch, along rolling or across.
+double cell_of(const BemPatch& p) {
+  const PatchMeasures m = measure_patch(p.field);
+  return p.grid.line ? p.grid.dx / shorter_axis(m) : std::max(p.grid.dx / m.length, p.grid.dy / m.width);
+}
+
 double cell_of_patch(const BemResult& r) {
   double cells = 0, force = 0;
   for (const BemPatch* p : patches_of(r)) {
     const double of_patch = -p->force.z;
-    cells += of_patch * p->grid.dx / shorter_axis(measure_patch(p->field));
+    cells += of_patch * cell_of(*p);
     force += of_patch;
   }
   return cells / force;
 }
 
 std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& r, double coarsest) {
-  const double cell = std::max(r.grid.dx, coarsest * shorter_axis(summary.contact.patch));
+  const double cell = std::max(cell_of(r), coarsest) * shorter_axis(summary.contact.patch);
   std::vector<Warning> out = implausible(summary, spec, r.surroundings, cell);
   for (std::size_t k = 0; k < r.further.size(); ++k) {
     Summary of_patch;
     of_patch.run.engine = Engine::bem;
     of_patch.contact = summary.patches.at(k + 1).contact;
-    for (Warning& w : implausible(of_patch, spec, r.further[k].surroundings, r.further[k].grid.dx))
-      add_warning(std::move(w), out);
+    const double further = cell_of(r.further[k]) * shorter_axis(of_patch.contact.patch);
+    for (Warning& w : implausible(of_patch, spec, r.further[k].surroundings, further)) add_warning(std::move(w), out);
   }
   return out;
 }
@@ -194,7 +200,7 @@ StressSection rail_depth_line(const BemResult& r, double x, double y, double dee
     line.material.push_back(material);
   };
   const auto zone = [&](double top, double bottom, int material) {
-    const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / g.dx)), 2, 60);
+    const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / g.finest())), 2, 60);
     for (int k = 0; k <= pieces; ++k)
       add(interior.plane(k == pieces ? bottom : top + (bottom - top) * k / pieces), k == 0, material);
   };
@@ -204,7 +210,7 @@ StressSection rail_depth_line(const BemResult& r, double x, double y, double dee
     zone(layer.top, layer.bottom, ++material);
     top = layer.bottom;
   }
-  zone(top, std::max(deepest, top + 4 * g.dx), 0);
+  zone(top, std::max(deepest, top + 4 * g.finest()), 0);
   return line;
 }
 

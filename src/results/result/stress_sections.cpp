@@ -82,7 +82,7 @@ StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& bod
   const int columns = g.line ? 3 : g.ny;  // of a line the same in each third of it
   const auto y_of = [&](int j) { return g.line ? g.dy * (j - 1) / columns : g.y(j); };
   for (int j = 0; j < columns; ++j) across.push_back(r.contact.point.y + y_of(j) * std::cos(r.contact.angle));
-  const std::vector<Row> rows = rows_of(body, g.dx, deepest);
+  const std::vector<Row> rows = rows_of(body, g.finest(), deepest);
   for (const Row& row : rows) depth.push_back(row.depth);
   return sections_of(std::move(along), std::move(across), depth, x, y, [&](int at) {
     const Row& row = rows[at];
