@@ -259,7 +259,7 @@ double vertical_force(const LoadedPatch& p) {
 /// the plane and the approach those of d. It begins under the normal force that a plane nearby asks for, for forces of
 /// the drive may be more than friction bears at another d. The first slope is Hertz's, 1.5 V/d.
 LoadedPatch balance_by_descent(OnePatch& one, CasePatch laid, const BemOptions& options, double weight) {
-  constexpr double kShareOfBalance = 0.1, kFinest = 1e-11;  // of the descent that the plane is of
+  constexpr double kShareOfBalance = 0.1, kFinest = 1e-11;  // rad, of a plane that is kept
   const bool near = !laid.influence && one.starts_from_neighbour(options);
   const double lateral = near ? options.neighbour->solution.tangential.force_y : 0.0;
   LoadedPatch out;
@@ -269,8 +269,10 @@ LoadedPatch balance_by_descent(OnePatch& one, CasePatch laid, const BemOptions& 
   double excess = vertical_force(out) - weight, descent = one.descent_at(out.solution.normal.approach),
          slope = 1.5 * weight / descent;
   const double settled = std::max(kShareOfBalance * options.balance, kFinest);
-  if (std::abs(excess) <= options.balance * weight && std::abs(descent - one.descent()) <= settled * descent)
-    return out;
+  if (std::abs(excess) <= options.balance * weight) {
+    one.lower(descent);
+    if (std::abs(one.plane().angle - out.contact.angle) <= settled) return out;
+  }
   for (;;) {
     const double previous_descent = descent, previous_excess = excess;
     descent -= std::clamp(excess / slope, -descent, 0.5 * descent);
