@@ -74,7 +74,9 @@ std::vector<Option> height_shape_options() {
           option("width", irregularity<&I::width>, "Lateral width, with a cosine shape; not given: uniform across",
                  kLength, above(0, 0.2)),
           option("offset", irregularity<&I::offset>,
-                 "Lateral position of the middle, from the first contact to the field side", kLength, {-0.1, 0.1}),
+                 "Lateral position of the middle, from the first contact to the field side; half-spaces: from the "
+                 "place of the patch",
+                 kLength, {-0.1, 0.1}),
           row<&Dip::angle>("angle", "dip: angle between its two ramps", kSlope, {0, 0.2}),
           row<&Dip::ramp>("ramp", "dip: length of each ramp", kLength, above(0, 20)),
           choice<&Dip::shape>("shape", of_kinds<&Dip::shape>, "dip: shape of the ramps",
