@@ -330,15 +330,16 @@ class WheelOnPatches {
     problem.x = {along_.creepage, {}};
     problem.y = {across_.creepage, {}};
     carry_creepages(turn_about_vertical(spec_, reference_), reference_, m.contact(), problem);
-    const bool fresh = m.solution.normal.pressure.empty();
-    double friction = rubs_ ? problem.friction : 0.0;
-    Plane local = rubs_ ? problem.local_friction : Plane{};
-    std::swap(friction, problem.friction);
-    std::swap(local, problem.local_friction);
-    m.solution =
-        solve_rolling(*m.patch.influence, m.patch.grid, problem, options_.rolling, fresh ? nullptr : &m.solution);
-    problem.friction = friction;
-    problem.local_friction = std::move(local);
+    const auto solve_as = [&](const RollingContact& contact) {
+      const bool fresh = m.solution.normal.pressure.empty();
+      m.solution =
+          solve_rolling(*m.patch.influence, m.patch.grid, contact, options_.rolling, fresh ? nullptr : &m.solution);
+    };
+    if (rubs_) return solve_as(problem);
+    RollingContact smooth = problem;
+    smooth.friction = 0;
+    smooth.local_friction.clear();
+    solve_as(smooth);
   }
 
   /// Solves all patches under the creepages as they stand.

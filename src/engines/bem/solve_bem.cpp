@@ -203,17 +203,16 @@ void solve_under(const NormalTarget& target, double weight, const OnePatch& one,
     out.patch.contact.target = target;
     out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling, start);
   };
+  const bool laid = out.patch.influence && out.solution.normal.pressure.empty();
   if (!out.solution.normal.pressure.empty()) {
     solve(&out.solution);
     if (!out.solution.normal.touches_edge) return;
-    out.patch = one.lay(target, options);
-  } else if (!out.patch.influence && one.starts_from_neighbour(options)) {
+  } else if (!laid && one.starts_from_neighbour(options)) {
     out.patch = one.lay_on(options.neighbour->grid, target, options);
     solve(&options.neighbour->solution);
     if (!reaches_edge(out.patch.grid, out.solution.normal.pressure)) return;
-    out.patch = one.lay(target, options);
   }
-  if (!out.patch.influence) out.patch = one.lay(target, options);
+  if (!laid) out.patch = one.lay(target, options);
   solve(nullptr);
 }
 
@@ -225,6 +224,12 @@ CasePatch laid_again(const OnePatch& one, const NormalTarget& target, const BemO
   return out;
 }
 
+/// The normal force to begin with [N]: with the lateral friction of a neighbour where that is the start.
+double first_normal_load(const OnePatch& one, const CasePatch& laid, const BemOptions& options, double weight) {
+  const bool near = !laid.influence && one.starts_from_neighbour(options);
+  return normal_load(weight, near ? options.neighbour->solution.tangential.force_y : 0.0, one.plane());
+}
+
 /// Finds the normal force N with N cos(delta) - T_y(N) sin(delta) = G by secants (case_patch.hpp), in a plane that
 /// stays: lateral friction T_y carries a share of the weight that grows with the contact angle, and itself depends on
 /// N. Where that share grows as fast as N does, the slope of the left side is zero and no N is large enough: the wheel
@@ -232,9 +237,8 @@ CasePatch laid_again(const OnePatch& one, const NormalTarget& target, const BemO
 /// N = 0, which keeps it positive.
 LoadedPatch balance_in_plane(const OnePatch& one, CasePatch laid, const BemOptions& options, double weight) {
   const double cosine = std::cos(one.plane().angle), sine = std::sin(one.plane().angle);
-  const bool near = !laid.influence && one.starts_from_neighbour(options);
-  const double lateral = near ? options.neighbour->solution.tangential.force_y : 0.0;
-  double normal = normal_load(weight, lateral, one.plane()), slope = cosine, previous_normal = 0, previous_excess = 0;
+  double normal = first_normal_load(one, laid, options, weight), slope = cosine, previous_normal = 0,
+         previous_excess = 0;
   LoadedPatch out;
   out.contact = one.plane();
   out.patch = std::move(laid);
@@ -260,12 +264,11 @@ double vertical_force(const LoadedPatch& p) {
 /// the drive may be more than friction bears at another d. The first slope is Hertz's, 1.5 V/d.
 LoadedPatch balance_by_descent(OnePatch& one, CasePatch laid, const BemOptions& options, double weight) {
   constexpr double kShareOfBalance = 0.1, kFinest = 1e-11;  // rad, of a plane that is kept
-  const bool near = !laid.influence && one.starts_from_neighbour(options);
-  const double lateral = near ? options.neighbour->solution.tangential.force_y : 0.0;
+  const double normal = first_normal_load(one, laid, options, weight);
   LoadedPatch out;
   out.patch = std::move(laid);
   out.contact = one.plane();
-  solve_under({.load = normal_load(weight, lateral, one.plane())}, weight, one, options, out);
+  solve_under({.load = normal}, weight, one, options, out);
   double excess = vertical_force(out) - weight, descent = one.descent_at(out.solution.normal.approach),
          slope = 1.5 * weight / descent;
   const double settled = std::max(kShareOfBalance * options.balance, kFinest);
