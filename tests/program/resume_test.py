@@ -129,13 +129,13 @@ class Resume(FromOutside):
         self.assertIn("the static preload alone takes longer than --max-time allows: there is nothing to resume yet",
                       err)
         limit, codes = 1.5, [4]
-        # the preload takes as long as the machine is slow, the rolling ten times as long; the last limit is at least
-        # twice what comes before the rolling
+        # the preload takes as long as the machine is slow, the rolling a hundred times as long; the last limit is at
+        # least twice what comes before the rolling
         while 4 in codes[-2:]:
             limit *= 2
             began = time.time()
             rc, _, err = railstrata("run", self.case(TWO), *WORDS, "--out", self.out, "--force", "--set",
-                                    'run.positions=["400 mm"]', "--max-time", f"{limit} s")
+                                    'run.positions=["4 m"]', "--max-time", f"{limit} s")
             codes.append(rc)
         self.assertEqual(rc, 5, err)
         self.assertLess((self.out / "checkpoint.h5").stat().st_mtime - began, limit + 0.5)
