@@ -1,6 +1,7 @@
 #pragma once
 // How the half-space engine solves a case.
 #include <functional>
+#include <vector>
 
 #include "bem/rolling_contact.hpp"
 
@@ -13,13 +14,31 @@ struct RailSurface {
                       ///< slip of the rail's surface
 };
 
-/// A solution of a similar case and its grid, to start the next one from: wheels of a vehicle move little from one time
-/// step to the next. Of one patch with one load.
-struct BemNeighbour {
+struct BemStart {
   PatchGrid grid;
   RollingSolution solution;
-  double descent = 0;  ///< m, of the wheel below the place where it touches first
-  bool empty() const { return solution.normal.pressure.empty(); }
+  double rail_s = 0;  ///< m, of its place on the rail
+};
+
+/// The force of a point contact grows with this power of the approach.
+inline constexpr double kPowerOfHertz = 1.5;
+
+/// A creepage that is sought, and its change with the force, 1/N, of the last search.
+struct SoughtCreepage {
+  double creepage = 0, compliance = 0;
+};
+
+/// The patches of a solution of a similar case, to start the next one from: wheels of a vehicle move little from one
+/// time step to the next.
+struct BemNeighbour {
+  std::vector<BemStart> patches{};
+  double descent = 0;                           ///< m, of the wheel below the place where it touches first
+  double power = kPowerOfHertz;                 ///< of the descent in the vertical force, of one patch
+  SoughtCreepage along{}, across{};             ///< of the wheel's reference, of several patches
+  std::vector<std::vector<BemStart>> merged{};  ///< without friction, that were tried apart before these
+  bool empty() const { return patches.empty(); }
+  /// The one patch that bears all; null: there are several, or none.
+  const BemStart* alone() const { return patches.size() == 1 ? &patches.front() : nullptr; }
 };
 
 struct BemOptions {
@@ -29,8 +48,8 @@ struct BemOptions {
   RollingOptions rolling;
   double balance = 1e-5;              ///< of the weight: how well normal and lateral force together bear it
   InfluenceCache* cache = nullptr;    ///< for sweeps; may be null
-  BemNeighbour* neighbour = nullptr;  ///< may be null. Becomes this solution where one patch bears the load, else
-                                      ///< empty. Numbers then depend on it, within the tolerances of the solver
+  BemNeighbour* neighbour = nullptr;  ///< may be null. Becomes this solution; numbers then depend on what it was,
+                                      ///< within the tolerances of the solver
   bool apart = true;  ///< parts of a patch of several contacts that are not connected become patches of the result;
                       ///< false: one patch, as its plane was solved
   std::function<RailSurface(const PatchGrid&)> rail_surface = {};  ///< empty: the surface of its profile

@@ -279,8 +279,7 @@ bool reaches_edge(const PatchGrid& grid, const Plane& pressure) {
   return edge.x || edge.y;
 }
 
-bool suits(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  const PatchGrid wanted = first_grid(spec, placement, options);
+bool suits(const PatchGrid& grid, const PatchGrid& wanted) {
   const auto near = [](int have, int want) { return have >= want - 4 && have <= 2 * want + 8; };
   return grid.line == wanted.line && grid.dx == wanted.dx && grid.dy == wanted.dy && near(grid.nx, wanted.nx) &&
          near(grid.ny, wanted.ny);

@@ -80,7 +80,7 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
 /// Whether the patch touches the outermost ring of cells.
 bool reaches_edge(const PatchGrid& grid, const Plane& pressure);
 
-/// Whether a grid is a suitable start for the case: large enough, and not much larger.
-bool suits(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement, const BemOptions& options);
+/// Whether a grid is a suitable start where another one would be laid first: large enough, and not much larger.
+bool suits(const PatchGrid& grid, const PatchGrid& wanted);
 
 }  // namespace railstrata

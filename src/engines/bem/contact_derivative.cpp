@@ -20,12 +20,12 @@ OnePatch lowered(const CaseSpec& spec, const Placement& placement, double descen
 }  // namespace
 
 ContactDerivatives::ContactDerivatives(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                                       const BemNeighbour& solved)
+                                       const BemStart& solved, double descent)
     : spec_(spec),
       placement_(placement),
       options_(options),
       solved_(solved),
-      one_(lowered(spec, placement, descent_in(spec, placement, solved.descent))),
+      one_(lowered(spec, placement, descent_in(spec, placement, descent))),
       patch_(one_.lay_on(solved.grid, {{}, solved.solution.normal.approach}, options)) {
   one_.drive(spec.vehicle.load(), patch_.contact);
 }

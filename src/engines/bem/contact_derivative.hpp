@@ -28,9 +28,9 @@ struct PlacedCase {
 /// Geometry changes by differences, all else by one solution of the linear equations.
 class ContactDerivatives {
  public:
-  /// solved: of the case, and kept by reference; not empty.
+  /// solved: the patch of the case under a descent [m] of the wheel, kept by reference.
   ContactDerivatives(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                     const BemNeighbour& solved);
+                     const BemStart& solved, double descent);
   /// Whether the case has these equations: steady rolling, friction that neither slip nor heat changes, no force over a
   /// load that is a result, one place or several that hang together.
   bool linear() const;
@@ -50,7 +50,7 @@ class ContactDerivatives {
   const CaseSpec& spec_;
   const Placement& placement_;
   const BemOptions& options_;
-  const BemNeighbour& solved_;
+  const BemStart& solved_;
   OnePatch one_;
   CasePatch patch_;
   std::optional<RollingDerivatives> rolling_;

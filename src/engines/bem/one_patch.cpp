@@ -41,10 +41,10 @@ CasePatch OnePatch::lay_on(const PatchGrid& grid, const NormalTarget& target, co
 
 bool OnePatch::starts_from_neighbour(const BemOptions& options) const {
   const PatchRoom whole;
-  if (!options.neighbour || options.neighbour->empty()) return false;
-  const PatchGrid& g = options.neighbour->grid;
+  if (!options.neighbour || !options.neighbour->alone()) return false;
+  const PatchGrid& g = options.neighbour->alone()->grid;
   return room_.low == whole.low && room_.high == whole.high && g.y(0) <= room_.held_low &&
-         g.y(g.ny - 1) >= room_.held_high && suits(g, *spec_, placement_, options);
+         g.y(g.ny - 1) >= room_.held_high && suits(g, first_grid(*spec_, placement_, options, {}, room_));
 }
 
 FirstPatch press_first(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {

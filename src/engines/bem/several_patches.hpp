@@ -30,8 +30,11 @@ struct PatchOnWheel {
 struct SharedLoad {
   std::vector<PatchOnWheel> patches;  ///< that carry load; empty: one patch carries it all, at `alone`
   PatchPlace alone;
-  std::size_t places = 0;  ///< that were looked at
-  double descent = 0;      ///< m, of the wheel below the place where it touches first
+  std::size_t places = 0;                     ///< that were looked at
+  double descent = 0;                         ///< m, of the wheel below the place where it touches first
+  double power = kPowerOfHertz;               ///< of the descent in the vertical force, of one patch
+  SoughtCreepage along, across;               ///< of the reference, of several patches
+  std::vector<std::vector<BemStart>> merged;  ///< that were tried apart
   int load_iterations = 0;
 };
 

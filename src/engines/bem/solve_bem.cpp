@@ -186,12 +186,19 @@ BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const Pa
   return r;
 }
 
+/// Whether the drive has forces, which count over the load.
+bool forces_wanted(const CaseSpec& spec) {
+  return spec.drive.friction_coefficient > 0 &&
+         (spec.drive.traction().value_or(0) != 0 || spec.drive.lateral_traction_coefficient.value_or(0) != 0);
+}
+
 constexpr double kWedged = 0.02;  // of the slope without friction
 constexpr int kMostIterations = 20;
 
 struct LoadedPatch : PatchOnWheel {
   int load_iterations = 1;
-  bool wedged = false;  ///< the solution is that of the last normal load tried
+  double power = kPowerOfHertz;  ///< of the descent in the vertical force
+  bool wedged = false;           ///< the solution is that of the last normal load tried
 };
 
 /// Solves under a normal load or approach from the solution before, else from a neighbour, else on a new grid; and on a
@@ -208,8 +215,8 @@ void solve_under(const NormalTarget& target, double weight, const OnePatch& one,
     solve(&out.solution);
     if (!out.solution.normal.touches_edge) return;
   } else if (!laid && one.starts_from_neighbour(options)) {
-    out.patch = one.lay_on(options.neighbour->grid, target, options);
-    solve(&options.neighbour->solution);
+    out.patch = one.lay_on(options.neighbour->alone()->grid, target, options);
+    solve(&options.neighbour->alone()->solution);
     if (!reaches_edge(out.patch.grid, out.solution.normal.pressure)) return;
   }
   if (!laid) out.patch = one.lay(target, options);
@@ -227,7 +234,7 @@ CasePatch laid_again(const OnePatch& one, const NormalTarget& target, const BemO
 /// The normal force to begin with [N]: with the lateral friction of a neighbour where that is the start.
 double first_normal_load(const OnePatch& one, const CasePatch& laid, const BemOptions& options, double weight) {
   const bool near = !laid.influence && one.starts_from_neighbour(options);
-  return normal_load(weight, near ? options.neighbour->solution.tangential.force_y : 0.0, one.plane());
+  return normal_load(weight, near ? options.neighbour->alone()->solution.tangential.force_y : 0.0, one.plane());
 }
 
 /// Finds the normal force N with N cos(delta) - T_y(N) sin(delta) = G by secants (case_patch.hpp), in a plane that
@@ -260,17 +267,21 @@ double vertical_force(const LoadedPatch& p) {
 }
 
 /// The same where the plane turns with the descent d of the wheel: by secants of V(d) = N cos(delta) - T_y sin(delta),
-/// the plane and the approach those of d. It begins under the normal force that a plane nearby asks for, for forces of
-/// the drive may be more than friction bears at another d. The first slope is Hertz's, 1.5 V/d.
-LoadedPatch balance_by_descent(OnePatch& one, CasePatch laid, const BemOptions& options, double weight) {
+/// the plane and the approach those of d. It begins under the normal force that a plane nearby asks for, with Hertz's
+/// slope, 1.5 V/d. Several contacts in one plane, which turns much with d, begin at a neighbour's descent with its
+/// slope, but for forces of the drive, which may be more than friction bears at another d.
+LoadedPatch balance_by_descent(OnePatch& one, CasePatch laid, const BemOptions& options, double weight, bool driven) {
   constexpr double kShareOfBalance = 0.1, kFinest = 1e-11;  // rad, of a plane that is kept
+  const bool near = one.place().contacts.size() > 1 && !driven && !laid.influence && one.starts_from_neighbour(options);
   const double normal = first_normal_load(one, laid, options, weight);
   LoadedPatch out;
   out.patch = std::move(laid);
   out.contact = one.plane();
-  solve_under({.load = normal}, weight, one, options, out);
-  double excess = vertical_force(out) - weight, descent = one.descent_at(out.solution.normal.approach),
-         slope = 1.5 * weight / descent;
+  if (near) out.power = options.neighbour->power;
+  solve_under(near ? NormalTarget{{}, one.own_approach()} : NormalTarget{.load = normal}, weight, one, options, out);
+  double excess = vertical_force(out) - weight,
+         descent = near ? one.descent() : one.descent_at(out.solution.normal.approach),
+         slope = out.power * (near ? weight + excess : weight) / descent;
   const double settled = std::max(kShareOfBalance * options.balance, kFinest);
   if (std::abs(excess) <= options.balance * weight) {
     one.lower(descent);
@@ -284,9 +295,12 @@ LoadedPatch balance_by_descent(OnePatch& one, CasePatch laid, const BemOptions& 
     out.contact = one.plane();
     solve_under({{}, one.own_approach()}, weight, one, options, out);
     excess = vertical_force(out) - weight;
-    if (std::abs(excess) <= options.balance * weight) return out;
     if (++out.load_iterations > 2) slope = (excess - previous_excess) / (descent - previous_descent);
-    const double usual = 1.5 * out.solution.normal.load * std::cos(out.contact.angle) / descent;
+    if (std::abs(excess) <= options.balance * weight) {
+      out.power = std::clamp(slope * descent / weight, 1.0, 3.0);
+      return out;
+    }
+    const double usual = kPowerOfHertz * out.solution.normal.load * std::cos(out.contact.angle) / descent;
     out.wedged = !(slope > kWedged * usual) || out.load_iterations == kMostIterations;
     if (out.wedged) return out;
   }
@@ -307,23 +321,18 @@ SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const B
     if (!as_laid) one.lower(descent);
     CasePatch laid = as_laid ? std::move(first->laid) : CasePatch{};
     LoadedPatch alone = one.level() ? balance_in_plane(one, std::move(laid), options, load)
-                                    : balance_by_descent(one, std::move(laid), options, load);
+                                    : balance_by_descent(one, std::move(laid), options, load, forces_wanted(spec));
     if (alone.wedged) refuse_wedged("weight", alone.contact);
     first.reset();
     descent = one.level() ? one.descent_at(alone.solution.normal.approach) : one.descent();
     if (round < kMostRounds && places_of(spec, placement, descent).size() != shared.places) continue;
     shared.load_iterations = alone.load_iterations;
     shared.descent = descent;
+    shared.power = alone.power;
     alone.contacts = std::move(shared.alone.contacts);
     shared.patches.push_back(std::move(alone));
     return shared;
   }
-}
-
-/// Whether the drive has forces, which count over the load.
-bool forces_wanted(const CaseSpec& spec) {
-  return spec.drive.friction_coefficient > 0 &&
-         (spec.drive.traction().value_or(0) != 0 || spec.drive.lateral_traction_coefficient.value_or(0) != 0);
 }
 
 /// Under a given approach the vertical force F_z is a result. Forces of the drive count over it: F_z and they are found
@@ -350,10 +359,10 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
   CasePatch& patch = out.patches.front().patch;
   RollingSolution& solution = out.patches.front().solution;
   if (!forces_wanted(spec) && one.starts_from_neighbour(options)) {
-    patch = one.lay_on(options.neighbour->grid, target, options);
+    patch = one.lay_on(options.neighbour->alone()->grid, target, options);
     one.drive(0, patch.contact);
-    solution =
-        solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling, &options.neighbour->solution);
+    solution = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling,
+                             &options.neighbour->alone()->solution);
     if (!reaches_edge(patch.grid, solution.normal.pressure)) return out;
   }
   patch = one.lay(target, options);
@@ -457,10 +466,9 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
                     "irregularity");
   BemResult r = result_of(spec, placement, shared.patches, options.apart);
   if (options.neighbour) {
-    *options.neighbour = {};
-    if (shared.patches.size() == 1)
-      *options.neighbour = {shared.patches.front().patch.grid, std::move(shared.patches.front().solution),
-                            shared.descent};
+    *options.neighbour = {{}, shared.descent, shared.power, shared.along, shared.across, std::move(shared.merged)};
+    for (PatchOnWheel& p : shared.patches)
+      options.neighbour->patches.push_back({p.patch.grid, std::move(p.solution), p.contact.rail_s});
   }
   r.effort.load_iterations = shared.load_iterations;
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -199,7 +199,8 @@ std::vector<Slopes> Contact::slopes(const std::vector<const StateMember*>& input
   const Placement& here = set(*state_, here_);
   BemOptions options = options_;
   std::optional<ContactDerivatives> equations;
-  if (const BemNeighbour& solved = start.last(); !solved.empty()) equations.emplace(here_.spec, here, options, solved);
+  if (const BemStart* solved = start.last().alone())
+    equations.emplace(here_.spec, here, options, *solved, start.last().descent);
   const bool linear = equations && equations->linear();
   if (!linear) set_tolerance(options, kTolerance);
   const auto beside = [&](const StateMember& input, double value, InState& there) -> PlacedCase {

@@ -34,6 +34,13 @@ void continue_traction(double share, const TangentialSolution& before, Tangentia
     last.*number = continued(last.*number, before.*number, share);
 }
 
+void continue_solution(double share, const RollingSolution& before, RollingSolution& last) {
+  continue_pressure(share, before.normal.pressure, last.normal.pressure);
+  continue_traction(share, before.tangential, last.tangential);
+  for (double NormalSolution::*number : {&NormalSolution::load, &NormalSolution::approach})
+    last.normal.*number = continued(last.normal.*number, before.normal.*number, share);
+}
+
 }  // namespace
 
 NextStart::Coordinates NextStart::coordinates(const CaseSpec& spec) {
@@ -44,8 +51,12 @@ NextStart::Coordinates NextStart::coordinates(const CaseSpec& spec) {
 
 BemNeighbour NextStart::of(const CaseSpec& spec) const {
   constexpr double kFarthest = 2;  // steps
-  BemNeighbour start = last_.solved;
-  if (start.empty() || before_.solved.empty() || !same_grid(start.grid, before_.solved.grid)) return start;
+  const BemNeighbour& last = last_.solved;
+  const BemNeighbour& before = before_.solved;
+  const auto same = [](const BemStart& a, const BemStart& b) { return same_grid(a.grid, b.grid); };
+  if (last.empty() ||
+      !std::equal(last.patches.begin(), last.patches.end(), before.patches.begin(), before.patches.end(), same))
+    return last;
   const Coordinates now = coordinates(spec);
   double along = 0, square = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -53,11 +64,12 @@ BemNeighbour NextStart::of(const CaseSpec& spec) const {
     along += (now[i] - last_.at[i]) * step;
     square += step * step;
   }
-  if (!(square > 0) || !(along > 0) || along > kFarthest * square) return start;
+  if (!(square > 0) || !(along > 0) || along > kFarthest * square) return last;
+  BemNeighbour start = last;
   const double share = along / square;
-  continue_pressure(share, before_.solved.solution.normal.pressure, start.solution.normal.pressure);
-  start.descent = continued(start.descent, before_.solved.descent, share);
-  continue_traction(share, before_.solved.solution.tangential, start.solution.tangential);
+  for (std::size_t k = 0; k < start.patches.size(); ++k)
+    continue_solution(share, before.patches[k].solution, start.patches[k].solution);
+  start.descent = continued(last.descent, before.descent, share);
   return start;
 }
 

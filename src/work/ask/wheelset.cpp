@@ -193,7 +193,7 @@ std::optional<double> lean_by_descents(Wheelset& set, const WheelsetState& state
   constexpr int kSoon = 8;
   place(set, state, set.roll);
   begin_stiffening(set);
-  std::array<double, 2> wanted{0.5 * *state.load, 0.5 * *state.load};
+  std::array<double, 2> wanted{set.left_share * *state.load, (1 - set.left_share) * *state.load};
   while (set.solutions < kSoon) {
     const std::array<double, 2> descents{set.stiffening[0].descent_at(wanted[0]),
                                          set.stiffening[1].descent_at(wanted[1])};
@@ -201,6 +201,7 @@ std::optional<double> lean_by_descents(Wheelset& set, const WheelsetState& state
     if (!z) return {};
     press(set, descents);
     wanted = wanted_forces(set, *state.load, state.roll_moment);
+    set.left_share = wanted[0] / *state.load;
     const double missed =
         std::max(std::abs(wanted[0] - set.wheels[0].force.z), std::abs(wanted[1] - set.wheels[1].force.z));
     if (missed <= tolerance_of(set) * *state.load) return z;
@@ -345,17 +346,19 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
 }
 
 void keep(Wheelset& set) {
-  set.kept = {set.roll, set.stiffening, {set.wheels[0].contact.start, set.wheels[1].contact.start}};
+  set.kept = {set.roll, set.left_share, set.stiffening, {set.wheels[0].contact.start, set.wheels[1].contact.start}};
 }
 
 void reset(Wheelset& set) {
   set.roll = set.kept.roll;
+  set.left_share = set.kept.left_share;
   set.stiffening = set.kept.stiffening;
   for (std::size_t side : {kLeft, kRight}) set.wheels[side].contact.start = set.kept.contacts[side];
 }
 
 void forget(Wheelset& set) {
   set.roll = 0;
+  set.left_share = 0.5;
   set.stiffening = {};
   for (Wheel& w : set.wheels) w.contact.start = {};
 }

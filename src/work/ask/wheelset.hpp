@@ -113,7 +113,8 @@ struct Wheel {
 
 /// Where the next solution starts from.
 struct WheelsetStart {
-  double roll = 0;  ///< rad
+  double roll = 0;          ///< rad
+  double left_share = 0.5;  ///< of the load, on the left wheel
   std::array<Stiffening, 2> stiffening;
   std::array<NextStart, 2> contacts;
 };
@@ -124,7 +125,8 @@ struct Wheelset {
   Wheelset(const LoadedCase& left, const LoadedCase& right) : wheels{Wheel(left), Wheel(right)} {}
   std::array<Wheel, 2> wheels;
   std::array<Stiffening, 2> stiffening;
-  double roll = 0;  ///< rad, of the last solution
+  double roll = 0;          ///< rad, of the last solution
+  double left_share = 0.5;  ///< of the load
   int solutions = 0;
   WheelsetStart kept;
 };

@@ -1,0 +1,96 @@
+#pragma once
+// A rigid wheel on several patches: its descent, the normal forces and the creepages are found together
+// (several_patches.hpp has the equations).
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "bem/case_patch.hpp"
+#include "bem/contact_places.hpp"
+#include "bem/pressure_on_rail.hpp"
+#include "bem/several_patches.hpp"
+#include "halfspace/hertz.hpp"
+
+namespace railstrata {
+
+/// Of the softer of both bodies together: E* [Pa] of the bodies below the layers.
+double modulus_of(const CaseSpec& spec);
+
+class WheelOnPatches {
+ public:
+  /// All are kept by reference but the places.
+  WheelOnPatches(const CaseSpec& spec, const Placement& placement, const std::vector<PatchPlace>& places,
+                 const BemOptions& options);
+
+  /// Without friction first, which shows at little cost which patches merge; where none do, with friction from there.
+  /// From a neighbour with these patches, after so many rounds whose patches merged: with friction at once if its did
+  /// not merge. Throws as share_load.
+  void settle(std::size_t rounds);
+  /// Two patches of which one reaches the ridge between them.
+  std::optional<std::pair<std::size_t, std::size_t>> merged() const;
+  /// The patches as they stand.
+  std::vector<BemStart> starts() const;
+  SharedLoad take();
+
+ private:
+  /// One patch of the wheel while the load is being shared.
+  struct Member {
+    PatchPlace place;
+    Placement placement;  ///< its contact is the plane under the descent
+    PatchRoom room{};
+    bool turned = false;                            ///< the plane is another one than that of the grid
+    HertzContact estimate{};                        ///< under the weight
+    double below = 0;                               ///< h, m
+    double approach = 0, laid_for = 0;              ///< m; the approach for which the grid was laid
+    double normal = 0;                              ///< N, of the last solution; to begin with an estimate
+    double expected = 0;                            ///< N, of the next
+    double approach_before = 0, normal_before = 0;  ///< of the solution before
+    CasePatch patch{};
+    RollingSolution solution{};
+
+    const RigidContact& contact() const { return placement.contact; }
+    bool loaded() const;
+    PressureOnRail on_rail() const { return {contact(), patch.grid, solution.normal.pressure, normal}; }
+    double vertical() const;
+    double stiffness() const;
+    bool carries(int column) const;
+  };
+
+  bool start_from(const std::vector<BemStart>& patches);
+  void lay_start(Member& m, const BemStart& start);
+  void descend();
+  double vertical() const;
+  Eigen::MatrixXd depressions() const;
+  double step(const Eigen::MatrixXd& bent);
+  double lay(double descent);
+  double first_descent();
+  void stand();
+  double solve_at(const Eigen::MatrixXd& bent);
+  BemOptions cells_for(const Member& m) const;
+  void lay_grid(Member& m);
+  double cell_for(double semi_axis) const;
+  void solve(Member& m) const;
+  void solve_all();
+  double sum(double TangentialSolution::*force) const;
+  void balance_traction();
+  template <class Excess>
+  void find(SoughtCreepage& sought, Excess&& excess_now) const;
+  [[noreturn]] void refuse_traction() const;
+
+  const CaseSpec& spec_;
+  const Placement& placement_;
+  RigidContact reference_;
+  std::vector<Member> members_;
+  InfluenceCache cache_;
+  BemOptions options_;
+  double weight_, modulus_;
+  SoughtCreepage along_, across_;                                          // of the reference
+  double descent_ = 0, stood_ = std::numeric_limits<double>::quiet_NaN();  // the planes are those of stood_
+  bool rubs_ = false;                                                      // the patches have friction
+  int iterations_ = 0;
+};
+
+}  // namespace railstrata
