@@ -35,7 +35,7 @@ struct BemNeighbour {
   double descent = 0;                           ///< m, of the wheel below the place where it touches first
   double power = kPowerOfHertz;                 ///< of the descent in the vertical force, of one patch
   SoughtCreepage along{}, across{};             ///< of the wheel's reference, of several patches
-  std::vector<std::vector<BemStart>> merged{};  ///< without friction, that were tried apart before these
+  std::vector<std::vector<BemStart>> smooth{};  ///< without friction: of each trial which patches merge
   bool empty() const { return patches.empty(); }
   /// The one patch that bears all; null: there are several, or none.
   const BemStart* alone() const { return patches.size() == 1 ? &patches.front() : nullptr; }
@@ -50,8 +50,9 @@ struct BemOptions {
   InfluenceCache* cache = nullptr;    ///< for sweeps; may be null
   BemNeighbour* neighbour = nullptr;  ///< may be null. Becomes this solution; numbers then depend on what it was,
                                       ///< within the tolerances of the solver
-  bool apart = true;  ///< parts of a patch of several contacts that are not connected become patches of the result;
-                      ///< false: one patch, as its plane was solved
+  double descent = 0;  ///< m, of the wheel, where the approach was made of it; 0: that of the approach (descent_of)
+  bool apart = true;   ///< parts of a patch of several contacts that are not connected become patches of the result;
+                       ///< false: one patch, as its plane was solved
   std::function<RailSurface(const PatchGrid&)> rail_surface = {};  ///< empty: the surface of its profile
 };
 

@@ -112,6 +112,8 @@ double largest_difference(const Plane& a, const Plane& b) {
   return most;
 }
 
+bool without_traction(const RollingSolution& s) { return s.tangential.state.empty(); }
+
 /// Takes the next solution of one of the two problems; its iterations are added to those before.
 template <class Solution>
 void replace(Solution& old, Solution next) {
@@ -140,12 +142,12 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
     close_enough.tolerance = std::max(close_enough.tolerance, kGapPerPressure * kSharper * change);
     return solve_normal(
         influence, grid,
-        from.empty() ? contact.gap : gap_with_displacement_by_traction(influence, contact.gap, s.tangential),
+        without_traction(s) ? contact.gap : gap_with_displacement_by_traction(influence, contact.gap, s.tangential),
         contact.target, close_enough, from);
   };
   s.normal = pressure(start ? start->normal.pressure : Plane{});
   for (s.outer_iterations = 1; s.outer_iterations <= options.max_outer; ++s.outer_iterations) {
-    const bool settled = change < options.coupling_tolerance, first = s.outer_iterations == 1 && !start;
+    const bool settled = change < options.coupling_tolerance, first = without_traction(s);
     TangentialOptions further = options.tangential;
     if (!settled) {
       further.tolerance = std::max(further.tolerance, change);
@@ -172,8 +174,9 @@ RollingSolution solve_as_warm(const InfluenceOperator& influence, const PatchGri
   RollingSolution s;
   s.normal = solve_normal(influence, grid, contact.gap, contact.target, options.normal,
                           start ? start->normal.pressure : Plane{});
-  s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal),
-                                  options.tangential, start ? &start->tangential : nullptr);
+  s.tangential =
+      solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal), options.tangential,
+                       start && !without_traction(*start) ? &start->tangential : nullptr);
   return s;
 }
 

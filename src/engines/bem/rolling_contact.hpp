@@ -42,7 +42,8 @@ struct RollingSolution {
   int outer_iterations = 1;  ///< 1 for similar bodies; the iterations of both parts are sums over the outer ones
 };
 
-/// start: solution of a similar problem on the same grid (the state before, a neighbour in a sweep), or null.
+/// start: solution of a similar problem on the same grid (the state before, a neighbour in a sweep), or of its normal
+/// contact alone, or null.
 /// Friction and film by temperature: in turn with the heat of friction until they repeat. Throws as solve_normal and
 /// solve_tangential, NumericalError if the two do not settle against each other, CaseError if the temperature does not.
 RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,

@@ -11,27 +11,26 @@ namespace railstrata {
 
 SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double descent, const BemOptions& options) {
   std::vector<ContactPlace> places = places_of(spec, placement, descent);
-  std::vector<std::vector<BemStart>> tried;
+  std::vector<std::vector<BemStart>> smooth;
   for (;;) {
     put_in_order(places);
     SharedLoad alone;
     alone.descent = descent;
-    alone.merged = tried;
+    alone.smooth = smooth;
     std::vector<PatchPlace> patches = patch_places(placement, places);
     alone.alone = patches.front();
     alone.places = places.size();
     if (patches.size() == 1) return alone;
-    WheelOnPatches wheel(spec, placement, patches, options);
-    wheel.settle(tried.size());
+    WheelOnPatches wheel(spec, placement, patches, descent, options);
+    smooth.push_back(wheel.settle(smooth.size()));
     const auto merged = wheel.merged();
     if (!merged) {
       SharedLoad out = wheel.take();
-      out.merged = tried;
+      out.smooth = std::move(smooth);
       if (out.patches.size() > 1 || out.patches.front().contacts.size() > 1) return out;
       const bool first = out.patches.front().contacts.front().rail_s == placement.contact.rail_s;
       return first ? alone : out;
     }
-    tried.push_back(wheel.starts());
     const auto [into, from] = std::minmax(merged->first, merged->second);
     for (ContactPlace& p : places)
       if (p.patch == from) p.patch = into;

@@ -34,7 +34,7 @@ struct SharedLoad {
   double descent = 0;                         ///< m, of the wheel below the place where it touches first
   double power = kPowerOfHertz;               ///< of the descent in the vertical force, of one patch
   SoughtCreepage along, across;               ///< of the reference, of several patches
-  std::vector<std::vector<BemStart>> merged;  ///< that were tried apart
+  std::vector<std::vector<BemStart>> smooth;  ///< as of BemNeighbour
   int load_iterations = 0;
 };
 

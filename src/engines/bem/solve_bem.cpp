@@ -339,7 +339,7 @@ SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const B
 /// in turn, from the frictionless contact on.
 SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   constexpr int kMostRounds = 40;
-  const double descent = descent_of(placement, *spec.vehicle.approach);
+  const double descent = options.descent > 0 ? options.descent : descent_of(placement, *spec.vehicle.approach);
   SharedLoad out;
   if (!forces_wanted(spec)) {
     out = share_load(spec, placement, descent, options);
@@ -466,7 +466,7 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
                     "irregularity");
   BemResult r = result_of(spec, placement, shared.patches, options.apart);
   if (options.neighbour) {
-    *options.neighbour = {{}, shared.descent, shared.power, shared.along, shared.across, std::move(shared.merged)};
+    *options.neighbour = {{}, shared.descent, shared.power, shared.along, shared.across, std::move(shared.smooth)};
     for (PatchOnWheel& p : shared.patches)
       options.neighbour->patches.push_back({p.patch.grid, std::move(p.solution), p.contact.rail_s});
   }

@@ -52,10 +52,11 @@ bool WheelOnPatches::Member::carries(int column) const {
 }
 
 WheelOnPatches::WheelOnPatches(const CaseSpec& spec, const Placement& placement, const std::vector<PatchPlace>& places,
-                               const BemOptions& options)
+                               double descent, const BemOptions& options)
     : spec_(spec),
       placement_(placement),
       options_(options),
+      pressed_(descent),
       weight_(spec.vehicle.load()),
       modulus_(modulus_of(spec)),
       across_{yaw_creepage(placement.contact), 0} {
@@ -72,18 +73,16 @@ WheelOnPatches::WheelOnPatches(const CaseSpec& spec, const Placement& placement,
   }
 }
 
-void WheelOnPatches::settle(std::size_t rounds) {
+std::vector<BemStart> WheelOnPatches::settle(std::size_t trial) {
   const BemNeighbour none, &near = options_.neighbour ? *options_.neighbour : none;
-  const bool merged_before = rounds < near.merged.size(),
-             started = start_from(merged_before ? near.merged[rounds] : near.patches);
-  rubs_ = started && !merged_before;
-  if (!rubs_) {
-    if (!started) descent_ = first_descent();
-    descend();
-    if (merged()) return;
-    rubs_ = true;
-  }
+  if (trial >= near.smooth.size() || !start_from(near.smooth[trial])) descent_ = first_descent();
   descend();
+  std::vector<BemStart> smooth = starts();
+  if (merged()) return smooth;
+  if (start_from(near.patches)) descend();  // under friction's forces as they were
+  rubs_ = true;
+  descend();
+  return smooth;
 }
 
 /// Takes the neighbour's descent and creepages, and pressures and tractions of patches of which one lies on the stretch
@@ -98,7 +97,7 @@ bool WheelOnPatches::start_from(const std::vector<BemStart>& patches) {
       of[k] = &start;
     }
   const BemNeighbour& near = *options_.neighbour;
-  descent_ = spec_.vehicle.approach ? descent_of(placement_, *spec_.vehicle.approach) : near.descent;
+  descent_ = spec_.vehicle.approach ? pressed_ : near.descent;
   along_ = near.along;
   across_ = near.across;
   stand();
@@ -233,9 +232,8 @@ double WheelOnPatches::lay(double descent) {
 /// That of a given approach, else where Hertz's contacts without friction bear the weight; lays them there.
 double WheelOnPatches::first_descent() {
   if (spec_.vehicle.approach) {
-    const double descent = descent_of(placement_, *spec_.vehicle.approach);
-    lay(descent);
-    return descent;
+    lay(pressed_);
+    return pressed_;
   }
   double low = 0, high = members_.front().estimate.approach;
   while (lay(high) < weight_) high *= 2;
@@ -320,17 +318,15 @@ void WheelOnPatches::solve(Member& m) const {
   problem.x = {along_.creepage, {}};
   problem.y = {across_.creepage, {}};
   carry_creepages(turn_about_vertical(spec_, reference_), reference_, m.contact(), problem);
-  const auto solve_as = [&](const RollingContact& contact, const RollingOptions& options) {
-    const bool fresh = m.solution.normal.pressure.empty();
-    m.solution = solve_rolling(*m.patch.influence, m.patch.grid, contact, options, fresh ? nullptr : &m.solution);
-  };
-  if (rubs_) return solve_as(problem, options_.rolling);
-  RollingContact smooth = problem;
-  smooth.friction = 0;
-  smooth.local_friction.clear();
-  RollingOptions rough = options_.rolling;
-  rough.normal.tolerance = std::max(rough.normal.tolerance, kRoughPressure);
-  solve_as(smooth, rough);
+  if (rubs_) {
+    const RollingSolution* start = m.solution.normal.pressure.empty() ? nullptr : &m.solution;
+    m.solution = solve_rolling(*m.patch.influence, m.patch.grid, problem, options_.rolling, start);
+    return;
+  }
+  NormalOptions rough = options_.rolling.normal;
+  rough.tolerance = std::max(rough.tolerance, kRoughPressure);
+  NormalSolution& normal = m.solution.normal;
+  normal = solve_normal(*m.patch.influence, m.patch.grid, problem.gap, problem.target, rough, normal.pressure);
 }
 
 /// Solves all patches under the creepages as they stand.

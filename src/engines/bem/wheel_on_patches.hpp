@@ -21,18 +21,15 @@ double modulus_of(const CaseSpec& spec);
 
 class WheelOnPatches {
  public:
-  /// All are kept by reference but the places.
+  /// descent: of a given approach, m. Case and placement are kept by reference.
   WheelOnPatches(const CaseSpec& spec, const Placement& placement, const std::vector<PatchPlace>& places,
-                 const BemOptions& options);
+                 double descent, const BemOptions& options);
 
-  /// Without friction first, which shows at little cost which patches merge; where none do, with friction from there.
-  /// From a neighbour with these patches, after so many rounds whose patches merged: with friction at once if its did
-  /// not merge. Throws as share_load.
-  void settle(std::size_t rounds);
+  /// Without friction first, which shows at little cost which patches merge; where none do, with friction. Starts from
+  /// the neighbour's trial of this number and its solution. Returns the patches without friction. Throws as share_load.
+  std::vector<BemStart> settle(std::size_t trial);
   /// Two patches of which one reaches the ridge between them.
   std::optional<std::pair<std::size_t, std::size_t>> merged() const;
-  /// The patches as they stand.
-  std::vector<BemStart> starts() const;
   SharedLoad take();
 
  private:
@@ -61,6 +58,7 @@ class WheelOnPatches {
 
   bool start_from(const std::vector<BemStart>& patches);
   void lay_start(Member& m, const BemStart& start);
+  std::vector<BemStart> starts() const;
   void descend();
   double vertical() const;
   Eigen::MatrixXd depressions() const;
@@ -86,6 +84,7 @@ class WheelOnPatches {
   std::vector<Member> members_;
   InfluenceCache cache_;
   BemOptions options_;
+  double pressed_;  // the descent that is given, with an approach
   double weight_, modulus_;
   SoughtCreepage along_, across_;                                          // of the reference
   double descent_ = 0, stood_ = std::numeric_limits<double>::quiet_NaN();  // the planes are those of stood_

@@ -170,7 +170,7 @@ void Contact::drop_solution() {
   remarks_.clear();
 }
 
-Forces Contact::solve(const State& state) {
+Forces Contact::solve(const State& state, double descent) {
   drop_solution();
   if (is_lifted(state)) {
     const Forces out = lifted(state);
@@ -181,6 +181,7 @@ Forces Contact::solve(const State& state) {
   BemOptions options = options_;
   BemNeighbour neighbour = start.of(here_.spec);
   options.neighbour = &neighbour;
+  options.descent = descent;
   constexpr double kFollowed = 1e-2;  // of a start's violation: the smallest change of a state counts
   if (!neighbour.empty()) options.rolling.normal.share_of_first = options.rolling.tangential.share_of_first = kFollowed;
   by_physics([&] { last_ = solve_bem(here_.spec, here, options); });

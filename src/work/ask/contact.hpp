@@ -76,7 +76,9 @@ class Contact {
 
   /// Solves the case in a state. A wheel that is lifted (approach <= 0, or load 0) has no forces. After an error there
   /// is no last solution. Throws CaseError, NoAnswer, NumericalError.
-  Forces solve(const State& state = {});
+  Forces solve(const State& state = {}) { return solve(state, 0); }
+  /// descent: of the wheel [m], where the state's approach was made of it; 0: it was not.
+  Forces solve(const State& state, double descent);
   void drop_solution();
   /// Derivatives of the last solution by inputs of its state, one after the other. Throws CaseError: no solution, an
   /// input that is a result in it; and as solve.

@@ -80,7 +80,7 @@ void press(Wheel& w, double descent) {
   state.creepage_x = slip.creepage_x;
   state.creepage_y = slip.creepage_y;
   state.spin = slip.spin;
-  w.forces = w.contact.solve(state);
+  w.forces = w.contact.solve(state, descent);
   add_up(w);
 }
 
@@ -163,10 +163,10 @@ std::array<double, 2> wanted_forces(const Wheelset& set, double load, double rol
 /// The roll at which both wheels have their descents, and the height; none was found: nothing.
 std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std::array<double, 2>& descents,
                            bool hold) {
-  constexpr double kClose = 1e-10;  // m
+  constexpr double kLeastTurn = 1e-9;  // rad, that tells a slope
+  constexpr double kClose = 1e-10;     // m
   double height[2];
-  const auto apart = [&](double roll) {
-    place(set, state, roll, hold);
+  const auto apart = [&] {
     for (std::size_t k : {0, 1}) {
       const Wheel& w = set.wheels[k];
       height[k] = height_of_descent(descents[k], w.track(), w.touching(), w.motion, w.rail);
@@ -174,13 +174,14 @@ std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std:
     return height[0] - height[1];
   };
   const double usual = -2 * std::max(tape_circle_distance(set.wheels[0].at_rest), 1e-3);
-  double roll = set.roll, error = apart(roll), slope = usual;
+  double roll = set.roll, error = apart(), slope = set.tilting < 0 ? set.tilting : usual;
   for (int i = 0; i < kMostSolutions; ++i) {
     if (std::abs(error) <= kClose) return 0.5 * (height[0] + height[1]);
     hold = hold || i == kFreeSolutions;
-    const double next = roll - error / slope, after = apart(next);
-    if (std::abs(next - roll) > 0 && (after - error) / (next - roll) < 0.1 * usual)
-      slope = (after - error) / (next - roll);
+    const double next = roll - error / slope;
+    place(set, state, next, hold);
+    const double after = apart(), found = (after - error) / (next - roll);
+    if (std::abs(next - roll) > kLeastTurn && found < 0.1 * usual) set.tilting = slope = found;
     roll = next;
     error = after;
   }
@@ -346,18 +347,23 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
 }
 
 void keep(Wheelset& set) {
-  set.kept = {set.roll, set.left_share, set.stiffening, {set.wheels[0].contact.start, set.wheels[1].contact.start}};
+  set.kept = {set.roll,
+              set.tilting,
+              set.left_share,
+              set.stiffening,
+              {set.wheels[0].contact.start, set.wheels[1].contact.start}};
 }
 
 void reset(Wheelset& set) {
   set.roll = set.kept.roll;
+  set.tilting = set.kept.tilting;
   set.left_share = set.kept.left_share;
   set.stiffening = set.kept.stiffening;
   for (std::size_t side : {kLeft, kRight}) set.wheels[side].contact.start = set.kept.contacts[side];
 }
 
 void forget(Wheelset& set) {
-  set.roll = 0;
+  set.roll = set.tilting = 0;
   set.left_share = 0.5;
   set.stiffening = {};
   for (Wheel& w : set.wheels) w.contact.start = {};

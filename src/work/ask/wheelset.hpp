@@ -114,6 +114,7 @@ struct Wheel {
 /// Where the next solution starts from.
 struct WheelsetStart {
   double roll = 0;          ///< rad
+  double tilting = 0;       ///< m, change of the wheels' difference in height with the roll; 0: of none
   double left_share = 0.5;  ///< of the load, on the left wheel
   std::array<Stiffening, 2> stiffening;
   std::array<NextStart, 2> contacts;
@@ -125,8 +126,8 @@ struct Wheelset {
   Wheelset(const LoadedCase& left, const LoadedCase& right) : wheels{Wheel(left), Wheel(right)} {}
   std::array<Wheel, 2> wheels;
   std::array<Stiffening, 2> stiffening;
-  double roll = 0;          ///< rad, of the last solution
-  double left_share = 0.5;  ///< of the load
+  double roll = 0;                       ///< rad, of the last solution
+  double tilting = 0, left_share = 0.5;  ///< as WheelsetStart
   int solutions = 0;
   WheelsetStart kept;
 };
