@@ -214,6 +214,22 @@ TEST(CInterface, StatesThatCannotBeAreRefusedAndLeaveNoSolution) {
   EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, nullptr), RS_CASE);
 }
 
+TEST(CInterface, SizesOfNoVersionAreRefused) {
+  Handle contact;
+  rs_state state = state_of(0);
+  for (const std::size_t size : {std::size_t{0}, std::size_t{104}, sizeof(rs_state) + 8}) {
+    state.size = size;
+    EXPECT_EQ(contact.solve(state), RS_CASE) << size;
+    EXPECT_NE(std::string(contact.error.message).find("sizeof(rs_state)"), std::string::npos) << contact.error.message;
+  }
+  ASSERT_EQ(contact.solve(state_of(0)), RS_OK) << contact.error.message;
+  rs_derivatives slopes[2]{};
+  slopes[0].size = sizeof(rs_derivatives);
+  const unsigned inputs[] = {RS_LOAD, RS_YAW};
+  EXPECT_EQ(rs_jacobian(contact.handle, inputs, 2, slopes, &contact.error), RS_CASE);
+  EXPECT_NE(std::string(contact.error.message).find("element 1"), std::string::npos) << contact.error.message;
+}
+
 TEST(CInterface, AWheelThatIsLiftedHasNoForces) {
   Handle contact;
   rs_state state = state_of(RS_APPROACH | RS_CREEPAGE_X);

@@ -24,15 +24,15 @@ constexpr unsigned kAllBits = (1u << kState.size()) - 1;
 State state_of(const rs_state* given) {
   State out;
   if (!given) return out;
-  capi::require_size(*given, "rs_state");
-  if (given->given & ~kAllBits)
-    throw CaseError(fmt::format("rs_state.given = {} has bits that have no meaning", given->given),
+  const rs_state state = capi::taken(*given, "rs_state");
+  if (state.given & ~kAllBits)
+    throw CaseError(fmt::format("rs_state.given = {} has bits that have no meaning", state.given),
                     "use RS_LOAD, RS_APPROACH and so on");
   std::array<double, kState.size()> numbers;
   static_assert(offsetof(rs_state, load) + sizeof numbers == sizeof(rs_state));
-  std::memcpy(numbers.data(), reinterpret_cast<const char*>(given) + offsetof(rs_state, load), sizeof numbers);
+  std::memcpy(numbers.data(), reinterpret_cast<const char*>(&state) + offsetof(rs_state, load), sizeof numbers);
   for (const StateMember& member : kState)
-    if (given->given & member.bit) out.*member.at = numbers[static_cast<std::size_t>(std::countr_zero(member.bit))];
+    if (state.given & member.bit) out.*member.at = numbers[static_cast<std::size_t>(std::countr_zero(member.bit))];
   return out;
 }
 
@@ -116,7 +116,9 @@ int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_e
     require(forces, "forces", "give an rs_forces with its size set");
     capi::require_size(*forces, "rs_forces");
     asked.drop_solution();
-    capi::fill(kForces, asked.solve(state_of(state)), *forces, offsetof(rs_forces, force_x));
+    rs_forces found{};
+    capi::fill(kForces, asked.solve(state_of(state)), found, offsetof(rs_forces, force_x));
+    capi::give(found, *forces);
   });
 }
 
@@ -127,12 +129,19 @@ int rs_jacobian(rs_contact* contact, const unsigned* inputs, int count, rs_deriv
       throw CaseError("inputs or out is missing", "give arrays of `count`");
     std::vector<const StateMember*> members;
     for (int k = 0; k < count; ++k) {
-      capi::require_size(out[k], "rs_derivatives");
+      if (k == 0) capi::require_size(*out, "rs_derivatives");
+      if (capi::element(out, static_cast<std::size_t>(k)).size != out->size)
+        throw CaseError(fmt::format("rs_derivatives.size of element {} is not that of the first", k),
+                        "set size = sizeof(rs_derivatives) of every one");
       members.push_back(input_of(inputs[k]));
     }
     const std::vector<Slopes> slopes = asked.slopes(members);
     static_assert(offsetof(rs_derivatives, force_x) + sizeof(Slopes) == sizeof(rs_derivatives));
-    for (const Slopes& one : slopes) std::memcpy(&(out++)->force_x, one.data(), sizeof one);
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+      rs_derivatives found{};
+      std::memcpy(&found.force_x, slopes[k].data(), sizeof slopes[k]);
+      capi::give(found, capi::element(out, k));
+    }
   });
 }
 
@@ -170,7 +179,9 @@ int rs_patch_forces(const rs_contact* contact, int patch, const double* about, r
     require(out, "out", "give an rs_patch with its size set");
     capi::require_size(*out, "rs_patch");
     const Vec3 point = about ? Vec3{about[0], about[1], about[2]} : Vec3{};
-    capi::fill(kPatchForces, patch_forces(contact_of(contact), patch, point), *out, offsetof(rs_patch, force));
+    rs_patch found{};
+    capi::fill(kPatchForces, patch_forces(contact_of(contact), patch, point), found, offsetof(rs_patch, force));
+    capi::give(found, *out);
   });
 }
 

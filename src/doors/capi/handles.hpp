@@ -9,6 +9,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "ask/contact.hpp"
@@ -41,12 +42,41 @@ inline void require(bool given, const char* what, const char* remedy) {
   if (!given) throw CaseError(fmt::format("{} is NULL", what), remedy);
 }
 
-/// Throws CaseError: the struct is of another version.
+/// Size of a struct in 0.4.0, the first version whose structs are taken. A struct that has grown since has a line
+/// below.
+template <class Struct>
+inline constexpr std::size_t kFirstSize = sizeof(Struct);
+
+/// Throws CaseError: the struct is larger than that of this library, or smaller than the first one.
 template <class Struct>
 void require_size(const Struct& s, const char* name) {
-  if (s.size != sizeof(Struct))
-    throw CaseError(fmt::format("{}.size = {} is of another version of the library", name, s.size),
-                    fmt::format("set size = sizeof({}), and compile with this version's railstrata.h", name));
+  if (s.size < kFirstSize<Struct> || s.size > sizeof(Struct) || s.size % alignof(Struct) != 0)
+    throw CaseError(
+        fmt::format("{}.size = {}; this library takes {} to {}", name, s.size, kFirstSize<Struct>, sizeof(Struct)),
+        fmt::format("set size = sizeof({}), and use a library as new as your railstrata.h", name));
+}
+
+/// A struct of the caller's; members that an older one lacks are 0. Throws CaseError: its size.
+template <class Struct>
+Struct taken(const Struct& given, const char* name) {
+  require_size(given, name);
+  Struct out{};
+  std::memcpy(&out, &given, given.size);
+  return out;
+}
+
+/// Writes as much as the caller's struct, whose size was looked at, has room for.
+template <class Struct>
+void give(Struct found, Struct& out) {
+  found.size = out.size;
+  std::memcpy(&out, &found, found.size);
+}
+
+/// Element k of an array of structs, which lie apart by the size that the caller knows.
+template <class Struct>
+Struct& element(Struct* first, std::size_t k) {
+  using Byte = std::conditional_t<std::is_const_v<Struct>, const char, char>;
+  return *reinterpret_cast<Struct*>(reinterpret_cast<Byte*>(first) + k * first->size);
 }
 
 /// Numbers of a struct from a place in it on.

@@ -8,6 +8,11 @@
  * Threads: a contact belongs to one thread at a time; several contacts may be solved at once. Nothing is printed or
  * written, no signal is caught, the process is never ended. The only state that contacts share is FFTW's.
  *
+ * Structs begin with their size, sizeof as your compiler has it, which you set in those that are filled too. Later
+ * versions add members at the end. A smaller size, of an older header from 0.4.0 on, is taken: members that it lacks are
+ * 0 and are not written. A larger size, of a newer header than the library, is refused. Elements of an array are of one
+ * size. rs_wheel has no size and stays as it is.
+ *
  * Functions that can fail return 0 or a pointer on success; else the code of the error, or NULL, and fill `error`,
  * which may be NULL. */
 #ifndef RAILSTRATA_H
@@ -70,7 +75,7 @@ RS_API void rs_contact_free(rs_contact* contact);
 
 /* What is different from the case in one solution. Members whose bit is not set in `given` are not read. */
 typedef struct rs_state {
-  size_t size;          /* sizeof(rs_state); another size, of another version, is refused */
+  size_t size;          /* sizeof(rs_state) */
   unsigned given;       /* RS_LOAD | ... */
   double load;          /* N, vertical, on the rail; or approach */
   double approach;      /* m, of the bodies along the contact normal: the load is a result */

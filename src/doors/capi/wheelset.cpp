@@ -16,8 +16,8 @@ using capi::wheelset_of;
 
 namespace {
 
-WheelsetState state_of(const rs_wheelset_state& given) {
-  capi::require_size(given, "rs_wheelset_state");
+WheelsetState state_of(const rs_wheelset_state& callers) {
+  const rs_wheelset_state given = capi::taken(callers, "rs_wheelset_state");
   WheelsetState out;
   capi::Reader read{reinterpret_cast<const char*>(&given) + offsetof(rs_wheelset_state, y), given.given};
   for (const auto& row : kWheelsetState) with_member(row, out, read);
@@ -27,14 +27,14 @@ WheelsetState state_of(const rs_wheelset_state& given) {
   return out;
 }
 
-void fill(const WheelsetForces& found, rs_wheelset_forces& out) {
+rs_wheelset_forces in_c(const WheelsetForces& found) {
+  rs_wheelset_forces out{};
   const std::size_t last = kWheelsetForces.size() - 1;  // after the wheels
   capi::fill(std::span(kWheelsetForces).first(last), found, out, offsetof(rs_wheelset_forces, z));
-  for (std::size_t side : {kLeft, kRight}) {
-    out.wheel[side].reserved = 0;
+  for (std::size_t side : {kLeft, kRight})
     capi::fill(kWheelForces, found.wheels[side], out.wheel[side], offsetof(rs_wheel, force));
-  }
   out.solutions = found.solutions;
+  return out;
 }
 
 /// read: a case of its overrides.
@@ -81,7 +81,7 @@ int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_
     require(state, "state", "give an rs_wheelset_state with its size set");
     require(forces, "forces", "give an rs_wheelset_forces with its size set");
     capi::require_size(*forces, "rs_wheelset_forces");
-    fill(solve(asked, state_of(*state)), *forces);
+    capi::give(in_c(solve(asked, state_of(*state))), *forces);
   });
 }
 
