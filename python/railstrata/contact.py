@@ -130,9 +130,10 @@ class Contact:
 
         load: N, vertical, on the rail; or approach. approach: m, of the bodies along the contact normal: the load is a
         result. lateral_shift: m, of the wheel to the field side. yaw, roll: tangents of the angle of attack and of the
-        wheelset's roll. speed: m/s. friction: coefficient at rest. creepage_x: (V - omega r) / V, negative drives; or
-        force_x. creepage_y: lateral, in the contact plane; or force_y. spin: 1/m; without it that of the geometry.
-        force_x: N, longitudinal, on the wheel. force_y: N, lateral friction on the wheel, in the contact plane.
+        wheelset's roll. speed: m/s; below 0.01, also at a standstill, that of 0.01; < 0 as > 0: x is the rolling
+        direction. friction: coefficient at rest. creepage_x: (V - omega r) / V, negative drives; or force_x.
+        creepage_y: lateral, in the contact plane; or force_y. spin: 1/m; without it that of the geometry. force_x: N,
+        longitudinal, on the wheel. force_y: N, lateral friction on the wheel, in the contact plane.
         """
         given = {name: value for name, value in locals().items() if name != "self" and value is not None}
         solved = _bridge.work(

@@ -63,7 +63,7 @@ class WheelsetForces:
 
 def _pair(values: Any, what: str) -> list[float]:
     if len(values) != 2:
-        raise ValueError(f"{what}: two numbers are wanted, of the left and the right rail")
+        raise ValueError(f"{what}: two numbers are wanted, of the left and the right side")
     return [_number(value, what) for value in values]
 
 
@@ -103,21 +103,25 @@ class Wheelset:
         y: float = 0, yaw: float = 0, y_rate: float = 0, z_rate: float = 0, yaw_rate: float = 0, roll_rate: float = 0,
         pitch_rate: float = 0, roll_moment: float = 0, rail_y: Pair = (0, 0), rail_z: Pair = (0, 0),
         rail_roll: Pair = (0, 0), rail_y_rate: Pair = (0, 0), rail_z_rate: Pair = (0, 0),
+        wheel_pitch_rate: Pair = (0, 0), rail_yaw: Pair = (0, 0),
     ) -> WheelsetForces:
         """Solves a state of motion.
 
         Given are load (z and roll are found, under a roll_moment), load and roll (z is found), or z and roll (loads are
-        results). Pairs are of the left and the right rail. Raises CaseError (out of range, no answer), NumericalError,
+        results). Pairs are of the left and the right side. Raises CaseError (out of range, no answer), NumericalError,
         MachineError; Ctrl-C stops it.
 
-        y, z, yaw, roll: m, rad. speed: m/s along the track, > 0. y_rate, z_rate: m/s. yaw_rate, roll_rate: rad/s; on
-        the inside of a curve of radius R yaw_rate has speed / R besides. pitch_rate: rad/s, of the axle beyond speed /
-        r0: > 0 drives. load: N, on the axle, down. roll_moment: N m, on the axle about x; with a load and no roll.
-        rail_y, rail_z: m, of the left and the right rail: irregularity, deflection. rail_roll: rad, about x through the
-        origins of their profiles. rail_y_rate, rail_z_rate: m/s, of the rails' material: deflection, not irregularity.
+        y, z, yaw, roll: m, rad. speed: m/s along the track, V; 0 stands, < 0 rolls back. y_rate, z_rate: m/s. yaw_rate,
+        roll_rate: rad/s; on the inside of a curve of radius R yaw_rate has speed / R besides. pitch_rate: rad/s, of the
+        axle beyond speed / r0: > 0 drives. load: N, on the axle, down. roll_moment: N m, on the axle about x; with a
+        load and no roll. rail_y, rail_z: m, of the left and the right rail: irregularity, deflection. rail_roll: rad,
+        about x through the origins of their profiles. rail_y_rate, rail_z_rate: m/s, of the rails' material:
+        deflection, not irregularity. wheel_pitch_rate: rad/s, of the left and the right wheel beyond that of the axle:
+        independent wheels. rail_yaw: rad, about z through the places of their tape circles at x = 0.
         """
         given = {name: value for name, value in locals().items() if name != "self" and value is not None}
-        state = {name: (_pair if name.startswith("rail_") else _number)(value, name) for name, value in given.items()}
+        state = {name: (_pair if name.startswith(("rail_", "wheel_")) else _number)(value, name)
+                 for name, value in given.items()}
         found = _bridge.work("solve_wheelset", wheelset=self._wheelset, threads=self._given[3], state=state)
         numbers_of_all = {name: _plain(found[name]) for name in ("z", "roll", "force", "moment", "solutions")}
         return WheelsetForces(**numbers_of_all, left=_wheel_forces(found["left"]), right=_wheel_forces(found["right"]))

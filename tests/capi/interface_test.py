@@ -62,7 +62,7 @@ class Interface(unittest.TestCase):
         self.assertIn("rs_wetness = 4096", fortran)
         self.assertIn("wetness = 0", fortran)
         self.assertIn("wetness: Optional[float] = None", python)
-        self.assertIn("wetness: kg/m², of water.", python)
+        self.assertIn("wetness: kg/m², of water.", " ".join(python.split()))
         naming = [file.name for file in (SOURCE / "src").rglob("*.?pp") if "RS_SPIN" in file.read_text()]
         self.assertEqual(naming, [], "a member has its bit from its row")
 

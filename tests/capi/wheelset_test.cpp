@@ -8,41 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "capi/railstrata.h"
-#include "tests/places.hpp"
+#include "tests/capi/wheelset_handle.hpp"
 
 namespace railstrata {
 namespace {
-
-const std::string kCase = source_dir() / "cases/quick/case.toml";
-
-struct Set {
-  explicit Set(const std::string& text = {}) {
-    handle = text.empty() ? rs_wheelset_new(kCase.c_str(), nullptr, 0, nullptr, 0, &error)
-                          : rs_wheelset_from_text(text.c_str(), nullptr, 0, nullptr, 0, &error);
-    forces.size = sizeof(rs_wheelset_forces);
-    for (int side : {RS_LEFT, RS_RIGHT})
-      if (handle) rs_set_cell(rs_wheelset_contact(handle, side), 1e-3, nullptr);
-  }
-  ~Set() { rs_wheelset_free(handle); }
-  Set(const Set&) = delete;
-  Set& operator=(const Set&) = delete;
-  int solve(const rs_wheelset_state& state) { return rs_wheelset_solve(handle, &state, &forces, &error); }
-  rs_error error{};
-  rs_wheelset* handle = nullptr;
-  rs_wheelset_forces forces{};
-};
-
-rs_wheelset_state loaded(double y = 0, double yaw = 0) {
-  rs_wheelset_state out{};
-  out.size = sizeof(rs_wheelset_state);
-  out.given = RS_WHEELSET_LOAD;
-  out.load = 160e3;
-  out.speed = 20;
-  out.y = y;
-  out.yaw = yaw;
-  return out;
-}
 
 TEST(Wheelset, BearsLoadAndRollMoment) {
   Set set;
@@ -123,6 +92,26 @@ TEST(Wheelset, AWheelThatLiftsIsAnAnswer) {
   EXPECT_EQ(set.solve(tipped), RS_NO_ANSWER);
 }
 
+TEST(Wheelset, WithoutALoadTheWheelsTouchWithoutForces) {
+  Set set;
+  rs_wheelset_state state = loaded(2e-3);
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  const double z = set.forces.z, roll = set.forces.roll;
+  state.load = 0;
+  for (const unsigned given : {RS_WHEELSET_LOAD, RS_WHEELSET_LOAD | RS_WHEELSET_ROLL}) {
+    state.given = given;
+    state.roll = roll;
+    ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+    EXPECT_EQ(set.forces.force[2], 0);
+    EXPECT_EQ(set.forces.wheel[RS_LEFT].patches + set.forces.wheel[RS_RIGHT].patches, 0);
+    EXPECT_NEAR(set.forces.z - z, 0.1e-3, 0.05e-3);
+    EXPECT_NEAR(set.forces.roll, roll, 2e-5);
+  }
+  state.given = RS_WHEELSET_LOAD;
+  state.roll_moment = 1;
+  EXPECT_EQ(set.solve(state), RS_NO_ANSWER);
+}
+
 TEST(Wheelset, WhatIsNoNumberIsAMistakeWithItsName) {
   Set set;
   rs_wheelset_state rate = loaded(), rail = loaded();
@@ -152,10 +141,6 @@ TEST(Wheelset, StatesOfARunAllHaveAnAnswer) {
   EXPECT_EQ(failed, 0);
   RecordProperty("solutions", solutions);
 }
-
-constexpr const char* kEuropean =
-    "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\nwheel_radius = \"460 mm\"\n"
-    "[drive]\nfriction_coefficient = 0.35\n";
 
 // What the states before leave must not lead a solution astray: from nothing each of these has an answer.
 TEST(Wheelset, AStateBesideThoseBeforeItHasAnAnswer) {

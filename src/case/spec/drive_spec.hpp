@@ -44,7 +44,8 @@ struct DriveSpec {
   std::optional<double> spin;                                            ///< 1/m; if not given, of the geometry
   CreepageOf creepage_of = CreepageOf::contact;
   double friction_coefficient = 0.5;
-  double torque_ramp = 4e-3;    ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
+  double torque_ramp = 4e-3;  ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
+  double rolling_share = 1;   ///< V over the speed that creepages are of: of rows that roll on their own radii; no key
   double creepage_start = 0.0;  ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
   /// The longitudinal force on the wheel over the load G, if it is given.
   std::optional<double> traction() const {

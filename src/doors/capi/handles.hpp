@@ -46,6 +46,8 @@ inline void require(bool given, const char* what, const char* remedy) {
 /// below.
 template <class Struct>
 inline constexpr std::size_t kFirstSize = sizeof(Struct);
+template <>
+inline constexpr std::size_t kFirstSize<rs_wheelset_state> = offsetof(rs_wheelset_state, wheel_pitch_rate);
 
 /// Throws CaseError: the struct is larger than that of this library, or smaller than the first one.
 template <class Struct>

@@ -48,7 +48,7 @@ module railstrata
     integer(c_int) :: given = 0
     real(c_double) :: y = 0, z = 0, yaw = 0, roll = 0, speed = 0, y_rate = 0, z_rate = 0, yaw_rate = 0, roll_rate = 0, &
       pitch_rate = 0, load = 0, roll_moment = 0, rail_y(2) = 0, rail_z(2) = 0, rail_roll(2) = 0, rail_y_rate(2) = 0, &
-      rail_z_rate(2) = 0
+      rail_z_rate(2) = 0, wheel_pitch_rate(2) = 0, rail_yaw(2) = 0
   end type
 
   type, bind(c) :: rs_wheel

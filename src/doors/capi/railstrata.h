@@ -9,9 +9,9 @@
  * written, no signal is caught, the process is never ended. The only state that contacts share is FFTW's.
  *
  * Structs begin with their size, sizeof as your compiler has it, which you set in those that are filled too. Later
- * versions add members at the end. A smaller size, of an older header from 0.4.0 on, is taken: members that it lacks are
- * 0 and are not written. A larger size, of a newer header than the library, is refused. Elements of an array are of one
- * size. rs_wheel has no size and stays as it is.
+ * versions add members at the end. A smaller size, of an older header from 0.4.0 on, is taken: members that it lacks
+ * are 0 and are not written. A larger size, of a newer header than the library, is refused. Elements of an array are of
+ * one size. rs_wheel has no size and stays as it is.
  *
  * Functions that can fail return 0 or a pointer on success; else the code of the error, or NULL, and fill `error`,
  * which may be NULL. */
@@ -81,13 +81,13 @@ typedef struct rs_state {
   double approach;      /* m, of the bodies along the contact normal: the load is a result */
   double lateral_shift; /* m, of the wheel to the field side */
   double yaw, roll;     /* tangents of the angle of attack and of the wheelset's roll */
-  double speed;         /* m/s */
-  double friction;      /* coefficient at rest */
-  double creepage_x;    /* (V - omega r) / V, negative drives; or force_x */
-  double creepage_y;    /* lateral, in the contact plane; or force_y */
-  double spin;          /* 1/m; without it that of the geometry */
-  double force_x;       /* N, longitudinal, on the wheel */
-  double force_y;       /* N, lateral friction on the wheel, in the contact plane */
+  double speed;      /* m/s; below 0.01, also at a standstill, that of 0.01; < 0 as > 0: x is the rolling direction */
+  double friction;   /* coefficient at rest */
+  double creepage_x; /* (V - omega r) / V, negative drives; or force_x */
+  double creepage_y; /* lateral, in the contact plane; or force_y */
+  double spin;       /* 1/m; without it that of the geometry */
+  double force_x;    /* N, longitudinal, on the wheel */
+  double force_y;    /* N, lateral friction on the wheel, in the contact plane */
 } rs_state;
 
 /* What a contact gives. NaN: does not apply. Of several patches: forces of all, the rest of the one with the largest
@@ -242,7 +242,8 @@ RS_API int rs_table_at(const rs_table* table, const double* at, double* out);
 /* A wheelset: two wheels on one rigid axle and their rails. Its axes are those of the track: x along it, y to the left,
  * z up, from the middle of the track at the height of the rails' origins. The centre of the axle stands at (0, y, r0 +
  * z), r0 the case's wheel_radius; the wheelset is turned by the roll about x, then by the yaw about z. Creepages and
- * spin follow from the rigid motion at the contacts: docs/vehicle.md. */
+ * spin follow from the rigid motion at the contacts, w and Omega, over c = max(|V|, |w|, 0.01 m/s), the same whether it
+ * rolls on or back: docs/vehicle.md. A wheelset that stands has forces against its slip. */
 typedef struct rs_wheelset rs_wheelset;
 #define RS_LEFT 0
 #define RS_RIGHT 1
@@ -268,7 +269,7 @@ typedef struct rs_wheelset_state {
   size_t size;                 /* sizeof(rs_wheelset_state) */
   unsigned given;              /* of z, roll and load, those to be read. All else is read: 0 where nothing moves */
   double y, z, yaw, roll;      /* m, rad */
-  double speed;                /* m/s along the track, > 0 */
+  double speed;                /* m/s along the track, V; 0 stands, < 0 rolls back */
   double y_rate, z_rate;       /* m/s */
   double yaw_rate, roll_rate;  /* rad/s; on the inside of a curve of radius R yaw_rate has speed / R besides */
   double pitch_rate;           /* rad/s, of the axle beyond speed / r0: > 0 drives */
@@ -277,6 +278,8 @@ typedef struct rs_wheelset_state {
   double rail_y[2], rail_z[2]; /* m, of the left and the right rail: irregularity, deflection */
   double rail_roll[2];         /* rad, about x through the origins of their profiles */
   double rail_y_rate[2], rail_z_rate[2]; /* m/s, of the rails' material: deflection, not irregularity */
+  double wheel_pitch_rate[2]; /* rad/s, of the left and the right wheel beyond that of the axle: independent wheels */
+  double rail_yaw[2];         /* rad, about z through the places of their tape circles at x = 0 */
 } rs_wheelset_state;
 
 /* One wheel of a wheelset, in the track's axes: of the right one, angles, spins and lateral numbers have the sign that

@@ -238,12 +238,13 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   contact.leading_edge = spec.bem.leading_edge;
   contact.spin = spin_at(spec, placement.contact);
   contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, wheel_spin(placement.contact));
+  scale_by(contact.extra_slip.x, spec.drive.rolling_share);
   if (const PlanePair& stretch = patch.surface.stretch; !stretch.x.empty()) {
     add_scaled(contact.extra_slip.x, 1, stretch.x);
     contact.extra_slip.y = stretch.y;
   }
   if (spec.bem.spin_angle == SpinAngle::local && !patch.grid.line)
-    contact.local_spin = local_spin(patch.grid, patch.profile, placement.contact);
+    scale_by(contact.local_spin = local_spin(patch.grid, patch.profile, placement.contact), spec.drive.rolling_share);
   contact.falling = falling_friction(spec);
   const HertzContact estimate = hertz_estimate(spec, placement.contact);
   if (const std::string note = note_of_instability(spec, estimate); !note.empty()) patch.notes.push_back(note);

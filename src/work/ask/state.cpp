@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/faults.hpp"
+#include "geometry/wheelset.hpp"
 
 namespace railstrata {
 namespace {
@@ -113,9 +114,11 @@ void set_state(const State& s, const CaseSpec& base, CaseSpec& out) {
   require_rolling(s, base);
   out.vehicle = base.vehicle;
   out.drive = base.drive;
+  out.drive.rolling_share = s.rolling_share;
   for (const StateMember& member : kState) {
     if (!member.in_case) continue;
-    const std::optional<double>& given = s.*member.at;
+    std::optional<double> given = s.*member.at;
+    if (given && member.at == &State::speed) given = reference_speed(*given);
     if (given) require_range(member, *given);
     put(out, member, given ? given : value_in(base, member));
   }

@@ -14,9 +14,10 @@ namespace railstrata {
 struct State {
   std::optional<double> load, approach;                ///< N, vertical, on the rail; m, along the contact normal
   std::optional<double> lateral_shift, yaw, roll;      ///< m, to the field side; tangents
-  std::optional<double> speed, friction;               ///< m/s; at rest
+  std::optional<double> speed, friction;               ///< m/s, as reference_speed; at rest
   std::optional<double> creepage_x, creepage_y, spin;  ///< the last 1/m
   std::optional<double> force_x, force_y;              ///< N, on the wheel; lateral friction in the contact plane
+  double rolling_share = 1;                            ///< of a wheelset (DriveSpec); callers do not give it
 };
 
 struct StateMember {

@@ -32,12 +32,14 @@ namespace {
 
 constexpr int kMostSolutions = 60, kFreeSolutions = 5;
 
-WheelsetMotion motion_of(const WheelsetState& s, double roll) {
-  return {s.y, s.z.value_or(0), s.yaw, roll, s.speed, s.y_rate, s.z_rate, s.yaw_rate, s.roll_rate, s.pitch_rate};
+WheelsetMotion motion_of(const WheelsetState& s, double roll, std::size_t side) {
+  return {s.y,      s.z.value_or(0), s.yaw,      roll,        s.speed,
+          s.y_rate, s.z_rate,        s.yaw_rate, s.roll_rate, s.pitch_rate + s.wheel_pitch_rate[side]};
 }
 
 RailMotion rail_of(const WheelsetState& s, std::size_t side) {
-  return {s.rail_y[side], s.rail_z[side], s.rail_roll[side], s.rail_y_rate[side], s.rail_z_rate[side]};
+  return {s.rail_y[side],      s.rail_z[side],      s.rail_roll[side],
+          s.rail_y_rate[side], s.rail_z_rate[side], s.rail_yaw[side]};
 }
 
 /// Looks where the wheels touch and leaves it in their contacts, whose solutions then need not look again. hold: each
@@ -46,11 +48,15 @@ void place(Wheelset& set, const WheelsetState& state, double roll, bool hold = f
   constexpr double kHeldWithin = 5e-6;  // m
   for (std::size_t side : {kLeft, kRight}) {
     Wheel& w = set.wheels[side];
-    w.motion = motion_of(state, roll);
+    w.motion = motion_of(state, roll, side);
     w.rail = rail_of(state, side);
     if (side == kRight) {
       w.motion = mirrored(w.motion);
       w.rail = mirrored(w.rail);
+    }
+    if (state.speed < 0) {
+      w.motion = reversed(w.motion);
+      w.rail = reversed(w.rail);
     }
     const Placement& p = w.contact.placement();
     w.contact.move_to(track_under(p.wheel, p.rail, w.at_rest, w.motion, w.rail),
@@ -61,12 +67,13 @@ void place(Wheelset& set, const WheelsetState& state, double roll, bool hold = f
 
 /// The force and the moment about the wheelset's centre, of the tractions of all cells.
 void add_up(Wheel& w) {
-  w.force = {w.forces.force_x, w.forces.force_y, w.forces.force_z};
+  const Rotation<double> rail = rotation_by(w.rail.yaw);
+  w.force = yaw(rail, {w.forces.force_x, w.forces.force_y, w.forces.force_z});
   w.moment = {};
   if (!w.contact.last()) return;
   for (const BemPatch* patch : patches_of(*w.contact.last())) {
-    const auto arm = [&](double x, Vec2 point) { return arm_of(w.track(), w.touching(), w.motion, x, point); };
-    w.moment += wrench_of(*patch, arm).moment;
+    const auto arm = [&](double x, Vec2 point) { return arm_of(w.track(), w.touching(), w.motion, w.rail, x, point); };
+    w.moment += yaw(rail, wrench_of(*patch, arm).moment);
   }
 }
 
@@ -76,7 +83,8 @@ void press(Wheel& w, double descent) {
   const WheelSlip slip = slip_at(w.track(), w.reference, w.motion, w.rail);
   State state;
   state.approach = descent * std::cos(w.reference.angle);
-  state.speed = w.motion.speed;
+  state.speed = slip.speed;
+  state.rolling_share = w.motion.speed / slip.speed;
   state.creepage_x = slip.creepage_x;
   state.creepage_y = slip.creepage_y;
   state.spin = slip.spin;
@@ -113,15 +121,15 @@ double tolerance_of(const Wheelset& set) {
   return std::max(set.wheels[0].contact.load_tolerance(), set.wheels[1].contact.load_tolerance());
 }
 
+double height_touching(const Wheel& w) { return height_of_descent(0, w.track(), w.touching(), w.motion, w.rail); }
+
 /// z where the forces that are expected of the descents bear the load.
 double expected_height(const Wheelset& set, double load) {
   const auto borne = [&](double z) {
     return set.stiffening[0].force_at(descent_at(set.wheels[0], z)) +
            set.stiffening[1].force_at(descent_at(set.wheels[1], z));
   };
-  double high = std::max(
-      height_of_descent(0, set.wheels[0].track(), set.wheels[0].touching(), set.wheels[0].motion, set.wheels[0].rail),
-      height_of_descent(0, set.wheels[1].track(), set.wheels[1].touching(), set.wheels[1].motion, set.wheels[1].rail));
+  double high = std::max(height_touching(set.wheels[0]), height_touching(set.wheels[1]));
   double step = 1e-4, low = high - step;
   while (borne(low) < load) low -= step *= 2;
   for (int i = 0; i < 60; ++i) {
@@ -263,11 +271,22 @@ double lean(Wheelset& set, const WheelsetState& state) {
   throw NumericalError("height and roll of the wheelset under its load were not found");
 }
 
+/// Height and, unless it is given, the roll at which the wheels touch without a force.
+double hang(Wheelset& set, const WheelsetState& state) {
+  if (state.roll_moment != 0)
+    throw NoAnswer(fmt::format("a roll moment of {:.4g} N m tips the wheelset over under no load", state.roll_moment),
+                   "give a roll_moment of 0, or the roll");
+  if (!state.roll && !tilt(set, state, {0, 0}, false))
+    throw NumericalError("the roll at which both wheels touch was not found");
+  const double z = std::max(height_touching(set.wheels[0]), height_touching(set.wheels[1]));
+  press(set, {0, 0});
+  return z;
+}
+
 void require_state(const WheelsetState& s) {
   if (!(s.z && s.roll && !s.load) && !(s.load && !s.z))
     throw CaseError("the state does not say what is given", "give z and roll, load and roll, or load");
-  if (!(s.speed > 0)) throw CaseError(fmt::format("speed = {:g}", s.speed), "give a speed above 0 m/s");
-  if (s.load && !(*s.load > 0)) throw CaseError(fmt::format("load = {:g}", *s.load), "give a load above 0 N");
+  if (s.load && !(*s.load >= 0)) throw CaseError(fmt::format("load = {:g}", *s.load), "give a load of 0 N or more");
   const auto require = [](double value, const std::string& name) {  // else answered as a wheel that misses its rail
     if (!std::isfinite(value)) throw CaseError(fmt::format("{} = {:g}", name, value), "give a finite number");
   };
@@ -282,31 +301,33 @@ void require_state(const WheelsetState& s) {
     });
 }
 
-Vec3 in_track(Vec3 v, bool mirror, bool axial) {
-  const double across = mirror && !axial ? -1 : 1, along = mirror && axial ? -1 : 1;
-  return {along * v.x, across * v.y, along * v.z};
-}
+/// Signs of what a wheel has in its own axes, of the left one that rolls on, in those of the track.
+struct InTrack {
+  InTrack(std::size_t side, double speed) : x(speed < 0 ? -1 : 1), y(side == kRight ? -1 : 1) {}
+  double x, y;
+  Vec3 polar(Vec3 v) const { return {x * v.x, y * v.y, v.z}; }
+  Vec3 axial(Vec3 v) const { return {y * v.x, x * v.y, x * y * v.z}; }
+};
 
-WheelForces forces_of(const Wheel& w, double y, bool mirror) {
-  const double odd = mirror ? -1 : 1;
+WheelForces forces_of(const Wheel& w, double y, const InTrack& sign) {
   const RigidContact& place = w.reference;
   const WheelSlip slip = slip_at(w.track(), place, w.motion, w.rail);
-  const Vec3 arm = arm_of(w.track(), place, w.motion, place.x, place.point);
+  const Vec3 arm = yaw(rotation_by(w.rail.yaw), arm_of(w.track(), place, w.motion, w.rail, place.x, place.point));
   WheelForces out;
-  out.force = in_track(w.force, mirror, false);
-  out.moment = in_track(w.moment, mirror, true);
+  out.force = sign.polar(w.force);
+  out.moment = sign.axial(w.moment);
   out.normal_force = w.forces.normal_force;
-  out.lateral_force = odd * w.forces.lateral_force;
-  out.spin_moment = odd * w.forces.spin_moment;
-  out.creepage_x = slip.creepage_x;
-  out.creepage_y = odd * slip.creepage_y;
-  out.spin = odd * slip.spin;
+  out.lateral_force = sign.y * w.forces.lateral_force;
+  out.spin_moment = sign.x * sign.y * w.forces.spin_moment;
+  out.creepage_x = sign.x * slip.creepage_x;
+  out.creepage_y = sign.y * slip.creepage_y;
+  out.spin = sign.x * sign.y * slip.spin;
   out.approach = w.forces.approach;
-  out.point = in_track({arm.x, arm.y, place.point.z + w.rail.z}, mirror, false);
+  out.point = sign.polar({arm.x, arm.y, place.point.z + w.rail.z});
   out.point.y += y;
   out.on_wheel = w.contact.placement().wheel.at(place.wheel_s).position;
   out.on_rail = w.contact.placement().rail.at(place.rail_s).position;
-  out.contact_angle = odd * place.angle;
+  out.contact_angle = sign.y * place.angle;
   out.rolling_radius = place.rolling_radius;
   out.p_max = w.forces.p_max;
   out.patch_area = w.forces.patch_area;
@@ -334,12 +355,12 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
     out.z = *state.z;
     press(set, {descent_at(set.wheels[0], out.z), descent_at(set.wheels[1], out.z)});
   } else {
-    out.z = state.roll ? sink(set, *state.load) : lean(set, state);
+    out.z = *state.load == 0 ? hang(set, state) : state.roll ? sink(set, *state.load) : lean(set, state);
   }
   out.roll = set.roll;
   out.solutions = set.solutions;
   for (std::size_t side : {kLeft, kRight}) {
-    out.wheels[side] = forces_of(set.wheels[side], state.y, side == kRight);
+    out.wheels[side] = forces_of(set.wheels[side], state.y, {side, state.speed});
     out.force += out.wheels[side].force;
     out.moment += out.wheels[side].moment;
   }

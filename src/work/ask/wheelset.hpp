@@ -23,9 +23,10 @@ struct WheelsetState {
   std::optional<double> load;
   double roll_moment = 0;
   std::array<double, 2> rail_y{}, rail_z{}, rail_roll{}, rail_y_rate{}, rail_z_rate{};
+  std::array<double, 2> wheel_pitch_rate{}, rail_yaw{};
 };
 /// In the order of rs_wheelset_state; the optional ones in that of the bits of its `given`.
-inline constexpr std::array<Named<WheelsetState, double, std::optional<double>, std::array<double, 2>>, 17>
+inline constexpr std::array<Named<WheelsetState, double, std::optional<double>, std::array<double, 2>>, 19>
     kWheelsetState{{{"y", "m", &WheelsetState::y},
                     {"z", "m", &WheelsetState::z},
                     {"yaw", "rad", &WheelsetState::yaw},
@@ -42,7 +43,9 @@ inline constexpr std::array<Named<WheelsetState, double, std::optional<double>, 
                     {"rail_z", "m", &WheelsetState::rail_z},
                     {"rail_roll", "rad", &WheelsetState::rail_roll},
                     {"rail_y_rate", "m/s", &WheelsetState::rail_y_rate},
-                    {"rail_z_rate", "m/s", &WheelsetState::rail_z_rate}}};
+                    {"rail_z_rate", "m/s", &WheelsetState::rail_z_rate},
+                    {"wheel_pitch_rate", "rad/s", &WheelsetState::wheel_pitch_rate},
+                    {"rail_yaw", "rad", &WheelsetState::rail_yaw}}};
 
 /// One wheel, in the track's axes; meanings are those of rs_wheel (railstrata.h).
 struct WheelForces : PatchForces {
@@ -97,7 +100,7 @@ struct Stiffening {
   void add(double d, double q);
 };
 
-/// One wheel as the left one of its motion.
+/// One wheel as the left one of its motion, which rolls on.
 struct Wheel {
   explicit Wheel(const LoadedCase& loaded);
   Contact contact;
@@ -106,7 +109,7 @@ struct Wheel {
   RailMotion rail;
   Forces forces;
   RigidContact reference;  ///< of the last solution: the place that its creepages are of (reference_of)
-  Vec3 force, moment;      ///< N, N m about the wheelset's centre
+  Vec3 force, moment;      ///< N, N m about the wheelset's centre, in the track's axes
   const RigidContact& touching() const { return contact.placement().contact; }
   const TrackGeometry& track() const { return contact.placement().track; }
 };
@@ -132,7 +135,8 @@ struct Wheelset {
   WheelsetStart kept;
 };
 
-/// Throws CaseError, NoAnswer (of a contact; the roll moment tips the wheelset over), NumericalError.
+/// Of a load of 0 all forces are 0, and the wheels touch. Throws CaseError, NoAnswer (of a contact; the roll moment
+/// tips the wheelset over), NumericalError.
 WheelsetForces solve(Wheelset& set, const WheelsetState& state);
 /// Solutions start from the ones before. Before trial steps `keep` remembers where the next one starts from, `reset`
 /// returns there; `forget` starts anew.
