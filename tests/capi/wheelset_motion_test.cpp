@@ -1,8 +1,12 @@
 // Motions of a wheelset through the C interface: standstill, rolling back, wheels that turn by themselves, yawed rails.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/capi/wheelset_handle.hpp"
@@ -130,6 +134,94 @@ TEST(WheelsetMotion, ATrackThatIsTurnedHasItsForcesTurned) {
     const double *m = straight.forces.wheel[side].moment, *n = turned.forces.wheel[side].moment;
     EXPECT_NEAR(n[2], m[2], 8);
   }
+}
+
+rs_patch patch_of(const Set& set, int side, int patch, const double* about = nullptr) {
+  rs_patch out{};
+  out.size = sizeof(rs_patch);
+  rs_error error{};
+  EXPECT_EQ(rs_wheelset_patch(set.handle, side, patch, about, &out, &error), RS_OK) << error.message;
+  return out;
+}
+
+TEST(WheelsetMotion, PatchesAddUpToTheirWheelInTheAxesOfTheTrack) {
+  Set set(kEuropean);
+  rs_wheelset_state state = half_turned(moving());
+  state.y = 5.2e-3;
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  int most = 0;
+  for (int side : {RS_LEFT, RS_RIGHT}) {
+    const rs_wheel& wheel = set.forces.wheel[side];
+    most = std::max(most, wheel.patches);
+    for (int i : {0, 1, 2}) {
+      double force = 0, moment = 0;
+      for (int k = 0; k < wheel.patches; ++k) {
+        const rs_patch patch = patch_of(set, side, k);
+        force += patch.force[i];
+        moment += patch.moment[i];
+      }
+      EXPECT_NEAR(force, wheel.force[i], 1e-6);
+      EXPECT_NEAR(moment, wheel.moment[i], 1e-6);
+    }
+    const rs_patch first = patch_of(set, side, 0);
+    EXPECT_EQ(std::signbit(first.contact_angle), std::signbit(wheel.contact_angle));
+    EXPECT_NEAR(first.point[1], wheel.point[1], 0.04);
+    const rs_patch about = patch_of(set, side, 0, first.point);
+    EXPECT_LT(std::abs(about.moment[0]), 100);
+    EXPECT_LT(std::abs(about.moment[1]), 100);
+  }
+  EXPECT_GE(most, 2);
+  rs_patch out = patch_of(set, RS_LEFT, 0);
+  EXPECT_EQ(rs_wheelset_patch(set.handle, 2, 0, nullptr, &out, &set.error), RS_CASE);
+  EXPECT_EQ(rs_wheelset_patch(set.handle, RS_LEFT, 9, nullptr, &out, &set.error), RS_CASE);
+  state.speed = std::nan("");
+  ASSERT_EQ(set.solve(state), RS_CASE);
+  EXPECT_EQ(rs_wheelset_patch(set.handle, RS_LEFT, 0, nullptr, &out, &set.error), RS_CASE);
+}
+
+TEST(WheelsetMotion, RemarksNameTheirWheel) {
+  Set set;
+  EXPECT_STREQ(rs_wheelset_remarks(set.handle), "");
+  EXPECT_STREQ(rs_wheelset_remarks(nullptr), "");
+  ASSERT_EQ(set.solve(loaded(2e-3)), RS_OK) << set.error.message;
+  std::string wanted;
+  for (int side : {RS_LEFT, RS_RIGHT}) {
+    std::istringstream lines(rs_remarks(rs_wheelset_contact(set.handle, side)));
+    for (std::string line; std::getline(lines, line);)
+      wanted += (wanted.empty() ? "" : "\n") + std::string(side == RS_LEFT ? "left" : "right") + " wheel: " + line;
+  }
+  EXPECT_EQ(rs_wheelset_remarks(set.handle), wanted);
+}
+
+TEST(WheelsetMotion, ACopyGoesOnWithTheSameBitsAndOutlivesItsOriginal) {
+  rs_wheelset_forces alone{};
+  rs_wheelset* copy = nullptr;
+  rs_contact* left = nullptr;
+  rs_error error{};
+  {
+    Set set;
+    ASSERT_EQ(set.solve(loaded(1e-3)), RS_OK) << set.error.message;
+    rs_wheelset_keep(set.handle);
+    copy = rs_wheelset_copy(set.handle, &error);
+    ASSERT_NE(copy, nullptr) << error.message;
+    left = rs_contact_copy(rs_wheelset_contact(set.handle, RS_LEFT), &error);
+    ASSERT_NE(left, nullptr) << error.message;
+    ASSERT_EQ(set.solve(loaded(1.1e-3)), RS_OK);
+    alone = set.forces;
+  }
+  rs_wheelset_forces forces{};
+  forces.size = sizeof(forces);
+  const rs_wheelset_state state = loaded(1.1e-3);
+  ASSERT_EQ(rs_wheelset_solve(copy, &state, &forces, &error), RS_OK) << error.message;
+  EXPECT_EQ(forces.wheel[RS_LEFT].p_max, alone.wheel[RS_LEFT].p_max);
+  for (int i : {0, 1, 2}) EXPECT_EQ(forces.force[i], alone.force[i]);
+  rs_wheelset_free(copy);
+  int nx = 0, ny = 0;
+  EXPECT_EQ(rs_points(left, 0, &nx, &ny, &error), RS_OK) << "its solution has come along";
+  EXPECT_EQ(rs_solve(left, nullptr, nullptr, &error), RS_CASE);
+  rs_contact_free(left);
+  EXPECT_EQ(rs_contact_copy(nullptr, &error), nullptr);
+  EXPECT_EQ(rs_wheelset_copy(nullptr, &error), nullptr);
 }
 
 TEST(WheelsetMotion, AStateOfAnOlderHeaderHasTheBitsOfOneWithoutTheMembersThatItLacks) {

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,14 @@ rs_contact* rs_contact_from_text(const char* toml, const char* const* overrides,
   });
 }
 
+rs_contact* rs_contact_copy(const rs_contact* contact, rs_error* error) {
+  return capi::made(error, [&] {
+    auto copy = std::make_unique<Contact>(contact_of(contact));
+    copy->of_wheelset = false;
+    return capi::handle_of(copy.release());
+  });
+}
+
 void rs_contact_free(rs_contact* contact) {
   if (contact && !contact_of(contact).of_wheelset) delete &contact_of(contact);
 }
@@ -178,10 +187,8 @@ int rs_patch_forces(const rs_contact* contact, int patch, const double* about, r
   return guarded(error, [&] {
     require(out, "out", "give an rs_patch with its size set");
     capi::require_size(*out, "rs_patch");
-    const Vec3 point = about ? Vec3{about[0], about[1], about[2]} : Vec3{};
-    rs_patch found{};
-    capi::fill(kPatchForces, patch_forces(contact_of(contact), patch, point), found, offsetof(rs_patch, force));
-    capi::give(found, *out);
+    const Vec3 point = capi::point_of(about).value_or(Vec3{});
+    capi::give(capi::in_c(patch_forces(contact_of(contact), patch, point)), *out);
   });
 }
 

@@ -34,6 +34,13 @@ inline Wheelset& wheelset_of(rs_wheelset* handle) {
   return *reinterpret_cast<Wheelset*>(handle);
 }
 
+inline const Wheelset& wheelset_of(const rs_wheelset* handle) { return wheelset_of(const_cast<rs_wheelset*>(handle)); }
+
+/// The point that moments are about; NULL: none.
+inline std::optional<Vec3> point_of(const double* about) {
+  return about ? std::optional(Vec3{about[0], about[1], about[2]}) : std::nullopt;
+}
+
 /// Overrides "key=value". Throws CaseError: a text is NULL.
 std::vector<std::string> overrides_of(const char* const* overrides, int count);
 
@@ -101,6 +108,12 @@ template <class Rows, class Record, class Struct>
 void fill(const Rows& rows, const Record& record, Struct& out, std::size_t offset) {
   Writer write{reinterpret_cast<char*>(&out) + offset};
   for (const auto& row : rows) with_member(row, record, write);
+}
+
+inline rs_patch in_c(const PatchForces& forces) {
+  rs_patch out{};
+  fill(kPatchForces, forces, out, offsetof(rs_patch, force));
+  return out;
 }
 
 /// Numbers of a struct from a place in it on; of optional ones those whose bits are given, in their order.

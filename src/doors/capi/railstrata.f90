@@ -88,6 +88,13 @@ module railstrata
       type(c_ptr) :: contact
     end function
 
+    function rs_contact_copy(contact, error) bind(c) result(copy)
+      import
+      type(c_ptr), value :: contact
+      type(rs_error), intent(out) :: error
+      type(c_ptr) :: copy
+    end function
+
     subroutine rs_contact_free(contact) bind(c)
       import
       type(c_ptr), value :: contact
@@ -260,6 +267,13 @@ module railstrata
       type(c_ptr) :: wheelset
     end function
 
+    function rs_wheelset_copy(wheelset, error) bind(c) result(copy)
+      import
+      type(c_ptr), value :: wheelset
+      type(rs_error), intent(out) :: error
+      type(c_ptr) :: copy
+    end function
+
     subroutine rs_wheelset_free(wheelset) bind(c)
       import
       type(c_ptr), value :: wheelset
@@ -272,6 +286,22 @@ module railstrata
       type(rs_wheelset_forces), intent(inout) :: forces
       type(rs_error), intent(out) :: error
       integer(c_int) :: code
+    end function
+
+    function rs_wheelset_patch(wheelset, side, patch, about, forces, error) bind(c) result(code)
+      import
+      type(c_ptr), value :: wheelset
+      integer(c_int), value :: side, patch
+      real(c_double), intent(in), optional :: about(*)
+      type(rs_patch), intent(inout) :: forces
+      type(rs_error), intent(out) :: error
+      integer(c_int) :: code
+    end function
+
+    function rs_wheelset_remarks(wheelset) bind(c) result(text)
+      import
+      type(c_ptr), value :: wheelset
+      type(c_ptr) :: text
     end function
 
     subroutine rs_wheelset_keep(wheelset) bind(c)

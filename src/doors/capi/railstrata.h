@@ -6,7 +6,8 @@
  * driving wheel has creepage_x < 0 and force_x > 0; tractions of fields act on the rail.
  *
  * Threads: a contact belongs to one thread at a time; several contacts may be solved at once. Nothing is printed or
- * written, no signal is caught, the process is never ended. The only state that contacts share is FFTW's.
+ * written, no signal is caught, the process is never ended. Contacts share what FFTW keeps, copies of one their
+ * influence functions too; both are guarded.
  *
  * Structs begin with their size, sizeof as your compiler has it, which you set in those that are filled too. Later
  * versions add members at the end. A smaller size, of an older header from 0.4.0 on, is taken: members that it lacks
@@ -56,6 +57,10 @@ RS_API int rs_version(void);
  * them. The text form takes the case itself; profile names are then relative to the working folder. */
 RS_API rs_contact* rs_contact_new(const char* case_file, const char* const* overrides, int count, rs_error* error);
 RS_API rs_contact* rs_contact_from_text(const char* toml, const char* const* overrides, int count, rs_error* error);
+/* A copy with its last solution and where the next one starts from, so that both go on with the same bits: a workspace
+ * for another thread. It costs no reading and no influence functions, which copies share. Of a contact of a wheelset
+ * too: the copy is yours to free. */
+RS_API rs_contact* rs_contact_copy(const rs_contact* contact, rs_error* error);
 /* NULL is allowed, and a contact of a wheelset, which stays: rs_wheelset_free ends it. */
 RS_API void rs_contact_free(rs_contact* contact);
 
@@ -255,6 +260,8 @@ RS_API rs_wheelset* rs_wheelset_new(const char* case_file, const char* const* ov
                                     const char* const* right, int right_count, rs_error* error);
 RS_API rs_wheelset* rs_wheelset_from_text(const char* toml, const char* const* overrides, int count,
                                           const char* const* right, int right_count, rs_error* error);
+/* As rs_contact_copy; what was kept is copied too. */
+RS_API rs_wheelset* rs_wheelset_copy(const rs_wheelset* wheelset, rs_error* error);
 /* NULL is allowed. */
 RS_API void rs_wheelset_free(rs_wheelset* wheelset);
 
@@ -313,9 +320,20 @@ typedef struct rs_wheelset_forces {
   int reserved;
 } rs_wheelset_forces;
 
-/* Solves a state. RS_NO_ANSWER: of rs_solve; the roll moment tips the wheelset over. */
+/* Solves a state. After an error the last solution is gone. RS_NO_ANSWER: of rs_solve; the roll moment tips the wheelset
+ * over. */
 RS_API int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_wheelset_forces* forces,
                              rs_error* error);
+
+/* A patch of the last solution as rs_patch_forces gives it, but in the track's axes, signs as in rs_wheel. about: the
+ * point [m, track axes] that moments are about; NULL: the centre of the wheelset. Patches of a wheel add up to its
+ * force and moment. Errors: RS_CASE without a solution, of a lifted wheel, for a side or a patch that is not there. */
+RS_API int rs_wheelset_patch(const rs_wheelset* wheelset, int side, int patch, const double* about, rs_patch* out,
+                             rs_error* error);
+
+/* rs_remarks of both wheels, each line begins with its wheel: "left wheel: ". Belongs to the wheelset, until its next
+ * call. */
+RS_API const char* rs_wheelset_remarks(const rs_wheelset* wheelset);
 
 /* Solutions start from the ones before. Trial steps of an integrator: rs_wheelset_keep remembers where the next
  * solution starts from, rs_wheelset_reset returns there; what follows has the bits of what followed the first time.
@@ -324,8 +342,9 @@ RS_API void rs_wheelset_keep(rs_wheelset* wheelset);
 RS_API void rs_wheelset_reset(rs_wheelset* wheelset);
 RS_API void rs_wheelset_forget(rs_wheelset* wheelset);
 
-/* The contact of a side, of the last solution: for rs_field, rs_stress, rs_remarks, rs_set_cell, rs_set_tolerance (of
- * both sides). In its own axes: of the right wheel those of the mirror. Belongs to the wheelset. NULL: no such side. */
+/* The contact of a side, of the last solution: for rs_field, rs_stress, rs_set_cell, rs_set_tolerance (of both sides).
+ * In its own axes, those of a left wheel on its rail that rolls on: of the right wheel and of one that rolls back those
+ * of the mirror. Belongs to the wheelset. NULL: no such side. */
 RS_API rs_contact* rs_wheelset_contact(rs_wheelset* wheelset, int side);
 
 #ifdef __cplusplus

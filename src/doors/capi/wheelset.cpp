@@ -70,6 +70,10 @@ rs_wheelset* rs_wheelset_from_text(const char* toml, const char* const* override
   });
 }
 
+rs_wheelset* rs_wheelset_copy(const rs_wheelset* wheelset, rs_error* error) {
+  return capi::made(error, [&] { return capi::handle_of(new Wheelset(wheelset_of(wheelset))); });
+}
+
 void rs_wheelset_free(rs_wheelset* wheelset) {
   if (wheelset) delete &wheelset_of(wheelset);
 }
@@ -78,11 +82,26 @@ int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_
                       rs_error* error) {
   return guarded(error, [&] {
     Wheelset& asked = wheelset_of(wheelset);
+    drop_solution(asked);
     require(state, "state", "give an rs_wheelset_state with its size set");
     require(forces, "forces", "give an rs_wheelset_forces with its size set");
     capi::require_size(*forces, "rs_wheelset_forces");
     capi::give(in_c(solve(asked, state_of(*state))), *forces);
   });
+}
+
+int rs_wheelset_patch(const rs_wheelset* wheelset, int side, int patch, const double* about, rs_patch* out,
+                      rs_error* error) {
+  return guarded(error, [&] {
+    const Wheelset& asked = wheelset_of(wheelset);
+    require(out, "out", "give an rs_patch with its size set");
+    capi::require_size(*out, "rs_patch");
+    capi::give(capi::in_c(patch_forces(asked, side, patch, capi::point_of(about))), *out);
+  });
+}
+
+const char* rs_wheelset_remarks(const rs_wheelset* wheelset) {
+  return wheelset ? wheelset_of(wheelset).remarks.c_str() : "";
 }
 
 void rs_wheelset_keep(rs_wheelset* wheelset) {

@@ -112,7 +112,7 @@ Contact::Contact(const LoadedCase& loaded)
       here_{spec_, placement_},
       more_(here_),
       less_(here_) {
-  options_.cache = &cache_;
+  options_.cache = cache_.get();
 }
 
 void Contact::set_cell(double cell) {

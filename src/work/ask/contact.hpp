@@ -2,6 +2,7 @@
 // A wheel on a rail that is solved state by state, as a vehicle's time steps ask for it.
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,7 +72,9 @@ class Contact {
  public:
   /// Throws CaseError: a case that it does not take.
   explicit Contact(const LoadedCase& loaded);
-  Contact(const Contact&) = delete;
+  /// With its solution and where the next one starts from: what follows has the same bits. The influence functions are
+  /// shared, which several threads may use.
+  Contact(const Contact&) = default;
   Contact& operator=(const Contact&) = delete;
 
   /// Solves the case in a state. A wheel that is lifted (approach <= 0, or load 0) has no forces. After an error there
@@ -122,7 +125,7 @@ class Contact {
   Placement placement_;
   InState here_, more_, less_;
   BemOptions options_;
-  InfluenceCache cache_;
+  std::shared_ptr<InfluenceCache> cache_ = std::make_shared<InfluenceCache>();
   std::optional<BemResult> last_;
   std::optional<State> state_;  // of the last answer
   std::string remarks_;

@@ -7,9 +7,13 @@
 
 namespace railstrata {
 
-PatchForces patch_forces(const Contact& contact, int index, Vec3 about) {
+void require_point(const Vec3& about) {
   if (!std::isfinite(about.x) || !std::isfinite(about.y) || !std::isfinite(about.z))
     throw CaseError("the point that moments are about is no point", "give three finite numbers in m");
+}
+
+PatchForces patch_forces(const Contact& contact, int index, Vec3 about) {
+  require_point(about);
   const BemPatch& patch = contact.patch(index);
   const RigidContact& c = patch.place;
   const Wrench carried = wrench_of(patch, [&](double x, Vec2 point) { return Vec3{x, point.y, point.z} - about; });

@@ -39,6 +39,8 @@ inline constexpr std::array<Named<PatchForces, double, int, Vec2, Vec3>, 15> kPa
      {"dissipation", "W", &PatchForces::dissipation},
      {"cells", "", &PatchForces::cells}}};
 
+/// Throws CaseError: the point that moments are about is no point.
+void require_point(const Vec3& about);
 /// Of a patch of the last solution, moments about a point, m, model axes. Throws CaseError.
 PatchForces patch_forces(const Contact& contact, int patch, Vec3 about);
 

@@ -7,6 +7,7 @@
 #include <exception>
 #include <string>
 
+#include "ask/wheelset_forces.hpp"
 #include "bem/contact_places.hpp"
 #include "core/faults.hpp"
 #include "core/root.hpp"
@@ -65,18 +66,6 @@ void place(Wheelset& set, const WheelsetState& state, double roll, bool hold = f
   set.roll = roll;
 }
 
-/// The force and the moment about the wheelset's centre, of the tractions of all cells.
-void add_up(Wheel& w) {
-  const Rotation<double> rail = rotation_by(w.rail.yaw);
-  w.force = yaw(rail, {w.forces.force_x, w.forces.force_y, w.forces.force_z});
-  w.moment = {};
-  if (!w.contact.last()) return;
-  for (const BemPatch* patch : patches_of(*w.contact.last())) {
-    const auto arm = [&](double x, Vec2 point) { return arm_of(w.track(), w.touching(), w.motion, w.rail, x, point); };
-    w.moment += yaw(rail, wrench_of(*patch, arm).moment);
-  }
-}
-
 /// Solves a wheel that is lowered by `descent` below where it touches.
 void press(Wheel& w, double descent) {
   w.reference = descent > 0 ? reference_of(w.contact.placement(), descent) : w.touching();
@@ -89,7 +78,9 @@ void press(Wheel& w, double descent) {
   state.creepage_y = slip.creepage_y;
   state.spin = slip.spin;
   w.forces = w.contact.solve(state, descent);
-  add_up(w);
+  const Wrench carried = carried_by(w);
+  w.force = carried.force;
+  w.moment = carried.moment;
 }
 
 void press(Wheelset& set, const std::array<double, 2>& descents) {
@@ -301,43 +292,6 @@ void require_state(const WheelsetState& s) {
     });
 }
 
-/// Signs of what a wheel has in its own axes, of the left one that rolls on, in those of the track.
-struct InTrack {
-  InTrack(std::size_t side, double speed) : x(speed < 0 ? -1 : 1), y(side == kRight ? -1 : 1) {}
-  double x, y;
-  Vec3 polar(Vec3 v) const { return {x * v.x, y * v.y, v.z}; }
-  Vec3 axial(Vec3 v) const { return {y * v.x, x * v.y, x * y * v.z}; }
-};
-
-WheelForces forces_of(const Wheel& w, double y, const InTrack& sign) {
-  const RigidContact& place = w.reference;
-  const WheelSlip slip = slip_at(w.track(), place, w.motion, w.rail);
-  const Vec3 arm = yaw(rotation_by(w.rail.yaw), arm_of(w.track(), place, w.motion, w.rail, place.x, place.point));
-  WheelForces out;
-  out.force = sign.polar(w.force);
-  out.moment = sign.axial(w.moment);
-  out.normal_force = w.forces.normal_force;
-  out.lateral_force = sign.y * w.forces.lateral_force;
-  out.spin_moment = sign.x * sign.y * w.forces.spin_moment;
-  out.creepage_x = sign.x * slip.creepage_x;
-  out.creepage_y = sign.y * slip.creepage_y;
-  out.spin = sign.x * sign.y * slip.spin;
-  out.approach = w.forces.approach;
-  out.point = sign.polar({arm.x, arm.y, place.point.z + w.rail.z});
-  out.point.y += y;
-  out.on_wheel = w.contact.placement().wheel.at(place.wheel_s).position;
-  out.on_rail = w.contact.placement().rail.at(place.rail_s).position;
-  out.contact_angle = sign.y * place.angle;
-  out.rolling_radius = place.rolling_radius;
-  out.p_max = w.forces.p_max;
-  out.patch_area = w.forces.patch_area;
-  out.dissipation = w.forces.dissipation;
-  out.patches = w.forces.patches;
-  out.cells = w.forces.cells;
-  out.checks_hold = w.forces.checks_hold;
-  return out;
-}
-
 }  // namespace
 
 Wheel::Wheel(const LoadedCase& loaded) : contact(loaded), at_rest(track()) {
@@ -346,7 +300,14 @@ Wheel::Wheel(const LoadedCase& loaded) : contact(loaded), at_rest(track()) {
   require_support(uses::kWheelset, loaded);
 }
 
+void drop_solution(Wheelset& set) {
+  set.solved.reset();
+  set.remarks.clear();
+  for (Wheel& w : set.wheels) w.contact.drop_solution();
+}
+
 WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
+  drop_solution(set);
   require_state(state);
   set.solutions = 0;
   if (state.roll) place(set, state, *state.roll);
@@ -359,11 +320,13 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
   }
   out.roll = set.roll;
   out.solutions = set.solutions;
+  set.solved = {state.y, out.z, state.speed};
   for (std::size_t side : {kLeft, kRight}) {
-    out.wheels[side] = forces_of(set.wheels[side], state.y, {side, state.speed});
+    out.wheels[side] = forces_of(set, side);
     out.force += out.wheels[side].force;
     out.moment += out.wheels[side].moment;
   }
+  set.remarks = remarks_of(set);
   return out;
 }
 

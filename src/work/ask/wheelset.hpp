@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include "ask/patch_forces.hpp"
 #include "geometry/wheelset.hpp"
@@ -123,6 +124,11 @@ struct WheelsetStart {
   std::array<NextStart, 2> contacts;
 };
 
+/// Where the axle of the last answer stands, m, and how it rolls, m/s.
+struct WheelsetPlace {
+  double y = 0, z = 0, speed = 0;
+};
+
 /// Both cases are those of left wheels: the right one's is that of its mirror image. Position, motion and load of the
 /// cases do not count.
 struct Wheelset {
@@ -133,11 +139,17 @@ struct Wheelset {
   double tilting = 0, left_share = 0.5;  ///< as WheelsetStart
   int solutions = 0;
   WheelsetStart kept;
+  std::optional<WheelsetPlace> solved;  ///< none after an error
+  std::string remarks;  ///< of the last answer: checks that fail and notes, one a line, with the wheel before it
 };
 
 /// Of a load of 0 all forces are 0, and the wheels touch. Throws CaseError, NoAnswer (of a contact; the roll moment
 /// tips the wheelset over), NumericalError.
 WheelsetForces solve(Wheelset& set, const WheelsetState& state);
+void drop_solution(Wheelset& set);
+/// A patch of the last solution in the track's axes, `approach`, `on_wheel` and `on_rail` as of a contact. about: m,
+/// the point that moments are about; none: the centre of the wheelset. Throws CaseError: no solution, side or patch.
+PatchForces patch_forces(const Wheelset& set, int side, int index, const std::optional<Vec3>& about);
 /// Solutions start from the ones before. Before trial steps `keep` remembers where the next one starts from, `reset`
 /// returns there; `forget` starts anew.
 void keep(Wheelset& set);
