@@ -137,13 +137,8 @@ int rs_jacobian(rs_contact* contact, const unsigned* inputs, int count, rs_deriv
     if (count < 0 || (count > 0 && (!inputs || !out)))
       throw CaseError("inputs or out is missing", "give arrays of `count`");
     std::vector<const StateMember*> members;
-    for (int k = 0; k < count; ++k) {
-      if (k == 0) capi::require_size(*out, "rs_derivatives");
-      if (capi::element(out, static_cast<std::size_t>(k)).size != out->size)
-        throw CaseError(fmt::format("rs_derivatives.size of element {} is not that of the first", k),
-                        "set size = sizeof(rs_derivatives) of every one");
-      members.push_back(input_of(inputs[k]));
-    }
+    capi::require_sizes<rs_derivatives>(out, static_cast<std::size_t>(count), "rs_derivatives");
+    for (int k = 0; k < count; ++k) members.push_back(input_of(inputs[k]));
     const std::vector<Slopes> slopes = asked.slopes(members);
     static_assert(offsetof(rs_derivatives, force_x) + sizeof(Slopes) == sizeof(rs_derivatives));
     for (std::size_t k = 0; k < slopes.size(); ++k) {

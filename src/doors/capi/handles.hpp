@@ -88,6 +88,17 @@ Struct& element(Struct* first, std::size_t k) {
   return *reinterpret_cast<Struct*>(reinterpret_cast<Byte*>(first) + k * first->size);
 }
 
+/// Throws CaseError: not all elements of an array have the size of the first, which is that of a version.
+template <class Struct>
+void require_sizes(const Struct* all, std::size_t n, const char* name) {
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k == 0) require_size(*all, name);
+    if (element(all, k).size != all->size)
+      throw CaseError(fmt::format("{}.size of element {} is not that of the first", name, k),
+                      fmt::format("set size = sizeof({}) of every one", name));
+  }
+}
+
 /// Numbers of a struct from a place in it on.
 struct Writer {
   char* at;

@@ -127,6 +127,17 @@ module railstrata
       integer(c_int) :: code
     end function
 
+    function rs_solve_many(n, contacts, states, forces, errors, threads) bind(c) result(code)
+      import
+      integer(c_int), value :: n
+      type(c_ptr), intent(in) :: contacts(*)
+      type(rs_state), intent(in) :: states(*)
+      type(rs_forces), intent(inout) :: forces(*)
+      type(rs_error), intent(inout) :: errors(*)
+      integer(c_int), value :: threads
+      integer(c_int) :: code
+    end function
+
     function rs_jacobian(contact, inputs, count, slopes, error) bind(c) result(code)
       import
       type(c_ptr), value :: contact
@@ -285,6 +296,17 @@ module railstrata
       type(rs_wheelset_state), intent(in) :: state
       type(rs_wheelset_forces), intent(inout) :: forces
       type(rs_error), intent(out) :: error
+      integer(c_int) :: code
+    end function
+
+    function rs_wheelset_solve_many(n, wheelsets, states, forces, errors, threads) bind(c) result(code)
+      import
+      integer(c_int), value :: n
+      type(c_ptr), intent(in) :: wheelsets(*)
+      type(rs_wheelset_state), intent(in) :: states(*)
+      type(rs_wheelset_forces), intent(inout) :: forces(*)
+      type(rs_error), intent(inout) :: errors(*)
+      integer(c_int), value :: threads
       integer(c_int) :: code
     end function
 

@@ -129,6 +129,13 @@ RS_API int rs_set_tolerance(rs_contact* contact, double tolerance, rs_error* err
  * starts from the last contact. */
 RS_API int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_error* error);
 
+/* rs_solve of n contacts, each with its state, over threads (0: as many as OpenMP gives the calling thread); the same
+ * bits for any number of them. errors: n, or NULL; each is that of its contact. Returns 0, or the code of the first
+ * that is not. A mistake of the call itself (a contact that appears twice, threads < 0) solves nothing and is every
+ * error. */
+RS_API int rs_solve_many(int n, rs_contact* const* contacts, const rs_state* states, rs_forces* forces,
+                         rs_error* errors, int threads);
+
 /* Derivatives of the last solution by one input of rs_state. */
 typedef struct rs_derivatives {
   size_t size;                      /* sizeof(rs_derivatives), to be set by the caller */
@@ -320,10 +327,14 @@ typedef struct rs_wheelset_forces {
   int reserved;
 } rs_wheelset_forces;
 
-/* Solves a state. After an error the last solution is gone. RS_NO_ANSWER: of rs_solve; the roll moment tips the wheelset
- * over. */
+/* Solves a state. After an error the last solution is gone. RS_NO_ANSWER: of rs_solve; the roll moment tips the
+ * wheelset over. */
 RS_API int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_wheelset_forces* forces,
                              rs_error* error);
+
+/* As rs_solve_many. */
+RS_API int rs_wheelset_solve_many(int n, rs_wheelset* const* wheelsets, const rs_wheelset_state* states,
+                                  rs_wheelset_forces* forces, rs_error* errors, int threads);
 
 /* A patch of the last solution as rs_patch_forces gives it, but in the track's axes, signs as in rs_wheel. about: the
  * point [m, track axes] that moments are about; NULL: the centre of the wheelset. Patches of a wheel add up to its
