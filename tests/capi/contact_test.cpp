@@ -214,6 +214,32 @@ TEST(CInterface, StatesThatCannotBeAreRefusedAndLeaveNoSolution) {
   EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, nullptr), RS_CASE);
 }
 
+TEST(CInterface, NumbersOfTheCaseAreThereByTheirKeys) {
+  Handle contact({"material.rail.young=200 GPa", "layer.0.thickness=1.5 mm", "drive.speed=72 km/h"});
+  double number = 0;
+  const auto asked = [&](const char* key) {
+    EXPECT_EQ(rs_contact_number(contact.handle, key, &number, &contact.error), RS_OK) << contact.error.message;
+    return number;
+  };
+  EXPECT_EQ(asked("material.rail.young"), 200e9);
+  EXPECT_EQ(asked("layer.0.thickness"), 1.5e-3);
+  EXPECT_EQ(asked("drive.speed"), 20);
+  EXPECT_EQ(asked("geometry.wheel_radius"), 0.43);
+  EXPECT_EQ(asked("run.rolling"), 1);
+  EXPECT_TRUE(std::isnan(asked("drive.spin"))) << "the geometry's";
+  const auto refused = [&](const char* key, const std::string& word) {
+    EXPECT_EQ(rs_contact_number(contact.handle, key, &number, &contact.error), RS_CASE) << key;
+    EXPECT_NE(std::string(contact.error.message).find(word), std::string::npos) << contact.error.message;
+  };
+  refused("material.rail.yung", "did you mean material.rail.young");
+  refused("geometry.rail_profile", "not a single number");
+  refused("layer.7.thickness", "the case has");
+  refused("layer.thickness", "no key");
+  refused("vehicle.wheel_load", "ask for sprung_mass");
+  refused("", "no key");
+  EXPECT_EQ(rs_contact_number(contact.handle, nullptr, &number, nullptr), RS_CASE);
+}
+
 TEST(CInterface, SizesOfNoVersionAreRefused) {
   Handle contact;
   rs_state state = state_of(0);

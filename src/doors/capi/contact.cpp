@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ask/case_number.hpp"
 #include "ask/contact.hpp"
 #include "ask/patch_forces.hpp"
 #include "capi/guarded.hpp"
@@ -162,6 +163,15 @@ int rs_set_profile(rs_contact* contact, int body, const double* yz, size_t n, rs
 
 void rs_forget(rs_contact* contact) {
   if (contact) contact_of(contact).start = {};
+}
+
+int rs_contact_number(const rs_contact* contact, const char* key, double* out, rs_error* error) {
+  return guarded(error, [&] {
+    const Contact& asked = contact_of(contact);
+    require(key, "key", "give a key of the case, as \"material.rail.young\"");
+    require(out, "out", "give the address of a number");
+    *out = number_of_case(asked.spec(), key);
+  });
 }
 
 const char* rs_remarks(rs_contact* contact) { return contact ? contact_of(contact).remarks().c_str() : ""; }

@@ -95,6 +95,15 @@ module railstrata
       type(c_ptr) :: copy
     end function
 
+    function rs_contact_number(contact, key, number, error) bind(c) result(code)
+      import
+      type(c_ptr), value :: contact
+      character(kind=c_char), intent(in) :: key(*)
+      real(c_double), intent(out) :: number
+      type(rs_error), intent(out) :: error
+      integer(c_int) :: code
+    end function
+
     subroutine rs_contact_free(contact) bind(c)
       import
       type(c_ptr), value :: contact

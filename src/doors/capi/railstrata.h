@@ -64,6 +64,11 @@ RS_API rs_contact* rs_contact_copy(const rs_contact* contact, rs_error* error);
 /* NULL is allowed, and a contact of a wheelset, which stays: rs_wheelset_free ends it. */
 RS_API void rs_contact_free(rs_contact* contact);
 
+/* A number of the contact's case by its key (docs/case-reference.md), SI: "material.rail.young", "layer.0.thickness",
+ * "geometry.wheel_radius"; of a switch 0 or 1. NaN: the case gives none. Errors: RS_CASE for a key that is none or no
+ * single number. Of a wheelset's case by rs_wheelset_contact. */
+RS_API int rs_contact_number(const rs_contact* contact, const char* key, double* out, rs_error* error);
+
 /* Bits of rs_state.given. */
 #define RS_LOAD 1u
 #define RS_APPROACH 2u

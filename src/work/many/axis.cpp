@@ -15,6 +15,7 @@
 #include "core/faults.hpp"
 #include "core/nearest_word.hpp"
 #include "core/text.hpp"
+#include "options/find_key.hpp"
 #include "options/option_table.hpp"
 #include "table/force_table.hpp"
 
@@ -214,18 +215,7 @@ void require_values(const Axis& axis) {
 
 }  // namespace
 
-const Option* option_of_key(const std::string& key) {
-  const std::size_t last = key.rfind('.');
-  if (last == std::string::npos) return nullptr;
-  std::string table = key.substr(0, last);
-  if (const std::size_t dot = table.rfind('.'); dot != std::string::npos)
-    if (table.find_first_not_of("0123456789", dot + 1) == std::string::npos) table.resize(dot);
-  const OptionTable* found = find_table(table);
-  if (!found) return nullptr;
-  for (const Option& option : found->options)
-    if (option.key == key.substr(last + 1)) return &option;
-  return nullptr;
-}
+const Option* option_of_key(const std::string& key) { return find_key(key).option; }
 
 std::vector<std::string> axis_words() {
   std::vector<std::string> out;
