@@ -69,13 +69,13 @@ def fortran(text, header):
 def members(declarations):
     """(names, type, comment) as Python has them: force_x, force_y, force_z are one; checks_hold is `ok`."""
     for kind, names, comment in declarations:
-        words = [n for n, _ in names if n not in ("size", "given", "reserved")]
+        words = [n for n, _ in names if n not in ("size", "given") and not n.startswith("reserved")]
         if not words:
             continue
         if len(words) == 3 and {w[:-1] for w in words} == {words[0][:-1]}:
             yield [words[0][:-2]], "tuple[float, float, float]", comment
-        elif words == ["checks_hold"]:
-            yield ["ok"], "bool", comment
+        elif words in (["checks_hold"], ["beyond"]):
+            yield ["ok" if words == ["checks_hold"] else "beyond"], "bool", comment
         else:
             count = names[0][1]
             single = "float" if kind == "double" else kind

@@ -22,7 +22,8 @@ class ContactForces:
     wheel. spin_moment: N m, on the wheel about the contact normal. creepage_x, creepage_y: as given, or found for the
     forces. spin: 1/m. approach: m. contact_angle: rad. p_max, q_max: Pa. patch_area, slip_area: m². dissipation: W, in
     the patch. patches: contacts that share the load. cells: with pressure, of the first patch. iterations: products
-    with the influence matrix. ok: every check of the result holds; the remarks name those that do not.
+    with the influence matrix. ok: every check of the result holds; the remarks name those that do not. beyond: not 0:
+    NO SOLUTION but its continuation beyond what half-spaces bear.
     """
 
     force: tuple[float, float, float]
@@ -43,6 +44,7 @@ class ContactForces:
     cells: int
     iterations: int
     ok: bool
+    beyond: bool
     remarks: tuple[str, ...]
 
 
@@ -126,7 +128,8 @@ class Contact:
 
         Ranges are those of the keys (docs/case-reference.md). Raises CaseError (out of range, both of a pair, no
         contact, forces beyond friction), NumericalError, MachineError, Ctrl-C stops it; warns with CheckWarning where a
-        check fails.
+        check fails. An approach beyond what half-spaces bear gives forces to reject a trial step by, with `beyond` and
+        a CheckWarning.
 
         load: N, vertical, on the rail; or approach. approach: m, of the bodies along the contact normal: the load is a
         result. lateral_shift: m, of the wheel to the field side. yaw, roll: tangents of the angle of attack and of the

@@ -1,12 +1,14 @@
 """Wheelsets that are solved state by state: two wheels on one axle, from its motion to the forces of both contacts."""
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Any, Mapping, Optional, Sequence
 
 from . import _bridge
 from .case import AnyCase, Length, Value, _case_of, _metres, _thread_count
 from .contact import _number, _plain
+from .errors import CheckWarning
 
 Pair = Sequence[float]
 _Triple = tuple[float, float, float]
@@ -22,7 +24,7 @@ class WheelForces:
     the patch, or between several; from the middle of the track below the centre. on_wheel, on_rail: m, y and z of it in
     the profiles' own axes, y to the field side. contact_angle: rad, of the common tangent to y. rolling_radius: m.
     p_max: Pa. patch_area: m². dissipation: W, in the patch. patches, cells: 0: lifted, which is an answer. ok: every
-    check of the result holds.
+    check of the result holds. beyond: not 0: NO SOLUTION but its continuation beyond what half-spaces bear.
     """
 
     force: tuple[float, float, float]
@@ -45,12 +47,14 @@ class WheelForces:
     patches: int
     cells: int
     ok: bool
+    beyond: bool
 
 
 @dataclass(frozen=True)
 class WheelsetForces:
     """z: m and roll: rad, as given or found. force: N and moment: N m, of both contacts on the wheelset about its
-    centre. left, right: the wheels. solutions: of each contact, that the state took."""
+    centre. left, right: the wheels. solutions: of each contact, that the state took. beyond: wheels whose
+    forces are NO SOLUTION but its continuation beyond what half-spaces bear."""
 
     z: float
     roll: float
@@ -59,6 +63,7 @@ class WheelsetForces:
     left: WheelForces
     right: WheelForces
     solutions: int
+    beyond: int
 
 
 def _pair(values: Any, what: str) -> list[float]:
@@ -109,7 +114,8 @@ class Wheelset:
 
         Given are load (z and roll are found, under a roll_moment), load and roll (z is found), or z and roll (loads are
         results). Pairs are of the left and the right side. Raises CaseError (out of range, no answer), NumericalError,
-        MachineError; Ctrl-C stops it.
+        MachineError; Ctrl-C stops it. A z that presses a wheel further than half-spaces bear gives forces to reject a
+        trial step by, with `beyond` and a CheckWarning.
 
         y, z, yaw, roll: m, rad. speed: m/s along the track, V; 0 stands, < 0 rolls back. y_rate, z_rate: m/s. yaw_rate,
         roll_rate: rad/s; on the inside of a curve of radius R yaw_rate has speed / R besides. pitch_rate: rad/s, of the
@@ -123,7 +129,10 @@ class Wheelset:
         state = {name: (_pair if name.startswith(("rail_", "wheel_")) else _number)(value, name)
                  for name, value in given.items()}
         found = _bridge.work("solve_wheelset", wheelset=self._wheelset, threads=self._given[3], state=state)
-        numbers_of_all = {name: _plain(found[name]) for name in ("z", "roll", "force", "moment", "solutions")}
+        for remark in found["remarks"].splitlines():
+            if "wheel: check half_spaces" in remark:
+                warnings.warn(remark, CheckWarning, stacklevel=2)
+        numbers_of_all = {name: _plain(found[name]) for name in ("z", "roll", "force", "moment", "solutions", "beyond")}
         return WheelsetForces(**numbers_of_all, left=_wheel_forces(found["left"]), right=_wheel_forces(found["right"]))
 
     def keep(self) -> None:

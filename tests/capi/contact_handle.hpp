@@ -14,6 +14,7 @@ struct Handle {
   explicit Handle(const std::vector<const char*>& overrides = {})
       : handle(rs_contact_new(kQuick.c_str(), overrides.data(), static_cast<int>(overrides.size()), &error)) {
     rs_set_cell(handle, 0.5e-3, nullptr);
+    forces.size = sizeof(rs_forces);
   }
   ~Handle() { rs_contact_free(handle); }
   Handle(const Handle&) = delete;
@@ -21,7 +22,7 @@ struct Handle {
   int solve(const rs_state& state) { return rs_solve(handle, &state, &forces, &error); }
   rs_error error{};
   rs_contact* handle;
-  rs_forces forces{sizeof(rs_forces), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  rs_forces forces{};
 };
 
 inline rs_state state_of(unsigned given) {

@@ -36,6 +36,14 @@ def test_a_wheelset_may_stand_roll_back_and_have_no_load(wheelset):
     assert wheelset.solve(speed=20, load=0).force == (0, 0, 0)
 
 
+def test_a_wheel_that_is_pressed_too_far_is_marked(wheelset):
+    forces = wheelset.solve(speed=20, load=160e3)
+    assert forces.beyond == 0 and not forces.left.beyond
+    with pytest.warns(rs.CheckWarning, match="left wheel: check half_spaces fails"):
+        forces = wheelset.solve(speed=20, z=forces.z - 4e-3, roll=forces.roll)
+    assert forces.beyond == 2 and forces.left.beyond and not forces.left.ok and forces.left.force[2] > 1e6
+
+
 def test_trial_steps_leave_no_trace(wheelset):
     wheelset.solve(speed=20, load=160e3)
     wheelset.keep()

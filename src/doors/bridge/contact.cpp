@@ -46,7 +46,9 @@ void open_contact(Call& call) {
 void solve(Call& call) {
   const HeldContact contact(call);
   const ThreadsOfCaller threads(call.whole("threads"));
-  const Forces forces = contact->solve(record_of<State>(kState, call.argument("state")));
+  State state = record_of<State>(kState, call.argument("state"));
+  state.extrapolate = true;
+  const Forces forces = contact->solve(state);
   call.answer = {{"forces", json_of(kForces, forces)}, {"remarks", contact->remarks()}};
 }
 
@@ -84,8 +86,11 @@ void open_wheelset(Call& call) {
 void solve_wheelset(Call& call) {
   const Held<Wheelset> set(call, "wheelset");
   const ThreadsOfCaller threads(call.whole("threads"));
-  const WheelsetForces found = solve(*set, record_of<WheelsetState>(kWheelsetState, call.argument("state")));
+  WheelsetState state = record_of<WheelsetState>(kWheelsetState, call.argument("state"));
+  state.extrapolate = true;
+  const WheelsetForces found = solve(*set, state);
   call.answer = json_of(kWheelsetForces, found);
+  call.answer["remarks"] = set->remarks;
   call.answer["left"] = json_of(kWheelForces, found.wheels[kLeft]);
   call.answer["right"] = json_of(kWheelForces, found.wheels[kRight]);
 }

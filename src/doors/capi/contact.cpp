@@ -127,7 +127,9 @@ int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_e
     capi::require_size(*forces, "rs_forces");
     asked.drop_solution();
     rs_forces found{};
-    capi::fill(kForces, asked.solve(state_of(state)), found, offsetof(rs_forces, force_x));
+    State wanted = state_of(state);
+    wanted.extrapolate = capi::shows_beyond(*forces);
+    capi::fill(kForces, asked.solve(wanted), found, offsetof(rs_forces, force_x));
     capi::give(found, *forces);
   });
 }

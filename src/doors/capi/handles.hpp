@@ -56,6 +56,17 @@ inline constexpr std::size_t kFirstSize = sizeof(Struct);
 template <>
 inline constexpr std::size_t kFirstSize<rs_wheelset_state> = offsetof(rs_wheelset_state, wheel_pitch_rate);
 
+template <>
+inline constexpr std::size_t kFirstSize<rs_forces> = offsetof(rs_forces, beyond);
+template <>
+inline constexpr std::size_t kFirstSize<rs_wheelset_forces> = offsetof(rs_wheelset_forces, beyond);
+
+/// The caller's struct has `beyond`: else an answer that is would not be seen as such.
+template <class Struct>
+bool shows_beyond(const Struct& s) {
+  return s.size > offsetof(Struct, beyond);
+}
+
 /// Throws CaseError: the struct is larger than that of this library, or smaller than the first one.
 template <class Struct>
 void require_size(const Struct& s, const char* name) {

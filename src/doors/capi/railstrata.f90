@@ -27,7 +27,7 @@ module railstrata
     integer(c_size_t) :: size
     real(c_double) :: force_x, force_y, force_z, normal_force, lateral_force, spin_moment, creepage_x, creepage_y, &
       spin, approach, contact_angle, p_max, q_max, patch_area, slip_area, dissipation
-    integer(c_int) :: patches, cells, iterations, checks_hold
+    integer(c_int) :: patches, cells, iterations, checks_hold, beyond, reserved
   end type
 
   type, bind(c) :: rs_derivatives
@@ -54,14 +54,14 @@ module railstrata
   type, bind(c) :: rs_wheel
     real(c_double) :: force(3), moment(3), normal_force, lateral_force, spin_moment, creepage_x, creepage_y, spin, &
       approach, point(3), on_wheel(2), on_rail(2), contact_angle, rolling_radius, p_max, patch_area, dissipation
-    integer(c_int) :: patches, cells, checks_hold, reserved
+    integer(c_int) :: patches, cells, checks_hold, beyond
   end type
 
   type, bind(c) :: rs_wheelset_forces
     integer(c_size_t) :: size
     real(c_double) :: z, roll, force(3), moment(3)
     type(rs_wheel) :: wheel(2)
-    integer(c_int) :: solutions, reserved
+    integer(c_int) :: solutions, reserved, beyond, reserved2
   end type
 
   interface

@@ -118,6 +118,8 @@ typedef struct rs_forces {
   int cells;                          /* with pressure, of the first patch */
   int iterations;                     /* products with the influence matrix */
   int checks_hold;                    /* every check of the result holds; the remarks name those that do not */
+  int beyond;                         /* not 0: NO SOLUTION but its continuation beyond what half-spaces bear */
+  int reserved;
 } rs_forces;
 
 /* Side of the cells [m], 0.02e-3 to 5e-3; 0.25e-3 unless set. */
@@ -131,7 +133,12 @@ RS_API int rs_set_tolerance(rs_contact* contact, double tolerance, rs_error* err
 
 /* Solves the case with what `state` changes of it; NULL: as it is. After an error the last solution is gone. A wheel
  * that is lifted (approach <= 0, or load 0) is an answer: RS_OK with forces, patches and cells 0; the next solution
- * starts from the last contact. */
+ * starts from the last contact.
+ * An approach that flattens the patch (a trial step of an integrator, beyond about 1.5 mm, near a flange 0.4 mm) is
+ * RS_OK with `beyond` = 1 and checks_hold = 0: forces and spin moment grow along the line through those of the two
+ * largest of the approaches 10 um 1.1^k that half-spaces bear, all else is of the largest of these. Such forces serve
+ * to reject or shorten the step, not as a result: test `beyond` before you keep a step. Where a load is given, or the
+ * size of rs_forces is an older one without `beyond`, it is RS_NO_ANSWER. */
 RS_API int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_error* error);
 
 /* rs_solve of n contacts, each with its state, over threads (0: as many as OpenMP gives the calling thread); the same
@@ -160,7 +167,8 @@ typedef struct rs_derivatives {
  * contact, a profile's curvature changes) it is that of one side.
  * Without linear equations (several patches, friction that falls with slip or temperature, a film that yields, a force
  * over a given approach) by central differences of new solutions of a tolerance of 1e-10, several times dearer. Of a
- * lifted wheel all are 0. Errors: RS_CASE without a solution, for an input that the last state has as a result (a load
+ * lifted wheel all are 0. After an answer that is `beyond`, those of the solution that it is
+ * continued from. Errors: RS_CASE without a solution, for an input that the last state has as a result (a load
  * where the approach was given, a creepage where a force was); as rs_solve. */
 RS_API int rs_jacobian(rs_contact* contact, const unsigned* inputs, int count, rs_derivatives* out, rs_error* error);
 
@@ -320,7 +328,7 @@ typedef struct rs_wheel {
   double dissipation;             /* W, in the patch */
   int patches, cells;             /* 0: lifted, which is an answer */
   int checks_hold;                /* every check of the result holds */
-  int reserved;
+  int beyond;                     /* not 0: NO SOLUTION but its continuation beyond what half-spaces bear */
 } rs_wheel;
 
 typedef struct rs_wheelset_forces {
@@ -330,10 +338,13 @@ typedef struct rs_wheelset_forces {
   rs_wheel wheel[2];          /* RS_LEFT, RS_RIGHT */
   int solutions;              /* of each contact, that the state took */
   int reserved;
+  int beyond; /* wheels whose forces are NO SOLUTION but its continuation: see rs_solve */
+  int reserved2;
 } rs_wheelset_forces;
 
-/* Solves a state. After an error the last solution is gone. RS_NO_ANSWER: of rs_solve; the roll moment tips the
- * wheelset over. */
+/* Solves a state. After an error the last solution is gone. A height (RS_WHEELSET_Z) that presses a wheel too far:
+ * RS_OK with `beyond`, as rs_solve; what the cells do not carry acts at rs_wheel.point. RS_NO_ANSWER: of rs_solve; the
+ * roll moment tips the wheelset over. */
 RS_API int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_wheelset_forces* forces,
                              rs_error* error);
 

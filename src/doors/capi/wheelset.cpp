@@ -29,11 +29,12 @@ WheelsetState state_of(const rs_wheelset_state& callers) {
 
 rs_wheelset_forces in_c(const WheelsetForces& found) {
   rs_wheelset_forces out{};
-  const std::size_t last = kWheelsetForces.size() - 1;  // after the wheels
+  const std::size_t last = kWheelsetForces.size() - 2;  // after the wheels
   capi::fill(std::span(kWheelsetForces).first(last), found, out, offsetof(rs_wheelset_forces, z));
   for (std::size_t side : {kLeft, kRight})
     capi::fill(kWheelForces, found.wheels[side], out.wheel[side], offsetof(rs_wheel, force));
   out.solutions = found.solutions;
+  out.beyond = found.beyond;
   return out;
 }
 
@@ -86,7 +87,9 @@ int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_
     require(state, "state", "give an rs_wheelset_state with its size set");
     require(forces, "forces", "give an rs_wheelset_forces with its size set");
     capi::require_size(*forces, "rs_wheelset_forces");
-    capi::give(in_c(solve(asked, state_of(*state))), *forces);
+    WheelsetState wanted = state_of(*state);
+    wanted.extrapolate = capi::shows_beyond(*forces);
+    capi::give(in_c(solve(asked, wanted)), *forces);
   });
 }
 

@@ -79,7 +79,8 @@ Slopes slopes_between(const PlacedCase& more, const PlacedCase& less, double ste
 
 Forces forces_of(const BemResult& result, const Summary& summary) {
   const ContactSummary& c = summary.contact;
-  Forces out{c.F_x,
+  Forces out{{},
+             c.F_x,
              c.F_y,
              c.F_z,
              c.normal_force,
@@ -170,18 +171,71 @@ void Contact::drop_solution() {
   remarks_.clear();
 }
 
-Forces Contact::solve(const State& state, double descent) {
+Forces Contact::solve(const State& state) {
   drop_solution();
   if (is_lifted(state)) {
     const Forces out = lifted(state);
     state_ = state;
     return out;
   }
+  if (!state.extrapolate || !state.approach) return pressed(state);
+  try {
+    return pressed(state);
+  } catch (const NoAnswer& refused) {
+    return continued(state, refused);
+  }
+}
+
+Forces Contact::continued(State state, const NoAnswer& refused) {
+  constexpr double kSmallest = 10e-6, kStep = 1.1;  // m
+  constexpr std::size_t kLinear = 9;                // of kForces: forces, moment, creepages
+  const NextStart before = start;
+  const double wanted = *state.approach;
+  const auto approach_of = [&](int k) { return kSmallest * std::pow(kStep, k); };
+  const auto borne = [&](int k) -> std::optional<Forces> {
+    state.approach = approach_of(k);
+    state.descent = 0;
+    start = before;
+    try {
+      return pressed(state);
+    } catch (const NoAnswer&) {
+    } catch (const NumericalError&) {
+    }
+    return {};
+  };
+  int most = 1, refusing = std::max(2, static_cast<int>(std::ceil(std::log(wanted / kSmallest) / std::log(kStep))));
+  while (refusing - most > 1) {
+    const int middle = (most + refusing) / 2;
+    (borne(middle) ? most : refusing) = middle;
+  }
+  const std::optional<Forces> less = borne(most - 1), last = borne(most);
+  start = before;
+  if (!less || !last || approach_of(most) > wanted) {
+    drop_solution();
+    throw refused;
+  }
+  Forces out = *last;
+  const double share = (wanted - approach_of(most)) / (approach_of(most) - approach_of(most - 1));
+  for (std::size_t k = 0; k < kLinear; ++k) {
+    const auto number = std::get<double Forces::*>(kForces[k].at);
+    out.*number += share * (out.*number - *less.*number);
+  }
+  out.approach = wanted;
+  out.beyond = true;
+  out.checks_hold = false;
+  remarks_ = fmt::format(
+      "check half_spaces fails: an approach of {:.4g} mm is beyond what half-spaces bear; forces are "
+      "continued from {:.4g} mm along a line{}{}",
+      wanted / kMilli, approach_of(most) / kMilli, remarks_.empty() ? "" : "\n", remarks_);
+  return out;
+}
+
+Forces Contact::pressed(const State& state) {
   const Placement& here = set(state, here_);
   BemOptions options = options_;
   BemNeighbour neighbour = start.of(here_.spec);
   options.neighbour = &neighbour;
-  options.descent = descent;
+  options.descent = state.descent;
   constexpr double kFollowed = 1e-2;  // of a start's violation: the smallest change of a state counts
   if (!neighbour.empty()) options.rolling.normal.share_of_first = options.rolling.tangential.share_of_first = kFollowed;
   by_physics([&] { last_ = solve_bem(here_.spec, here, options); });

@@ -26,8 +26,13 @@ struct NoAnswer : CaseError {
   explicit NoAnswer(const CaseError& e) : CaseError(e) {}
 };
 
+/// Whether forces can be believed.
+struct Trust {
+  bool checks_hold = true;
+  bool beyond = false;  ///< continued from the largest approach that half-spaces bear
+};
 /// What a contact gives; meanings and signs are those of rs_forces (railstrata.h). NaN: does not apply.
-struct Forces {
+struct Forces : Trust {
   double force_x = 0, force_y = 0, force_z = 0;
   double normal_force = 0, lateral_force = 0, spin_moment = 0;
   double creepage_x = 0, creepage_y = 0, spin = 0;
@@ -36,10 +41,9 @@ struct Forces {
   double patch_area = 0, slip_area = 0;
   double dissipation = 0;
   int patches = 0, cells = 0, iterations = 0;
-  bool checks_hold = true;
 };
 /// In the order of rs_forces; the first kSlopes are those of rs_derivatives.
-inline constexpr std::array<Named<Forces, double, int, bool>, 20> kForces{
+inline constexpr std::array<Named<Forces, double, int, bool>, 21> kForces{
     {{"force_x", "N", &Forces::force_x},
      {"force_y", "N", &Forces::force_y},
      {"force_z", "N", &Forces::force_z},
@@ -59,7 +63,8 @@ inline constexpr std::array<Named<Forces, double, int, bool>, 20> kForces{
      {"patches", "", &Forces::patches},
      {"cells", "", &Forces::cells},
      {"iterations", "", &Forces::iterations},
-     {"checks_hold", "", &Forces::checks_hold}}};
+     {"checks_hold", "", &Forces::checks_hold},
+     {"beyond", "", &Forces::beyond}}};
 inline constexpr std::size_t kSlopes = 11;
 /// Derivatives of the first of kForces.
 using Slopes = std::array<double, kSlopes>;
@@ -77,11 +82,11 @@ class Contact {
   Contact(const Contact&) = default;
   Contact& operator=(const Contact&) = delete;
 
-  /// Solves the case in a state. A wheel that is lifted (approach <= 0, or load 0) has no forces. After an error there
-  /// is no last solution. Throws CaseError, NoAnswer, NumericalError.
-  Forces solve(const State& state = {}) { return solve(state, 0); }
-  /// descent: of the wheel [m], where the state's approach was made of it; 0: it was not.
-  Forces solve(const State& state, double descent);
+  /// Solves the case in a state. With State::extrapolate a given approach that flattens the patch has an answer, with
+  /// `beyond`; the solution is then that of the largest approach that half-spaces bear, within a tenth. A wheel that is
+  /// lifted (approach <= 0, or load 0) has no forces. After an error there is no last solution. Throws CaseError,
+  /// NoAnswer, NumericalError.
+  Forces solve(const State& state = {});
   void drop_solution();
   /// Derivatives of the last solution by inputs of its state, one after the other. Throws CaseError: no solution, an
   /// input that is a result in it; and as solve.
@@ -119,6 +124,10 @@ class Contact {
   const Placement& set(const State& state, InState& out) const;
   const Placement& place(InState& out) const;
   Forces lifted(State state);
+  Forces pressed(const State& state);
+  /// An approach that was refused: forces grow along the line through those of the two largest bearable ones of 10 um
+  /// 1.1^k. Throws what refused it where none is.
+  Forces continued(State state, const NoAnswer& refused);
   static void set_tolerance(BemOptions& options, double t);
 
   CaseSpec spec_;

@@ -17,7 +17,9 @@ struct State {
   std::optional<double> speed, friction;               ///< m/s, as reference_speed; at rest
   std::optional<double> creepage_x, creepage_y, spin;  ///< the last 1/m
   std::optional<double> force_x, force_y;              ///< N, on the wheel; lateral friction in the contact plane
-  double rolling_share = 1;                            ///< of a wheelset (DriveSpec); callers do not give it
+  double descent = 0;        ///< m, of the wheel, where the approach was made of it; 0: it was not
+  bool extrapolate = false;  ///< an approach that half-spaces do not bear has an answer (Forces::beyond)
+  double rolling_share = 1;  ///< of a wheelset (DriveSpec); callers do not give it
 };
 
 struct StateMember {

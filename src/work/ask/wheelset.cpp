@@ -67,7 +67,7 @@ void place(Wheelset& set, const WheelsetState& state, double roll, bool hold = f
 }
 
 /// Solves a wheel that is lowered by `descent` below where it touches.
-void press(Wheel& w, double descent) {
+void press(Wheel& w, double descent, bool extrapolate) {
   w.reference = descent > 0 ? reference_of(w.contact.placement(), descent) : w.touching();
   const WheelSlip slip = slip_at(w.track(), w.reference, w.motion, w.rail);
   State state;
@@ -77,17 +77,19 @@ void press(Wheel& w, double descent) {
   state.creepage_x = slip.creepage_x;
   state.creepage_y = slip.creepage_y;
   state.spin = slip.spin;
-  w.forces = w.contact.solve(state, descent);
+  state.descent = descent;
+  state.extrapolate = extrapolate;
+  w.forces = w.contact.solve(state);
   const Wrench carried = carried_by(w);
   w.force = carried.force;
   w.moment = carried.moment;
 }
 
-void press(Wheelset& set, const std::array<double, 2>& descents) {
+void press(Wheelset& set, const std::array<double, 2>& descents, bool extrapolate = false) {
   ++set.solutions;
   for (std::size_t k : {0, 1}) {
-    press(set.wheels[k], descents[k]);
-    set.stiffening[k].add(descents[k], set.wheels[k].force.z);
+    press(set.wheels[k], descents[k], extrapolate);
+    if (!set.wheels[k].forces.beyond) set.stiffening[k].add(descents[k], set.wheels[k].force.z);
   }
 }
 
@@ -314,7 +316,7 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
   WheelsetForces out;
   if (state.z) {
     out.z = *state.z;
-    press(set, {descent_at(set.wheels[0], out.z), descent_at(set.wheels[1], out.z)});
+    press(set, {descent_at(set.wheels[0], out.z), descent_at(set.wheels[1], out.z)}, state.extrapolate);
   } else {
     out.z = *state.load == 0 ? hang(set, state) : state.roll ? sink(set, *state.load) : lean(set, state);
   }
@@ -325,6 +327,7 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
     out.wheels[side] = forces_of(set, side);
     out.force += out.wheels[side].force;
     out.moment += out.wheels[side].moment;
+    out.beyond += out.wheels[side].beyond ? 1 : 0;
   }
   set.remarks = remarks_of(set);
   return out;

@@ -25,6 +25,7 @@ struct WheelsetState {
   double roll_moment = 0;
   std::array<double, 2> rail_y{}, rail_z{}, rail_roll{}, rail_y_rate{}, rail_z_rate{};
   std::array<double, 2> wheel_pitch_rate{}, rail_yaw{};
+  bool extrapolate = false;  ///< a height that half-spaces do not bear has an answer (Forces::beyond)
 };
 /// In the order of rs_wheelset_state; the optional ones in that of the bits of its `given`.
 inline constexpr std::array<Named<WheelsetState, double, std::optional<double>, std::array<double, 2>>, 19>
@@ -52,9 +53,9 @@ inline constexpr std::array<Named<WheelsetState, double, std::optional<double>, 
 struct WheelForces : PatchForces {
   double creepage_x = 0, creepage_y = 0, spin = 0;
   int patches = 0;
-  bool checks_hold = true;
+  bool checks_hold = true, beyond = false;
 };
-inline constexpr std::array<Named<WheelForces, double, int, bool, Vec2, Vec3>, 20> kWheelForces{
+inline constexpr std::array<Named<WheelForces, double, int, bool, Vec2, Vec3>, 21> kWheelForces{
     {{"force", "N", &WheelForces::force},
      {"moment", "N m", &WheelForces::moment},
      {"normal_force", "N", &WheelForces::normal_force},
@@ -74,7 +75,8 @@ inline constexpr std::array<Named<WheelForces, double, int, bool, Vec2, Vec3>, 2
      {"dissipation", "W", &WheelForces::dissipation},
      {"patches", "", &WheelForces::patches},
      {"cells", "", &WheelForces::cells},
-     {"checks_hold", "", &WheelForces::checks_hold}}};
+     {"checks_hold", "", &WheelForces::checks_hold},
+     {"beyond", "", &WheelForces::beyond}}};
 
 /// force, moment: of both contacts on the wheelset, about its centre.
 struct WheelsetForces {
@@ -82,14 +84,16 @@ struct WheelsetForces {
   Vec3 force, moment;
   std::array<WheelForces, 2> wheels;
   int solutions = 0;  ///< of each contact, that the state took
+  int beyond = 0;     ///< wheels that are
 };
-/// Without the wheels, which stand before the last one in rs_wheelset_forces.
-inline constexpr std::array<Named<WheelsetForces, double, int, Vec3>, 5> kWheelsetForces{
+/// Without the wheels, which stand before the last two in rs_wheelset_forces.
+inline constexpr std::array<Named<WheelsetForces, double, int, Vec3>, 6> kWheelsetForces{
     {{"z", "m", &WheelsetForces::z},
      {"roll", "rad", &WheelsetForces::roll},
      {"force", "N", &WheelsetForces::force},
      {"moment", "N m", &WheelsetForces::moment},
-     {"solutions", "", &WheelsetForces::solutions}}};
+     {"solutions", "", &WheelsetForces::solutions},
+     {"beyond", "", &WheelsetForces::beyond}}};
 
 /// How the vertical force of a wheel grows with its descent, Q = scale d^power: Hertz's 1.5 to begin with.
 struct Stiffening {

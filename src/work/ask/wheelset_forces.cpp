@@ -43,7 +43,14 @@ Wrench carried_by(const Wheel& w) {
   Wrench out;
   out.force = yaw(rotation_by(w.rail.yaw), {w.forces.force_x, w.forces.force_y, w.forces.force_z});
   if (!w.contact.last()) return out;
-  for (const BemPatch* patch : patches_of(*w.contact.last())) out.moment += carried_by(w, *patch).moment;
+  Vec3 of_cells;
+  for (const BemPatch* patch : patches_of(*w.contact.last())) {
+    const Wrench one = carried_by(w, *patch);
+    out.moment += one.moment;
+    of_cells += one.force;
+  }
+  if (w.forces.beyond)  // what the cells do not carry acts at the place
+    out.moment += cross(yaw(rotation_by(w.rail.yaw), arm(w, w.reference.x, w.reference.point)), out.force - of_cells);
   return out;
 }
 
@@ -73,6 +80,7 @@ WheelForces forces_of(const Wheelset& set, std::size_t side) {
   out.patches = w.forces.patches;
   out.cells = w.forces.cells;
   out.checks_hold = w.forces.checks_hold;
+  out.beyond = w.forces.beyond;
   return out;
 }
 
