@@ -321,9 +321,8 @@ module railstrata
 
     function rs_wheelset_patch(wheelset, side, patch, about, forces, error) bind(c) result(code)
       import
-      type(c_ptr), value :: wheelset
+      type(c_ptr), value :: wheelset, about  ! c_loc of three numbers, or c_null_ptr
       integer(c_int), value :: side, patch
-      real(c_double), intent(in), optional :: about(*)
       type(rs_patch), intent(inout) :: forces
       type(rs_error), intent(out) :: error
       integer(c_int) :: code
