@@ -108,7 +108,9 @@ def with_signature(text, answer, parameters, declarations):
 
 def python_contact(text, header):
     s = structs(header)
-    text = with_fields(with_fields(text, "ContactForces", s["rs_forces"]), "PatchForces", s["rs_patch"])
+    for name, struct in (("ContactForces", "rs_forces"), ("PatchForces", "rs_patch"),
+                         ("ContactDerivatives", "rs_derivatives")):
+        text = with_fields(text, name, s[struct])
     names = [word for words, _, _ in members(s["rs_state"]) for word in words]
     return with_signature(text, "ContactForces", [f"{name}: Optional[float] = None" for name in names], s["rs_state"])
 

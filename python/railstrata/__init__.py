@@ -15,10 +15,11 @@ from __future__ import annotations
 
 from . import _bridge, damage
 from .case import Case, _thread_count, schema, shipped_data
-from .contact import Contact, ContactForces, PatchForces
+from .contact import Contact, ContactDerivatives, ContactForces, PatchForces
 from .creep_table import CreepTable, open_table
 from .errors import CaseError, CheckWarning, Diagnostic, MachineError, NumericalError
 from .law import DrivenPath, MaterialFit, calibrate, material
+from .many import solve_many
 from .patch import Patch, PatchState
 from .results import BemResult, Body, Check, FolderResult, Peak, Peaks, Result, von_mises
 from .solve import bem, resume, run, shakedown, sweep
@@ -36,9 +37,9 @@ def threads(count: int = 0) -> int:
 
 
 __all__ = [
-    "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Contact", "ContactForces", "CreepTable",
-    "Diagnostic", "DrivenPath", "FolderResult", "MachineError", "MaterialFit", "NumericalError", "PassesResult",
-    "Patch", "PatchForces", "PatchState", "Peak", "Peaks", "Result", "Table", "WheelForces", "Wheelset",
+    "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Contact", "ContactDerivatives", "ContactForces",
+    "CreepTable", "Diagnostic", "DrivenPath", "FolderResult", "MachineError", "MaterialFit", "NumericalError",
+    "PassesResult", "Patch", "PatchForces", "PatchState", "Peak", "Peaks", "Result", "Table", "WheelForces", "Wheelset",
     "WheelsetForces", "bem", "calibrate", "damage", "material", "open", "open_table", "passes", "resume", "run",
-    "schema", "shakedown", "shipped_data", "sweep", "threads", "von_mises",
+    "schema", "shakedown", "shipped_data", "solve_many", "sweep", "threads", "von_mises",
 ]

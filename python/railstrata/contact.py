@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any, Mapping, Optional
 
 from . import _bridge
 from ._bridge import Array
@@ -76,6 +76,25 @@ class PatchForces:
     cells: int
 
 
+@dataclass(frozen=True)
+class ContactDerivatives:
+    """Derivatives of a contact's forces by one input of `Contact.solve`, in the units of ContactForces per that of the
+    input.
+
+    force: N per unit of the input, and so on.
+    """
+
+    force: tuple[float, float, float]
+    normal_force: float
+    lateral_force: float
+    spin_moment: float
+    creepage_x: float
+    creepage_y: float
+    spin: float
+    approach: float
+    contact_angle: float
+
+
 def _plain(value: Any) -> Any:
     """Numbers that are none come as texts."""
     if isinstance(value, list):
@@ -91,6 +110,36 @@ def _number(value: Any, what: str) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{what}: a finite number is wanted, not {number}")
     return number
+
+
+def _patch_forces(found: Any) -> PatchForces:
+    return PatchForces(**{name: _plain(found[name]) for name in PatchForces.__dataclass_fields__})
+
+
+def _body(body: str) -> str:
+    if body not in ("rail", "wheel"):
+        raise ValueError('body: "rail" or "wheel"')
+    return body
+
+
+def _state(given: Mapping[str, Any]) -> dict[str, float]:
+    return {name: _number(value, name) for name, value in given.items() if value is not None}
+
+
+def _with_force(found: Mapping[str, Any]) -> dict[str, Any]:
+    """force_x, force_y, force_z as one."""
+    numbers = {name: _plain(value) for name, value in found.items()}
+    return {"force": tuple(numbers.pop(f"force_{axis}") for axis in "xyz"), **numbers}
+
+
+def _contact_forces(solved: Any, level: int) -> ContactForces:
+    """level: of the caller's line, for warnings."""
+    found, remarks = _with_force(solved["forces"]), tuple(solved["remarks"].splitlines())
+    ok = found.pop("checks_hold")
+    if not ok:
+        for remark in (r for r in remarks if r.startswith("check ")):
+            warnings.warn(remark, CheckWarning, stacklevel=level)
+    return ContactForces(**found, ok=ok, remarks=remarks)
 
 
 class Contact:
@@ -132,24 +181,50 @@ class Contact:
         a CheckWarning.
 
         load: N, vertical, on the rail; or approach. approach: m, of the bodies along the contact normal: the load is a
-        result. lateral_shift: m, of the wheel to the field side. yaw, roll: tangents of the angle of attack and of the
-        wheelset's roll. speed: m/s; below 0.01, also at a standstill, that of 0.01; < 0 as > 0: x is the rolling
-        direction. friction: coefficient at rest. creepage_x: (V - omega r) / V, negative drives; or force_x.
-        creepage_y: lateral, in the contact plane; or force_y. spin: 1/m; without it that of the geometry. force_x: N,
-        longitudinal, on the wheel. force_y: N, lateral friction on the wheel, in the contact plane.
+        result. lateral_shift: m, of the wheel to the field side. yaw, roll: tangents of angle of attack and roll, as
+        the case's; rs_wheelset_state has the angles in rad. speed: m/s; below 0.01, also at a standstill, that of 0.01;
+        < 0 as > 0: x is the rolling direction. friction: coefficient at rest. creepage_x: (V - omega r) / V, negative
+        drives; or force_x. creepage_y: lateral, in the contact plane; or force_y. spin: 1/m; without it that of the
+        geometry. force_x: N, longitudinal, on the wheel. force_y: N, lateral friction on the wheel, in the contact
+        plane.
         """
-        given = {name: value for name, value in locals().items() if name != "self" and value is not None}
-        solved = _bridge.work(
-            "solve_contact", contact=self._contact, threads=self._given[2],
-            state={name: _number(value, name) for name, value in given.items()},
-        )
-        found = {name: _plain(value) for name, value in solved["forces"].items()}
-        force, ok = tuple(found.pop(f"force_{axis}") for axis in "xyz"), found.pop("checks_hold")
-        remarks = tuple(solved["remarks"].splitlines())
-        if not ok:
-            for remark in (r for r in remarks if r.startswith("check ")):
-                warnings.warn(remark, CheckWarning, stacklevel=2)
-        return ContactForces(force=force, **found, ok=ok, remarks=remarks)
+        given = {name: value for name, value in locals().items() if name != "self"}
+        solved = _bridge.work("solve_contact", contact=self._contact, threads=self._given[2], state=_state(given))
+        return _contact_forces(solved, 3)
+
+    def jacobian(self, *inputs: str) -> dict[str, ContactDerivatives]:
+        """Derivatives of the last solution by inputs of `solve`, {"yaw": ...}; all others stay as they were given.
+
+            contact.solve(load=80e3, yaw=1e-3, creepage_x=0)
+            contact.jacobian("lateral_shift", "yaw")["yaw"].force
+
+        The linearised equations of the cells in contact: errors of some 1e-4, 1e-6 after set_tolerance(1e-8). Several
+        patches, friction that falls and films that yield: differences of new solutions, several times dearer. Of a
+        lifted wheel all are 0; after an answer that is `beyond`, those of the solution that it is continued from.
+        CaseError: no solution, an input that is a result of the last state; ValueError: no input.
+        """
+        found = _bridge.work("jacobian_of_contact", contact=self._contact, inputs=list(inputs), threads=self._given[2])
+        return {name: ContactDerivatives(**_with_force(slopes)) for name, slopes in zip(inputs, found["slopes"])}
+
+    def set_profile(self, body: str, points: Any) -> None:
+        """Takes a profile in place of the case's: worn, or another one each step. body: "rail" or "wheel"; points:
+        (n, 2), y and z [m] along the curve, as a file of two columns has them. The last solution is gone, the next one
+        starts from it; pickles have the case's profile. CaseError, and the old profile stays: no profile, no contact
+        with it; ValueError: no such body, another shape."""
+        _bridge.call("set_profile_of_contact", contact=self._contact, body=_body(body), points=_bridge.numbers(points))
+
+    def set_tolerance(self, tolerance: float) -> None:
+        """Tolerance of solutions, 1e-12 to 1e-3; 1e-5 unless set: of slip, friction and load; of the gap a hundredth.
+        CaseError: out of range."""
+        _bridge.call("set_tolerance_of_contact", contact=self._contact, tolerance=_number(tolerance, "tolerance"))
+
+    def copy(self) -> "Contact":
+        """A copy with profile, tolerance, last solution and where the next one starts from: both go on with the same
+        bits. Copies share influence functions; solve them on threads of their own, or by rs.solve_many."""
+        made = Contact.__new__(Contact)
+        made._given = self._given
+        made._contact = _bridge.call("copy_contact", contact=self._contact)
+        return made
 
     def patch(self, index: int = 0) -> Patch:
         """A patch of the last solution, that of the largest pressure first: copies, (stations, columns). CaseError: no
@@ -162,16 +237,14 @@ class Contact:
         no such patch."""
         found = _bridge.call(
             "forces_of_patch", contact=self._contact, patch=index, about=_bridge.numbers(about))
-        return PatchForces(**{name: _plain(found[name]) for name in PatchForces.__dataclass_fields__})
+        return _patch_forces(found)
 
     def stresses(self, points: Any, body: str = "rail") -> Array:
         """(n, 6) stresses [Pa] of the last solution at (n, 3) points, as `result.rail.at` of rs.bem has them: x, y,
         depth [m] from the rigid contact point; components xx, yy, zz, xy, yz, xz. body: "rail" or "wheel". CaseError:
         no solution, a point above the surface or far away; ValueError: no such body, another shape."""
-        if body not in ("rail", "wheel"):
-            raise ValueError('body: "rail" or "wheel"')
         stresses: Array = _bridge.work(
-            "stress_of_contact", contact=self._contact, body=body, points=_bridge.numbers(points))["stresses"]
+            "stress_of_contact", contact=self._contact, body=_body(body), points=_bridge.numbers(points))["stresses"]
         return stresses
 
     def forget(self) -> None:

@@ -2,14 +2,13 @@
 from __future__ import annotations
 
 import os
-import warnings
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bridge
 from ._bridge import Array
-from .errors import CheckWarning
+from .errors import CaseError
 from .patch import needs
 
 if TYPE_CHECKING:
@@ -40,14 +39,14 @@ class CreepTable:
         self.units: dict[str, str] = {
             name: unit for name, unit, _ in [*self._table["axes"], *self._table["grid"], *self._table["numbers"]]}
 
-    def at(self, point: Optional[Mapping[str, Any]] = None, **axes: Any) -> dict[str, Numbers]:
+    def at(self, point: Optional[Mapping[str, Any]] = None, *, clamp: bool = False, **axes: Any) -> dict[str, Numbers]:
         """The numbers at a point, or at many: linear along every axis while the others rest, of a scaled table cubic
         along its own three; some ten nanoseconds for every corner of a cell.
 
         point, axes: a value for every axis, SI; arrays are broadcast against each other, the numbers have their shape.
         point is for names that are no words of Python, {"layer.0.thickness": 1e-3}. A number is NaN where a corner
-        around has no answer. Values beyond an axis are taken at its end, with a CheckWarning. TypeError: an axis is
-        missing or unknown; ValueError: NaN, shapes that do not fit.
+        around has no answer. CaseError: a value lies beyond its axis, by more than 1e-9 of it; with clamp it is taken
+        at the axis's end. TypeError: an axis is missing or unknown; ValueError: NaN, shapes that do not fit.
         """
         given = {**(point or {}), **axes}
         wrong = [f"no {name}" for name in self.axes if name not in given]
@@ -58,12 +57,21 @@ class CreepTable:
         shape = values[0].shape
         found = _bridge.call("look_up", table=self._table,
                              points=_bridge.numbers(np.stack([v.ravel() for v in values], axis=1)))
-        if found["beyond"]:
-            warnings.warn(f"{found['beyond']} values lie beyond their axis and are taken at its end", CheckWarning,
-                          stacklevel=2)
+        if found["beyond"] and not clamp:
+            raise CaseError(f"{self._beyond(values)}; compute a larger table, or give clamp=True for the axis's end")
         columns = found["found"].T
         return {name: float(column[0]) if shape == () else column.reshape(shape)
                 for name, column in zip(self.numbers, columns)}
+
+    def _beyond(self, values: Sequence[Array]) -> str:
+        """Which value lies furthest beyond its axis, over its length."""
+        ends = [(float(at[0]), float(at[-1])) for at in self.axes.values()]
+        far = [float(np.max(np.maximum(low - v, v - high))) / (high - low) for (low, high), v in zip(ends, values)]
+        k = int(np.argmax(far))
+        low, high = ends[k]
+        wrong = values[k].min() if low - values[k].min() > values[k].max() - high else values[k].max()
+        name = list(self.axes)[k]
+        return f"{name} = {wrong:g} lies beyond its axis, {low:g} to {high:g} {self.units[name]}".rstrip()
 
     def to_xarray(self) -> "xarray.Dataset":
         """The whole table as a dataset: a dimension an axis, a variable a number, with units."""

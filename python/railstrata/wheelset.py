@@ -7,7 +7,7 @@ from typing import Any, Mapping, Optional, Sequence
 
 from . import _bridge
 from .case import AnyCase, Length, Value, _case_of, _metres, _thread_count
-from .contact import _number, _plain
+from .contact import PatchForces, _body, _number, _patch_forces, _plain
 from .errors import CheckWarning
 
 Pair = Sequence[float]
@@ -54,7 +54,8 @@ class WheelForces:
 class WheelsetForces:
     """z: m and roll: rad, as given or found. force: N and moment: N m, of both contacts on the wheelset about its
     centre. left, right: the wheels. solutions: of each contact, that the state took. beyond: wheels whose
-    forces are NO SOLUTION but its continuation beyond what half-spaces bear."""
+    forces are NO SOLUTION but its continuation beyond what half-spaces bear. remarks: checks that do not hold, and
+    notes, each with its wheel before it."""
 
     z: float
     roll: float
@@ -64,6 +65,7 @@ class WheelsetForces:
     right: WheelForces
     solutions: int
     beyond: int
+    remarks: tuple[str, ...]
 
 
 def _pair(values: Any, what: str) -> list[float]:
@@ -75,6 +77,27 @@ def _pair(values: Any, what: str) -> list[float]:
 def _wheel_forces(found: Mapping[str, Any]) -> WheelForces:
     numbers = {name: _plain(value) for name, value in found.items()}
     return WheelForces(ok=numbers.pop("checks_hold"), **numbers)
+
+
+def _motion(given: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: (_pair if name.startswith(("rail_", "wheel_")) else _number)(value, name)
+            for name, value in given.items() if value is not None}
+
+
+def _side(side: str) -> int:
+    if side not in ("left", "right"):
+        raise ValueError('side: "left" or "right"')
+    return int(side == "right")
+
+
+def _wheelset_forces(found: Any, level: int) -> WheelsetForces:
+    """level: of the caller's line, for warnings."""
+    remarks = tuple(found["remarks"].splitlines())
+    for remark in (r for r in remarks if ": check " in r):
+        warnings.warn(remark, CheckWarning, stacklevel=level)
+    numbers = {name: _plain(found[name]) for name in ("z", "roll", "force", "moment", "solutions", "beyond")}
+    return WheelsetForces(**numbers, left=_wheel_forces(found["left"]), right=_wheel_forces(found["right"]),
+                          remarks=remarks)
 
 
 class Wheelset:
@@ -117,23 +140,43 @@ class Wheelset:
         MachineError; Ctrl-C stops it. A z that presses a wheel further than half-spaces bear gives forces to reject a
         trial step by, with `beyond` and a CheckWarning.
 
-        y, z, yaw, roll: m, rad. speed: m/s along the track, V; 0 stands, < 0 rolls back. y_rate, z_rate: m/s. yaw_rate,
-        roll_rate: rad/s; on the inside of a curve of radius R yaw_rate has speed / R besides. pitch_rate: rad/s, of the
-        axle beyond speed / r0: > 0 drives. load: N, on the axle, down. roll_moment: N m, on the axle about x; with a
-        load and no roll. rail_y, rail_z: m, of the left and the right rail: irregularity, deflection. rail_roll: rad,
-        about x through the origins of their profiles. rail_y_rate, rail_z_rate: m/s, of the rails' material:
-        deflection, not irregularity. wheel_pitch_rate: rad/s, of the left and the right wheel beyond that of the axle:
-        independent wheels. rail_yaw: rad, about z through the places of their tape circles at x = 0.
+        y, z, yaw, roll: m, and angles in rad, where rs_state has their tangents. speed: m/s along the track, V; 0
+        stands, < 0 rolls back. y_rate, z_rate: m/s. yaw_rate, roll_rate: rad/s; on the inside of a curve of radius R
+        yaw_rate has speed / R besides. pitch_rate: rad/s, of the axle beyond speed / r0: > 0 drives. load: N, on the
+        axle, down. roll_moment: N m, on the axle about x; with a load and no roll. rail_y, rail_z: m, of the left and
+        the right rail: irregularity, deflection. rail_roll: rad, about x through the origins of their profiles.
+        rail_y_rate, rail_z_rate: m/s, of the rails' material: deflection, not irregularity. wheel_pitch_rate: rad/s, of
+        the left and the right wheel beyond that of the axle: independent wheels. rail_yaw: rad, about z through the
+        places of their tape circles at x = 0.
         """
-        given = {name: value for name, value in locals().items() if name != "self" and value is not None}
-        state = {name: (_pair if name.startswith(("rail_", "wheel_")) else _number)(value, name)
-                 for name, value in given.items()}
-        found = _bridge.work("solve_wheelset", wheelset=self._wheelset, threads=self._given[3], state=state)
-        for remark in found["remarks"].splitlines():
-            if "wheel: check half_spaces" in remark:
-                warnings.warn(remark, CheckWarning, stacklevel=2)
-        numbers_of_all = {name: _plain(found[name]) for name in ("z", "roll", "force", "moment", "solutions", "beyond")}
-        return WheelsetForces(**numbers_of_all, left=_wheel_forces(found["left"]), right=_wheel_forces(found["right"]))
+        given = {name: value for name, value in locals().items() if name != "self"}
+        found = _bridge.work("solve_wheelset", wheelset=self._wheelset, threads=self._given[3], state=_motion(given))
+        return _wheelset_forces(found, 3)
+
+    def patches(self, side: str, about: Any = None) -> tuple[PatchForces, ...]:
+        """What each patch of a wheel carries in the last solution, in the track's axes, the largest pressure first;
+        none of a lifted wheel. side: "left" or "right". about: m, track axes, the point that moments are about; None:
+        the centre of the wheelset, so that they add up to the wheel's. CaseError: no solution; ValueError: no such
+        side."""
+        found = _bridge.call("patches_of_wheelset", wheelset=self._wheelset, side=_side(side),
+                             about=None if about is None else _bridge.numbers(about))
+        return tuple(_patch_forces(patch) for patch in found["patches"])
+
+    def set_profile(self, side: str, body: str, points: Any) -> None:
+        """As Contact.set_profile, of one side, "left" or "right"; y is to the field side on both."""
+        _bridge.call("set_profile_of_wheelset", wheelset=self._wheelset, side=_side(side), body=_body(body),
+                     points=_bridge.numbers(points))
+
+    def set_tolerance(self, tolerance: float) -> None:
+        """As Contact.set_tolerance, of both sides."""
+        _bridge.call("set_tolerance_of_wheelset", wheelset=self._wheelset, tolerance=_number(tolerance, "tolerance"))
+
+    def copy(self) -> "Wheelset":
+        """As Contact.copy; what was kept is copied too."""
+        made = Wheelset.__new__(Wheelset)
+        made._given = self._given
+        made._wheelset = _bridge.call("copy_wheelset", wheelset=self._wheelset)
+        return made
 
     def keep(self) -> None:
         """Remembers where the next solution starts from, before trial steps of an integrator."""

@@ -77,6 +77,66 @@ def test_what_is_given_wrongly_is_told_in_the_words_of_the_call(contact):
         rs.Contact("cases/transient/fretting.toml")
 
 
+def test_a_jacobian_has_the_slopes_of_new_solutions(case):
+    contact = rs.Contact(case, CELL, threads=1)
+    contact.set_tolerance(1e-9)
+    state = {"load": 80e3, "creepage_x": -0.0005, "yaw": 1e-3}
+    contact.solve(**state)
+    slopes = contact.jacobian("load", "yaw")
+    assert list(slopes) == ["load", "yaw"] and slopes["load"].force[2] == pytest.approx(1, rel=1e-4)
+    more, less = (contact.solve(**{**state, "load": load}) for load in (80.1e3, 79.9e3))
+    assert slopes["load"].force[0] == pytest.approx((more.force[0] - less.force[0]) / 200, rel=1e-3)
+    contact.solve(**state)
+    with pytest.raises(ValueError, match="speeed is no input"):
+        contact.jacobian("speeed")
+    with pytest.raises(rs.CaseError, match="approach is a result"):
+        contact.jacobian("approach")
+    with pytest.raises(rs.CaseError, match="tolerance"):
+        contact.set_tolerance(1.0)
+
+
+def test_a_profile_from_an_array_takes_the_place_of_the_cases(case):
+    contact, wheelset = rs.Contact(case, CELL, threads=1), rs.Wheelset(case, CELL, threads=1)
+    before, both = contact.solve(), wheelset.solve(speed=20, load=160e3)
+    y, depth = np.linspace(-34e-3, 34e-3, 137), np.arange(30e-3, 3e-3, -1e-3)
+    sides = np.column_stack([34e-3 + 0.05 * depth, -depth])
+    top = np.column_stack([y, np.sqrt(0.2**2 - y**2) - 0.2])
+    round_rail = np.concatenate([sides * (-1, 1), top, sides[::-1]])
+    contact.set_profile("rail", round_rail)
+    with pytest.warns(rs.CheckWarning, match="cell_of_patch"):
+        assert contact.solve().p_max != pytest.approx(before.p_max, rel=0.02)
+    wheelset.set_profile("left", "rail", round_rail)
+    one = wheelset.solve(speed=20, load=160e3, roll=both.roll)
+    assert one.left.p_max != pytest.approx(both.left.p_max, rel=0.02)
+    for wrong in (lambda: contact.set_profile("sleeper", round_rail), lambda: contact.set_profile("rail", [1, 2]),
+                  lambda: wheelset.set_profile("middle", "rail", round_rail)):
+        with pytest.raises(ValueError):
+            wrong()
+
+
+def test_copies_go_on_with_the_same_bits_and_many_are_solved_at_once(case):
+    contact = rs.Contact(case, CELL, threads=1)
+    contact.solve(load=80e3)
+    copies = [contact.copy() for _ in range(3)]
+    states = [{"load": load} for load in (81e3, 82e3, 83e3)]
+    alone = [contact.copy().solve(**state) for state in states]
+    assert rs.solve_many(copies, states, threads=2) == alone
+    states[1] = {"load": -1.0}
+    with pytest.raises(rs.CaseError, match="load = -1"):
+        rs.solve_many(copies, states)
+    found = rs.solve_many(copies, states, return_exceptions=True)
+    assert isinstance(found[1], rs.CaseError) and found[0].ok and found[2].ok
+    with pytest.raises(rs.CaseError, match="handles 0 and 1 are the same"):
+        rs.solve_many([contact, contact], states[:2])
+    with pytest.raises(ValueError, match="as many"):
+        rs.solve_many(copies, states[:1])
+    with pytest.raises(TypeError, match="lode is no keyword of Contact.solve"):
+        rs.solve_many(copies[:1], [{"lode": 1.0}])
+    with pytest.raises(TypeError, match="wheelsets alone"):
+        rs.solve_many([contact, rs.Wheelset(case, CELL)], states[:2])
+    assert rs.solve_many([], []) == []
+
+
 def test_a_contact_is_made_anew_from_a_pickle(contact):
     again = pickle.loads(pickle.dumps(contact))
     contact.forget()
@@ -136,8 +196,12 @@ def test_a_creep_table_is_linear_between_its_points(table):
     assert table.at({"creepage_x": -0.001}, lateral_shift=0)["force_x"] == pytest.approx(force[:2, 0].mean(), rel=1e-12)
     many = table.at(creepage_x=np.linspace(-0.002, 0.002, 5)[:, None], lateral_shift=[0, 1e-3])["force_x"]
     assert many.shape == (5, 2) and (many[::2] == force).all()
-    with pytest.warns(rs.CheckWarning, match="1 values lie beyond"):
-        assert table.at(creepage_x=-0.5, lateral_shift=0)["force_x"] == force[0, 0]
+    with pytest.raises(rs.CaseError, match="creepage_x = -0.5 lies beyond its axis, -0.002 to 0.002; .*clamp=True"):
+        table.at(creepage_x=[-0.5, 0.0], lateral_shift=0)
+    with pytest.raises(rs.CaseError, match="lateral_shift = 0.002 lies beyond its axis, 0 to 0.001 m"):
+        table.at(creepage_x=0, lateral_shift=2e-3)
+    assert table.at(creepage_x=-0.5, lateral_shift=0, clamp=True)["force_x"] == force[0, 0]
+    assert table.at(creepage_x=-0.002, lateral_shift=1e-3 * (1 + 1e-12))["force_x"] == force[0, 1], "round-off"
 
 
 def test_a_scaled_creep_table_is_asked_as_a_plain_one_is(program, tmp_path):

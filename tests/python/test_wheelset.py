@@ -44,6 +44,27 @@ def test_a_wheel_that_is_pressed_too_far_is_marked(wheelset):
     assert forces.beyond == 2 and forces.left.beyond and not forces.left.ok and forces.left.force[2] > 1e6
 
 
+def test_patches_add_up_to_their_wheel_and_copies_go_on(wheelset):
+    forces = wheelset.solve(speed=-20, load=160e3, y=2e-3)
+    patches = wheelset.patches("right")
+    assert len(patches) == forces.right.patches
+    assert np.sum([p.force for p in patches], axis=0) == pytest.approx(forces.right.force, abs=1e-6)
+    assert np.sum([p.moment for p in patches], axis=0) == pytest.approx(forces.right.moment, abs=1e-6)
+    about = wheelset.patches("right", about=patches[0].point)[0]
+    assert abs(about.moment[0]) < 100 and about.force == patches[0].force
+    assert isinstance(forces.remarks, tuple)
+    axles = [wheelset.copy(), wheelset.copy()]
+    states = [{"speed": 20, "load": 160e3, "y": y, "rail_y": (0, 1e-4)} for y in (1e-3, -1e-3)]
+    many = rs.solve_many(axles, states, threads=2)
+    assert many == [wheelset.copy().solve(**state) for state in states]
+    with pytest.raises(ValueError, match="left"):
+        wheelset.patches("middle")
+    with pytest.raises(TypeError, match="speed is missing"):
+        rs.solve_many(axles[:1], [{"load": 160e3}])
+    with pytest.raises(rs.CaseError, match="there is no solution"):
+        rs.Wheelset("cases/quick", "1 mm").patches("left")
+
+
 def test_trial_steps_leave_no_trace(wheelset):
     wheelset.solve(speed=20, load=160e3)
     wheelset.keep()

@@ -19,7 +19,22 @@ Json fault(const char* kind, const std::string& text, const std::string& remedy 
   return {{"fault", {{"kind", kind}, {"text", text}, {"remedy", remedy}, {"diagnostics", diagnostics(all)}}}};
 }
 
-/// A thrown exception as an answer.
+void work(RailstrataCall& running, const std::string& function) {
+  std::string answer;
+  try {
+    functions().at(function)(running.call);
+    answer = json_text(running.call.answer);
+  } catch (...) {
+    answer = json_text(fault_of(std::current_exception()));
+  }
+  const std::lock_guard hold(running.lock);
+  running.answer = std::move(answer);
+  running.ended = true;
+  running.at_end.notify_all();
+}
+
+}  // namespace
+
 Json fault_of(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
@@ -43,22 +58,6 @@ Json fault_of(const std::exception_ptr& thrown) {
     return fault("RuntimeError", e.what());
   }
 }
-
-void work(RailstrataCall& running, const std::string& function) {
-  std::string answer;
-  try {
-    functions().at(function)(running.call);
-    answer = json_text(running.call.answer);
-  } catch (...) {
-    answer = json_text(fault_of(std::current_exception()));
-  }
-  const std::lock_guard hold(running.lock);
-  running.answer = std::move(answer);
-  running.ended = true;
-  running.at_end.notify_all();
-}
-
-}  // namespace
 
 const Functions& functions() {
   static const Functions all = [] {

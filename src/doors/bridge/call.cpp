@@ -96,8 +96,7 @@ std::string Call::text(const char* name) const {
   return value.get<std::string>();
 }
 
-std::shared_ptr<void> Call::made_before(const char* name, const std::type_info& type) {
-  const Json& value = argument(name);
+std::shared_ptr<void> Call::made_before(const Json& value, const char* name, const std::type_info& type) {
   const auto made = value.is_number_unsigned() ? at_address<RailstrataCall>(value)->call.made() : Made{};
   if (made.type == nullptr || *made.type != type) throw WrongType(std::string(name) + ": another object is wanted");
   held_.push_back(made.object);

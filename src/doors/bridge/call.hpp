@@ -2,6 +2,7 @@
 // A call as the functions of the bridge see it: arguments by name, an answer, and what the caller may look at while it
 // lasts. Numbers that JSON lacks travel as texts: "inf", "-inf", "nan".
 #include <condition_variable>
+#include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -43,6 +44,8 @@ Json number(double value);
 std::vector<std::string> texts_of(const Json& list);
 double double_of(const Json& value);
 Array array_of(const Json& value);
+/// A thrown exception as an answer: "fault", with the class of railstrata.errors or of Python that it is.
+Json fault_of(const std::exception_ptr& thrown);
 /// A list of (message, remedy, where).
 Json diagnostics(const std::vector<Diagnostic>& all);
 
@@ -61,7 +64,15 @@ class Call {
   /// Object made by an earlier call; kept alive by this call as well.
   template <class T>
   std::shared_ptr<T> made(const char* name) {
-    return std::static_pointer_cast<T>(made_before(name, typeid(T)));
+    return std::static_pointer_cast<T>(made_before(argument(name), name, typeid(T)));
+  }
+  /// The same of a list.
+  template <class T>
+  std::vector<std::shared_ptr<T>> made_list(const char* name) {
+    std::vector<std::shared_ptr<T>> out;
+    for (const Json& one : argument(name))
+      out.push_back(std::static_pointer_cast<T>(made_before(one, name, typeid(T))));
+    return out;
   }
 
   // what is answered
@@ -86,7 +97,7 @@ class Call {
   std::string reported() const;
 
  private:
-  std::shared_ptr<void> made_before(const char* name, const std::type_info& type);
+  std::shared_ptr<void> made_before(const Json& value, const char* name, const std::type_info& type);
   Json arguments_;
   std::vector<std::shared_ptr<void>> held_;
   Made made_;

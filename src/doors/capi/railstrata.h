@@ -90,7 +90,7 @@ typedef struct rs_state {
   double load;          /* N, vertical, on the rail; or approach */
   double approach;      /* m, of the bodies along the contact normal: the load is a result */
   double lateral_shift; /* m, of the wheel to the field side */
-  double yaw, roll;     /* tangents of the angle of attack and of the wheelset's roll */
+  double yaw, roll;  /* tangents of angle of attack and roll, as the case's; rs_wheelset_state has the angles in rad */
   double speed;      /* m/s; below 0.01, also at a standstill, that of 0.01; < 0 as > 0: x is the rolling direction */
   double friction;   /* coefficient at rest */
   double creepage_x; /* (V - omega r) / V, negative drives; or force_x */
@@ -148,10 +148,11 @@ RS_API int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* force
 RS_API int rs_solve_many(int n, rs_contact* const* contacts, const rs_state* states, rs_forces* forces,
                          rs_error* errors, int threads);
 
-/* Derivatives of the last solution by one input of rs_state. */
+/* Derivatives of the last solution by one input of rs_state: of the members of rs_forces, in their units per that of
+ * the input. */
 typedef struct rs_derivatives {
   size_t size;                      /* sizeof(rs_derivatives), to be set by the caller */
-  double force_x, force_y, force_z; /* of the members of rs_forces, in their units per that of the input */
+  double force_x, force_y, force_z; /* N per unit of the input, and so on */
   double normal_force, lateral_force;
   double spin_moment;
   double creepage_x, creepage_y, spin;
@@ -260,8 +261,9 @@ RS_API const char* rs_table_number_unit(const rs_table* table, int number);
 
 /* Interpolates, linear along every axis (of a scaled table cubic along its own, which are not seen here: docs/
  * creep-table.md): `at` has a value for each axis, `out` room for each number. A number is NaN
- * where a corner of the cell around has no answer. Returns how many values of `at` lie beyond their axis: these are
- * taken at its end. -1: `table`, `at` or `out` is NULL, or a value is NaN. */
+ * where a corner of the cell around has no answer. Returns how many values of `at` lie beyond their axis, by more than
+ * 1e-9 of it: these are taken at its end, where the numbers may be far from those of the contact. -1: `table`, `at` or
+ * `out` is NULL, or a value is NaN. */
 RS_API int rs_table_at(const rs_table* table, const double* at, double* out);
 
 /* A wheelset: two wheels on one rigid axle and their rails. Its axes are those of the track: x along it, y to the left,
@@ -295,7 +297,7 @@ RS_API void rs_wheelset_free(rs_wheelset* wheelset);
 typedef struct rs_wheelset_state {
   size_t size;                 /* sizeof(rs_wheelset_state) */
   unsigned given;              /* of z, roll and load, those to be read. All else is read: 0 where nothing moves */
-  double y, z, yaw, roll;      /* m, rad */
+  double y, z, yaw, roll;      /* m, and angles in rad, where rs_state has their tangents */
   double speed;                /* m/s along the track, V; 0 stands, < 0 rolls back */
   double y_rate, z_rate;       /* m/s */
   double yaw_rate, roll_rate;  /* rad/s; on the inside of a curve of radius R yaw_rate has speed / R besides */

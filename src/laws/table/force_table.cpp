@@ -208,13 +208,14 @@ void TableInterpolation::scaled(const double* point, Places& places, double* out
 }
 
 int TableInterpolation::at(const double* point, double* out) const {
+  constexpr double kRoundOff = 1e-9;  // of an axis
   std::array<double, kMostAxes> inside{};
   Places places;
   int beyond = 0;
   for (std::size_t k = 0; k < table_->axes.size(); ++k) {
     const std::vector<double>& at = table_->asked(k).at;
     inside[k] = std::clamp(point[k], at.front(), at.back());
-    beyond += inside[k] != point[k];
+    beyond += std::abs(inside[k] - point[k]) > kRoundOff * (at.back() - at.front());
     if (!table_->scaling || k >= kScaledAxes) places[k] = linear(at, inside[k], stride_[k]);
   }
   std::fill_n(out, table_->numbers.size(), 0.0);

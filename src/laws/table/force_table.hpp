@@ -72,7 +72,8 @@ class TableInterpolation {
   explicit TableInterpolation(const ForceTable& table);
 
   /// out[k]: the table's number k at a point with a value for each asked axis; NaN where a corner with weight has no
-  /// answer. Values beyond an axis are taken at its end; returns how many were.
+  /// answer. Values beyond an axis are taken at its end; returns how many were,
+  /// by more than 1e-9 of the axis.
   int at(const double* point, double* out) const;
 
  private:
