@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Packs an installed RailStrata as a wheel or as a .tar.gz that need nothing but the C and C++ libraries of a Linux.
 
-usage: pack.py wheel|tarball PREFIX FOLDER --no-remote FILE
+usage: pack.py wheel|tarball PREFIX FOLDER --no-remote FILE [--native]
 
 PREFIX: what `cmake --install` has made on Debian 12. Libraries that others may lack (OpenMP, HDF5) are copied beside
 those of RailStrata, with their licences; --no-remote: the library that stands in for curl and OpenSSL, which HDF5 asks
-for. Refused is what the wheel's tag does not promise: symbols newer than those of Debian 12, and FFTW, whose licence is
-the GPL. Prints the file's name.
+for. Refused is what the wheel's tag does not promise: a build for this machine's processor (--native, of tests, packs it
+all the same), symbols newer than those of Debian 12, and FFTW, whose licence is the GPL. Prints the file's name.
 """
 import argparse
 import base64
@@ -90,6 +90,16 @@ def take_along(tree, libraries, no_remote):
                 packages.append(package_of(source))
             todo.append(target)
     return packages
+
+
+def check_processor(prefix):
+    """librailstrata.so asks the loader for x86-64-v2 and no more, and stands there for -v3 and -v4 too."""
+    files = [f for f in prefix.rglob("librailstrata.so.*.*.*") if not f.is_symlink()]
+    levels = {f.parent.name.removeprefix("x86-64-") if "glibc-hwcaps" in f.parts else "v2":
+              re.findall(r"x86 ISA needed:.*x86-64-(v\d)", output("readelf", "-nW", f)) for f in files}
+    if levels != {level: [level] for level in ("v2", "v3", "v4")}:
+        sys.exit(f"pack.py: {prefix} was not built for all processors: build it with -DRAILSTRATA_VARIANTS=ON "
+                 "(./railstrata wheel, ./railstrata tarball or cmake --preset install)")
 
 
 def too_new(file):
@@ -230,9 +240,12 @@ def main():
     parser.add_argument("prefix", type=pathlib.Path)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--no-remote", type=pathlib.Path, required=True)
+    parser.add_argument("--native", action="store_true")
     given = parser.parse_args()
     if not shutil.which("patchelf"):
         sys.exit("pack.py: patchelf is missing (Debian: patchelf)")
+    if not given.native:
+        check_processor(given.prefix)
     given.folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=given.folder) as tree:
         print({"wheel": wheel, "tarball": tarball}[given.what](given, pathlib.Path(tree)))

@@ -21,6 +21,7 @@ def solve_many(handles: Any, states: Any, *, threads: int = 0, return_exceptions
     """Solves contacts, or wheelsets, each with its state, the keywords of its `solve`: forces in the same order, with
     the bits of one after the other for any number of threads (0: all).
 
+        wheelset = rs.Wheelset("cases/quick", cell="1 mm")
         axles = [wheelset.copy() for _ in range(4)]
         forces = rs.solve_many(axles, [{"speed": 20, "load": 160e3, "y": y} for y in (0, 1e-3, 2e-3, 3e-3)])
 

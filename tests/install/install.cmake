@@ -17,6 +17,9 @@ if(RAILSTRATA_LIBRARY)
     set_tests_properties(install:${group} PROPERTIES FIXTURES_REQUIRED installed SKIP_RETURN_CODE 77 LABELS slow
       TIMEOUT 600)
   endforeach()
+  add_test(NAME install:processors COMMAND /usr/bin/python3 ${here}/wheel_test.py ${CMAKE_BINARY_DIR}
+    ${CMAKE_SOURCE_DIR} ${installed}/prefix ${CMAKE_CURRENT_BINARY_DIR}/packed_none Processors)
+  set_tests_properties(install:processors PROPERTIES SKIP_RETURN_CODE 77)
   add_test(NAME install:packages COMMAND /usr/bin/python3 ${here}/packages_test.py ${CMAKE_BINARY_DIR}
     ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/packages)
   set_tests_properties(install:packages PROPERTIES SKIP_RETURN_CODE 77 LABELS "packages;slow" TIMEOUT 600)

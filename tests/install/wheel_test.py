@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+import tempfile
 import unittest
 import zipfile
 
@@ -41,7 +42,7 @@ def done(*words, **options):
 
 def packed(what):
     file = pathlib.Path(done("/usr/bin/python3", SOURCE / "tools/pack.py", what, PREFIX, FOLDER, "--no-remote",
-                             NO_REMOTE).strip())
+                             NO_REMOTE, "--native").strip())
     assert file.parent == FOLDER
     return file
 
@@ -85,6 +86,30 @@ class Promises:
                               "libaec0.txt", "libtomlplusplus-dev.txt"}, texts)
         self.assertTrue([name for name in texts if name.startswith("libhdf5")], texts)
         self.assertFalse(list(self.tree.rglob("libfftw*")))
+
+
+class Processors(unittest.TestCase):
+    """A prefix of three small libraries, which ask for a processor as those of a build do."""
+
+    def refused(self, marks):
+        with tempfile.TemporaryDirectory() as prefix:
+            for folder, mark in marks.items():
+                library = pathlib.Path(prefix, "lib", folder, "librailstrata.so.1.2.3")
+                library.parent.mkdir(parents=True, exist_ok=True)
+                done("gcc", "-shared", "-nostdlib", "-x", "c", "/dev/null", "-o", library, *mark)
+            out = subprocess.run(["/usr/bin/python3", SOURCE / "tools/pack.py", "wheel", prefix, prefix, "--no-remote",
+                                  "none"], capture_output=True, text=True)
+            self.assertNotEqual(out.returncode, 0)  # there is nothing else to pack
+            return "not built for all processors" in out.stderr
+
+    def test_a_prefix_for_this_machine_is_refused(self):
+        of = {level: [f"-Wl,-z,x86-64-{level}"] for level in ("v2", "v3", "v4")}
+        every = {"": of["v2"], "glibc-hwcaps/x86-64-v3": of["v3"], "glibc-hwcaps/x86-64-v4": of["v4"]}
+        self.assertFalse(self.refused(every))
+        self.assertTrue(self.refused({"": []}), "a native build")
+        self.assertTrue(self.refused({**every, "": of["v4"]}))
+        self.assertTrue(self.refused({**every, "": []}), "a native library over those of an earlier build")
+        self.assertTrue(self.refused({"": of["v2"]}), "one of three")
 
 
 class Wheel(Promises, unittest.TestCase):
