@@ -116,6 +116,27 @@ endforeach()
 file(RELATIVE_PATH lib_from_python /prefix/${python_folder}/railstrata /prefix/${CMAKE_INSTALL_LIBDIR})
 set_target_properties(python_bridge PROPERTIES INSTALL_RPATH "$ORIGIN/lib;$ORIGIN/${lib_from_python}")
 
+# A tree of which only a part was built, as ./railstrata run leaves it, is built as far as it is installed.
+set(to_install railstrata_library${installed_suffix} railstrata_program railstrata_commands railstrata_hdf5 contact_addon
+  python_bridge railstrata_bridge)
+foreach(level IN LISTS levels)
+  list(APPEND to_install railstrata_library_${level})
+endforeach()
+if(TARGET railstrata_mpi)
+  list(APPEND to_install railstrata_mpi)
+endif()
+add_custom_target(to_install DEPENDS ${to_install} public_headers)
+list(TRANSFORM to_install REPLACE "(.+)" "\"$<TARGET_FILE:\\1>\"" OUTPUT_VARIABLE installed_files)
+list(JOIN installed_files " " installed_files)
+install(CODE "foreach(file IN ITEMS ${installed_files} \"${headers_stamp}\")
+  if(NOT EXISTS \"\${file}\")
+    message(STATUS \"Building what is installed and not built yet\")
+    execute_process(COMMAND \"${CMAKE_COMMAND}\" --build \"${CMAKE_BINARY_DIR}\" --target to_install
+      COMMAND_ERROR_IS_FATAL ANY)
+    break()
+  endif()
+endforeach()" ALL_COMPONENTS)
+
 railstrata_install("" ${CMAKE_INSTALL_LIBDIR} ${python_folder})
 
 if(RAILSTRATA_NATIVE AND NOT RAILSTRATA_VARIANTS)

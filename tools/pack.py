@@ -5,8 +5,8 @@ usage: pack.py wheel|tarball PREFIX FOLDER --no-remote FILE [--native]
 
 PREFIX: what `cmake --install` has made on Debian 12. Libraries that others may lack (OpenMP, HDF5) are copied beside
 those of RailStrata, with their licences; --no-remote: the library that stands in for curl and OpenSSL, which HDF5 asks
-for. Refused is what the wheel's tag does not promise: a build for this machine's processor (--native, of tests, packs it
-all the same), symbols newer than those of Debian 12, and FFTW, whose licence is the GPL. Prints the file's name.
+for. Refused is what the wheel's tag does not promise: a build for this machine's processor (--native, of tests, packs
+it all the same), symbols newer than those of Debian 12, and FFTW, whose licence is the GPL. Prints the file's name.
 """
 import argparse
 import base64

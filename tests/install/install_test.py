@@ -59,6 +59,18 @@ class Install(unittest.TestCase):
         self.assertEqual(*[sorted(str(f.relative_to(root)) for f in root.rglob("*")) for root in roots])
 
 
+    def test_what_is_built_for_it_is_looked_for_first(self):
+        """A tree of which ./railstrata has built the program alone is built as far as it is installed."""
+        rules = (BUILD / "cmake_install.cmake").read_text()
+        looked_for = re.search(r"foreach\(file IN ITEMS (.*)\)\n.*\n.*Building what is installed", rules)[1]
+        ends = rf"(?:\.so|\.so\.{re.escape(VERSION)}|bin/railstrata)"
+        built = set(re.findall(rf'"{re.escape(str(BUILD))}/([^"]*?{ends})"', rules))
+        links = {name for name in built if (BUILD / name).is_symlink()}
+        self.assertGreater(len(built - links), 5)
+        for name in built - links:
+            self.assertIn(f'"{BUILD / name}"', looked_for)
+
+
 class Tree(unittest.TestCase):
     def test_program_library_headers_packages_data_and_texts_are_there(self):
         shared = ["cases/quick/case.toml", "cases/paper/study.toml", "data/profiles/lma_wheel.csv",
