@@ -3,7 +3,7 @@
 
 usage: contact_wheel_examples.py LIBRARY CHECKOUT [NAME...] [--verbose]   CHECKOUT: a clone of github.com/eve70a/CONTACT
 
-Of every case of CHECKOUT/examples/*.inp and CHECKOUT/testbank/**/*.inp of module 1 (all unless named) every patch is
+Of every case of module 1 in CHECKOUT/examples/*.inp and CHECKOUT/testbank/**/*.inp (all unless named) every patch is
 compared by its place (0.1 mm) and its forces (1 % of FN, but not less than 0.01 % of the wheel's FZ), and the sums FX,
 FY, FZ in the track (1 % of FZ). A case that is refused counts with the reason. Exit code 1 where an accepted case
 differs by more."""
@@ -23,11 +23,16 @@ LOCATIONS = ["XCP(TR)", "YCP(TR)", "ZCP(TR)", "DELTCP(TR)"]
 
 
 class Lines:
-    """The lines of an input, comments left out."""
+    """The lines of an input, comments left out. A case without a module is one of the module before it."""
 
     def __init__(self, text):
-        self.lines = [line for line in text.splitlines() if line.split("%")[0].strip()]
-        self.at = 0
+        self.lines, self.at, module = [], 0, None
+        for line in (line for line in text.splitlines() if line.split("%")[0].strip()):
+            if "P-B-T-N-F-S" in line and module and not re.match(MODULE, self.lines[-1], re.I):
+                self.lines.append(module)
+            if re.match(MODULE, line, re.I):
+                module = line
+            self.lines.append(line)
 
     def next(self):
         if re.match(MODULE, self.lines[self.at], re.I):
@@ -65,7 +70,7 @@ def profile(c, lines, folder, kind):
     if len(options) > 4:
         for _ in range(int(options[4])):
             lines.next()
-    c.profile(folder / file[1], kind, int(options[0]), mirror_z, options[1], options[2])
+    c.profile(folder / file[1].replace("\\", "/"), kind, int(options[0]), mirror_z, options[1], options[2])
 
 
 def friction(c, lines, varies, law):
@@ -73,10 +78,11 @@ def friction(c, lines, varies, law):
         raise Unread(f"L = {law}")
     if varies == 0:
         return c.set("cntc_setfrictionmethod", law, lines.numbers(FRICTION[law])[:FRICTION[law]])
-    count = int(lines.numbers(1)[0])
-    values = [float(count)]
-    for _ in range(count):
-        values += lines.numbers(1 + FRICTION[law])[:1 + FRICTION[law]]
+    count, of_memory = int(lines.numbers(1)[0]), 2 if law in (2, 3, 4, 6) else 0
+    each = 1 + FRICTION[law] - of_memory
+    slices = [lines.numbers(each)[:each] for _ in range(count)]
+    memory = lines.numbers(of_memory)[:of_memory] if of_memory else []
+    values = [float(count)] + [v for numbers_of_slice in slices for v in numbers_of_slice + memory]
     return c.set("cntc_setfrictionmethod", 10 * varies + law, values)
 
 
@@ -220,21 +226,21 @@ def run(library, file, options):
     listed = Lines(file.read_text(errors="replace"))
     count = sum(1 for _ in iter(listed.module, 0))
     if count != len(wanted):
-        print(f"{file.stem:22} {count:5} {0:6} {0:5}  {'-':>8} {'-':>8}  printed results are of {len(wanted)} cases")
-        return count, 0, 0
+        raise SystemExit(f"{file}: {count} cases, printed results of {len(wanted)}")
     c = Wheel(library)
-    cases = good = off = 0
+    number = cases = good = off = 0
     reasons, worst = [], {"place": 0.0, "force": 0.0}
     while (module := lines.module()) != 0:
+        number += 1
+        if module != 1:
+            continue
         cases += 1
         try:
-            if module != 1:
-                raise Unread(f"module {module}")
             set_case(c, lines, file.parent)
             code = c.calculate()
             if code < 0:
                 raise Refusal(f"{code}: {c.error()[1].splitlines()[0][:400]}")
-            wrong, most = differences(c, wanted[cases])
+            wrong, most = differences(c, wanted[number])
         except (Refusal, Unread, IndexError, KeyError) as e:
             reasons.append(str(e))
             continue
@@ -243,9 +249,9 @@ def run(library, file, options):
         for name, value in most.items():
             worst[name] = max(worst[name], value)
         if options.verbose:
-            print(f"  {file.stem} case {cases}: {', '.join(wrong) or 'equal'}")
+            print(f"  {file.stem} case {number}: {', '.join(wrong) or 'equal'}")
             if wrong or options.numbers:
-                for number, patch in enumerate(wanted[cases][1:], 1):
+                for number, patch in enumerate(wanted[number][1:], 1):
                     for name, value in answers(c, number).items():
                         print(f"      {number} {name:12} {value:14.6g} {patch.get(name, float('nan')):14.6g}")
     print(f"{file.stem:22} {cases:5} {good:6} {off:5}  {worst['place']:8.4f} {100 * worst['force']:8.3f}  "
