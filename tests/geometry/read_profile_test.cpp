@@ -396,7 +396,8 @@ TEST_F(ReadProfile, MiniProf_files_new_and_old_lose_their_switched_off_points) {
                                              "new.whl"),
                                      &notes);
   const Profile old = read_profile(
-      ProfileKind::wheel, written("MINIPROF 101 148 1994\n12 and more words\n\"a note\"\n\n" + rows, "old.WHL"));
+      ProfileKind::wheel,
+      written("MINIPROF 101 148 1994\n12 and more words\n32.5 37.1 14.7  (Sd)\n\"a note\"\n\n" + rows, "old.WHL"));
   expect_same_curve(fresh, builtin_profile(ProfileKind::wheel, "LMA"), 5e-3 * mm);
   expect_same_curve(old, fresh, 1e-12);
   for (const char* n :

@@ -204,7 +204,9 @@ NumberTable parse_miniprof(std::string_view text, const std::string& name) {
                "export the profile with the columns X and Y first", name, number);
       return;
     }
-    if (header && (keys || !point_of(split_words(line)))) return;
+    const auto words = split_words(line);
+    const bool all_numbers = std::all_of(words.begin(), words.end(), [](auto word) { return number_of(word); });
+    if (header && (keys || !all_numbers || !point_of(words))) return;
     header = false;
     add_point(table, line, number, name);
   });
