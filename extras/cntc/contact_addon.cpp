@@ -214,7 +214,12 @@ void cntc_setextrarigidslip(const int* ire, const int* icp, const int* lenarr, c
 }
 
 void cntc_settangentialforces(const int* ire, const int* icp, const double* fx, const double* fy) {
-  set(ire, icp, Setting::forces, "cntc_settangentialforces", [&](Problem& p) { set_forces(p, *fx, *fy); });
+  set(ire, icp, Setting::forces, "cntc_settangentialforces", [&](Problem& p) {
+    if (ModuleOne* wheel = registry().find_wheel(*ire))
+      set_force_along(*wheel, *fx);
+    else
+      set_forces(p, *fx, *fy);
+  });
 }
 
 void subs_addblock(const int* ire, const int* icp, const int* iblk, const int* isubs, const int* nx, const int* ny,

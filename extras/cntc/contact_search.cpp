@@ -121,7 +121,9 @@ Overlap overlap_of(const std::vector<Row>& rows, std::size_t begin, std::size_t 
   for (double* sum : {&out.x, &out.y, &out.angle}) *sum /= out.weight;
   const auto ends_at = [&](std::size_t inside, std::size_t outside, int side) {
     const Row &a = rows[inside], &b = rows[outside];
-    const double share = inside == outside || b.gap > 0.5 ? 0 : a.gap / (a.gap - b.gap);
+    const bool ends = inside == outside || b.gap > 0.5;
+    const double share = ends ? 0 : a.gap / (a.gap - b.gap);
+    out.at_end = out.at_end || ends;
     out.extent.y[side] = mix(a.y, b.y, share);
     out.extent.z[side] = mix(a.z, b.z, share);
   };
@@ -151,6 +153,7 @@ void add(Overlap& a, const Overlap& b, bool as_part) {
   a.y = (a.y * a.weight + b.y * b.weight) / all;
   a.angle = (a.angle * a.weight + b.angle * b.weight) / all;
   a.weight = all;
+  a.at_end = a.at_end || b.at_end;
   Box& e = a.extent;
   e.x[0] = std::min(e.x[0], b.extent.x[0]);
   e.x[1] = std::max(e.x[1], b.extent.x[1]);
@@ -311,6 +314,8 @@ PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchS
   const double middle = arc(overlap.y), s[2] = {arc(overlap.extent.y[0]) - middle, arc(overlap.extent.y[1]) - middle};
   out.dx = steps.dx;
   out.ds = steps.ds;
+  out.rail_arc = middle;
+  std::copy(s, s + 2, out.reach);
   if (lattice) {
     out.origin_x = *lattice + overlap.x;
     out.origin_s = middle - pair.rail->zero_arc();
@@ -337,20 +342,29 @@ Distance rigid_distance(const RigidPair& pair, const PatchPlane& plane) {
   const Vec3 origin = plane.reference.to_outer({-plane.origin_x, -plane.origin_s, 0});
   const Chords chords(*pair.wheel, pair.wheel_at.to_inner(origin).y, plane.ds);
   Distance out;
-  out.gap.assign(static_cast<std::size_t>(plane.mx) * static_cast<std::size_t>(plane.my), kNoSurface);
+  const std::size_t count = static_cast<std::size_t>(plane.mx) * static_cast<std::size_t>(plane.my);
+  out.gap.assign(count, kNoSurface);
+  out.rail.assign(count, 0.0);
+  out.wheel.assign(count, 0.0);
+  out.has_both.assign(count, 0);
   double least = kNoSurface, of_wheel = 0, of_rail = 0;
-  for (int j = 0; j < plane.my; ++j)
+  for (int j = 0; j < plane.my; ++j) {
+    const double s = plane.across(j), turn = plane.rows.empty() ? 0 : plane.rows[static_cast<std::size_t>(j)].turn;
     for (int i = 0; i < plane.mx; ++i) {
-      const double x = plane.x + i * plane.dx, s = plane.s + j * plane.ds;
+      const double x = plane.x + i * plane.dx;
       const auto wheel = way_to_wheel(pair, chords, from(pair.wheel_at, x, s), in_wheel, of_wheel);
       const auto rail = way_to_rail(pair, from(pair.rail_at, x, s), in_rail, of_rail);
       of_wheel = wheel.value_or(0);
       of_rail = rail.value_or(0);
       if (!wheel || !rail) continue;
-      double& gap = out.gap[static_cast<std::size_t>(i + plane.mx * j)];
-      gap = *rail - *wheel;
-      least = std::min(least, gap);
+      const auto k = static_cast<std::size_t>(i + plane.mx * j);
+      out.rail[k] = *rail;
+      out.wheel[k] = *wheel;
+      out.has_both[k] = 1;
+      out.gap[k] = (*rail - *wheel) * std::cos(turn);
+      least = std::min(least, out.gap[k]);
     }
+  }
   for (double& gap : out.gap) gap -= least;
   out.approach = -least;
   return out;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cntc/curved_row.hpp"
 #include "cntc/marker.hpp"
 #include "cntc/outline.hpp"
 
@@ -30,6 +31,7 @@ struct Overlap {
   Box extent;
   double x = 0, y = 0, angle = 0;  ///< weighted
   double weight = 0;
+  bool at_end = false;     ///< reaches to where one of the bodies ends
   std::vector<Box> parts;  ///< regions that act on each other in part; one: the whole
 };
 
@@ -57,6 +59,13 @@ struct PatchPlane {
   int mx = 0, my = 0;
   double x = 0, s = 0, dx = 0, ds = 0;  ///< of the first element's centre from the reference; sides
   double origin_x = 0, origin_s = 0;
+  double rail_arc = 0;            ///< m, of the reference along the rail's profile
+  double reach[2]{};              ///< m, from there to the ends of the overlap
+  std::vector<CurvedRow> rows{};  ///< of a patch on a curved surface; empty: a plane
+
+  /// Of a row of elements from the reference, in the plane and along the rows.
+  double across(int j) const { return rows.empty() ? along_row(j) : rows[static_cast<std::size_t>(j)].s; }
+  double along_row(int j) const { return s + j * ds; }
 };
 /// Where elements have to be those of the case before (T = 1 and 2): along the rail, x of the track's origin, and from
 /// the middle of the rail's profile.
@@ -64,10 +73,13 @@ using Lattice = std::optional<double>;
 PatchPlane plane_of(const Overlap& overlap, const RigidPair& pair, const SearchSteps& steps, int most_elements,
                     Lattice lattice);
 
-/// The rigid distance of wheel and rail along n, in the order of the elements (x fastest), less its minimum.
+/// The rigid distance of wheel and rail along n (of a curved patch: along its rows' normals), in the order of the
+/// elements (x fastest), less its minimum.
 struct Distance {
-  std::vector<double> gap;  ///< m
-  double approach = 0;      ///< minus the minimum
+  std::vector<double> gap;              ///< m
+  double approach = 0;                  ///< minus the minimum
+  std::vector<double> rail, wheel;      ///< m, along n from the plane
+  std::vector<unsigned char> has_both;  ///< neither of the bodies has ended
 };
 Distance rigid_distance(const RigidPair& pair, const PatchPlane& plane);
 

@@ -94,6 +94,8 @@ class Drive {
     if (tang_ != kFrictionless && !settings_.friction)
       throw Refused(kFriction, "no friction: call cntc_setfrictionmethod");
     if (settings_.friction) out.friction = *settings_.friction;
+    for (int i = 0; i < (settings_.row_friction.empty() ? 0 : out.on.grid.nx); ++i)
+      out.local_friction.insert(out.local_friction.end(), settings_.row_friction.begin(), settings_.row_friction.end());
     out.film = m.film;
     if (out.friction.falling.falls() && tang_ == kShift)
       throw Refused(kFriction, "friction that falls with slip is offered in rolling, T = 2 and 3");
@@ -160,8 +162,10 @@ class Drive {
     c.spin = next.spin;
     // CONTACT takes it as it is: of a shift in mm, whatever the units are.
     c.extra_slip = extra_slip(settings_, next.on.grid, next.shift ? 1e-3 : 1);
+    c.local_friction = next.local_friction;
     if (turn_it) {
       reverse(c.gap);
+      reverse(c.local_friction);
       turn_vectors(c.extra_slip);
     }
     return c;

@@ -26,7 +26,7 @@ constexpr Rule kRules[] = {
      "B = 0 is offered, the traction bound of the full solution; 2 and 3 with M = 3 and 5"},
     {kTang, 3, 0, 3, "T, TANG", "T = 0 to 3 are offered"},
     {kNorm, 1, 0, 1, "N, NORM", "N = 0 and 1 are offered"},
-    {kForce, 0, 0, 2, "F, FORCE", "F = 0 to 2 are offered"},
+    {kForce, 0, 0, 3, "F, FORCE", "F = 0 to 2 (module 3), 0, 1 and 3 (module 1) are offered"},
     {kFrictionLaw, 0, 1, 0, "L, FRCLAW", "is set by cntc_setfrictionmethod"},
     {kDiscretisation, 2, -kAny, kAny, "D, DISCNS", kOfWheel},
     {kInfluence, 2, 0, 2, "C3, INFLCF",
@@ -78,7 +78,8 @@ std::string set_flag(Problem& problem, int code, int value) {
   }
   const Rule* rule = rule_of(code);
   if (!rule) return fmt::format("flag {} is not known: it has no effect", code);
-  if (!offered(*rule, value))
+  const bool of_other_module = code == kForce && value == (problem.of_wheel ? 2 : 3);
+  if (!offered(*rule, value) || of_other_module)
     throw Refused(kOther, fmt::format("flag {} ({}) = {}: {}", code, rule->name, value, rule->else_));
   const bool as_before = code == kInfluence && value < 2;
   if (!as_before) problem.settings.flags[code] = value;

@@ -23,6 +23,19 @@ struct TrackPlace {
   double roller_radius = 0, curvature = 0;
 };
 
+/// A rail without mass that gives way (F = 3), and forces on it besides those of the wheel.
+struct RailSupport {
+  double stiffness[2]{}, force[2]{};  ///< N/m, N; across and down
+  double first_step = 1e-3;           ///< m, of the search across
+  double way[2]{};                    ///< m, what was found
+};
+
+struct GivenForces {
+  double load = 0;   ///< N, FZ
+  double along = 0;  ///< N, FX_WS on the rail in the wheelset's x (F = 1)
+  RailSupport rail;
+};
+
 /// Friction by the inclination (V = 1) or by the place along the track (V = 2).
 struct FrictionSlice {
   double at = 0;
@@ -55,7 +68,7 @@ struct ModuleOne {
   std::optional<double> tape_y;
   Motion wheelset, flexibility;
   double pitch_rate_of_roller = 0;
-  double load = 0;  ///< N, FZ
+  GivenForces forces;
   SearchSteps steps;
   double relative_step = 1;  ///< DQREL
   std::vector<FrictionSlice> slices;
@@ -70,13 +83,14 @@ bool profile_is_of_wheel(const std::string& file, std::span<const int> ints);
 void set_profile(ModuleOne& one, const Problem& base, const std::string& file, std::span<const int> ints,
                  Numbers reals);
 void set_profile(ModuleOne& one, const Problem& base, Numbers values, std::span<const int> ints, Numbers reals);
-/// Z = 0 to 3; 32 and 33, rails that give way, are refused.
+/// Z = 0 to 3; 32 and 33: a rail that gives way.
 void set_track(ModuleOne& one, const Problem& base, int digit, Numbers values);
 void set_wheelset(ModuleOne& one, const Problem& base, int digit, Numbers values);
 void set_position(ModuleOne& one, const Problem& base, int digit, Numbers values);
 void set_velocity(ModuleOne& one, const Problem& base, int digit, Numbers values);
 void set_flexibility(ModuleOne& one, const Problem& base, int digit, Numbers values);
 void set_vertical_force(ModuleOne& one, Problem& base, double force);
+void set_force_along(ModuleOne& one, double force);
 void set_search(ModuleOne& one, const Problem& base, int number, Numbers values);
 /// DQREL, in place of DQ.
 void set_relative_step(ModuleOne& one, double step);

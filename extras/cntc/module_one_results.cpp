@@ -57,6 +57,7 @@ std::vector<double> contact_location(const ModuleOne& one, const Problem& base, 
   out.put(13, {-arc(*one.wheel, patch->on_wheel), side * patch->on_wheel.roll()});
   const Vec3 pressed = centre_of_pressure(*patch, problem);
   out.put(15, {pressed.x / length, side * pressed.y / length});
+  out.put(18, {one.forces.rail.way[0] / length, one.forces.rail.way[1] / length});
   const Marker wheel = placed(one.found.wheelset_at, one.found.wheel_in_wheelset);
   put(21, wheel);
   out.put(24, {side * wheel.roll(), side * wheel.yaw()});

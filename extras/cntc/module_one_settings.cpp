@@ -20,9 +20,16 @@ void require(Numbers values, std::size_t least, std::size_t most, const std::str
 OutlineOptions options_of(const Problem& base, std::span<const int> ints, Numbers reals) {
   const auto whole = [&](std::size_t k) { return ints.size() > k ? ints[k] : 0; };
   const auto number = [&](std::size_t k) { return reals.size() > k ? reals[k] : 0.0; };
-  if (number(1) > 0)
-    throw Refused(kProfile, "smoothing (SMOOTH above 0) is not offered: profiles are smoothed by their own noise");
+  const int spline = whole(5);
+  if (number(1) > 0 && spline > 1)
+    throw Refused(kProfile, fmt::format("ISMOOTH = {} is not offered: 0 and 1 are", spline));
   OutlineOptions out;
+  out.smoothing.amount = number(1);
+  out.smoothing.weighted = spline == 1;
+  if (reals.size() > 3) out.smoothing.zigzag = number(3);
+  if (reals.size() > 4) out.smoothing.kink = number(4);
+  out.smoothing.beside = reals.size() > 5 ? number(5) : out.smoothing.kink / 5;
+  if (reals.size() > 6) out.smoothing.width = 1e3 * base.units.length * number(6);
   out.mirror_y = whole(2) == 1;
   out.mirror_z = whole(3);
   // As in CONTACT: the factor makes millimetres of a profile, whatever the units are.
@@ -53,6 +60,17 @@ void take_design(ModuleOne& one, double length, Numbers v) {
 void take_shift(ModuleOne& one, double length, Numbers v) {
   const double unit[] = {length, length, 1, length, length, 1};
   for (std::size_t k = 0; k < 6; ++k) one.rail_shift[k] = unit[k] * v[k];
+}
+
+void take_support(ModuleOne& one, double length, Numbers v) {
+  require(v, 4, 5, "Z = 32 and 33");
+  if (v[0] < 0 || v[2] < 0) throw Refused(kOther, "KYRAIL and KZRAIL, the rail's stiffness, are not below 0");
+  RailSupport& s = one.forces.rail;
+  for (std::size_t k = 0; k < 2; ++k) {
+    s.stiffness[k] = v[2 * k] / length;
+    s.force[k] = v[2 * k + 1];
+  }
+  s.first_step = (v.size() > 4 ? v[4] : 1e-3 / length) * length;
 }
 
 std::array<double, 6> six(Numbers v, double length) {
@@ -90,7 +108,7 @@ void set_profile(ModuleOne& one, const Problem& base, Numbers values, std::span<
 
 void set_track(ModuleOne& one, const Problem& base, int digit, Numbers v) {
   const double length = base.units.length;
-  if (digit == 32 || digit == 33) throw Refused(kOther, "a massless rail that gives way (F = 3) is not offered");
+  if (digit == 32 || digit == 33) return take_support(one, base.units.length, v);
   if (digit < 0 || digit > 3) throw Refused(kOther, fmt::format("Z = {} does not exist", digit));
   if (digit == 0) return require(v, 0, 0, "Z = 0");
   if (digit == 1) {
@@ -148,7 +166,12 @@ void set_vertical_force(ModuleOne& one, Problem& base, double force) {
   if (!(force > 0) || !std::isfinite(force))
     throw Refused(kOther, fmt::format("a vertical force is above 0, not {:g}", force));
   base.settings.flags[kNorm] = 1;
-  one.load = force;
+  one.forces.load = force;
+}
+
+void set_force_along(ModuleOne& one, double force) {
+  if (!std::isfinite(force)) throw Refused(kTotalForce, "a force along the track is finite");
+  one.forces.along = force;
 }
 
 void set_search(ModuleOne& one, const Problem& base, int number, Numbers v) {

@@ -6,15 +6,28 @@
 #include <numbers>
 #include <utility>
 
+#include "cntc/curved_patch.hpp"
 #include "cntc/drive.hpp"
 #include "cntc/module_one.hpp"
 #include "cntc/results.hpp"
 #include "cntc/settings.hpp"
+#include "cntc/wheel_balance.hpp"
+#include "cntc/wheel_motion.hpp"
+#include "cntc/within_search.hpp"
 
 namespace railstrata::cntc {
 namespace {
 
-constexpr int kMostHeights = 60;
+constexpr int kOnSurfaces = 3, kConformal = 4;
+
+int method_of(const Problem& base) { return flag(base.settings, kDiscretisation) % 10; }
+
+void require_method(const Problem& base) {
+  const int method = method_of(base);
+  if (method > 5)
+    throw Refused(kOther, fmt::format("D = {}: oblique and other searches are not offered, 2 to 5 are", method));
+  if (method == kConformal && on_roller(base)) throw Refused(kOther, "D = 4, conformal contact, is offered on a rail");
+}
 
 void require_settings(const ModuleOne& one, const Problem& base) {
   const auto missing = [](bool is_there, const char* what, const char* call) {
@@ -25,118 +38,14 @@ void require_settings(const ModuleOne& one, const Problem& base) {
   missing(one.has_wheelset, "wheelset", "cntc_setwheelsetdimensions");
   missing(one.steps.dx > 0, "elements", "cntc_setpotcontact with icp = -1");
   missing(base.settings.has_materials, "materials", "cntc_setmaterialparameters");
-  const auto refuse = [&](int code, int least, int most, const char* what) {
-    const int value = flag(base.settings, code);
-    if (value < least || value > most) throw Refused(kOther, fmt::format("{} = {}: {}", what, value, "is not offered"));
-  };
   const int config = flag(base.settings, kConfiguration);
   if (config != 0 && config != 1 && config != 4 && config != 5)
     throw Refused(kOther, fmt::format("CONFIG = {}: 0 and 1 (rail), 4 and 5 (roller) are offered", config));
   if (on_roller(base) && !(one.track.roller_radius != 0))
     throw Refused(kOther, "a roller (CONFIG 4, 5) has a radius, NOMRAD of cntc_settrackdimensions");
-  refuse(kForce, 0, 0, "total tangential forces, F");
-  const int method = flag(base.settings, kDiscretisation) % 10;
-  if (method > 2 && method != 5)
-    throw Refused(
-        kOther, fmt::format("D = {} (conformal, oblique or other contact search) is not offered: 2 and 5 are", method));
-  if (flag(base.settings, kNorm) == 1 && !(one.load > 0))
+  require_method(base);
+  if (flag(base.settings, kNorm) == 1 && !(one.forces.load > 0))
     throw Refused(kOther, "no vertical force: call cntc_setverticalforce");
-}
-
-RigidPair place(ModuleOne& one, const Problem& base, double z) {
-  const double side = side_of(base);
-  const auto& shift = one.rail_shift;
-  const TrackPlace& t = one.track;
-  Vec3 at{0, side * t.y, t.z};
-  if (t.gauge_depth > 0) {
-    const GaugePoint gauge = gauge_point(*one.rail, t.cant, t.gauge_depth);
-    at = {0, 0.5 * t.gauge - gauge.y, on_roller(base) ? 0 : -gauge.top};
-  }
-  one.found.rail_at = marker(at + Vec3{0, side * shift[0], shift[1]}, -t.cant + side * shift[2]);
-  const auto& flexible = one.flexibility.at;
-  const double tread = one.tape_y ? one.wheel->at(*one.tape_y).z : 0;
-  one.found.wheel_in_wheelset = marker({flexible[0], 0.5 * one.flange_distance - one.flange_place + side * flexible[1],
-                                        one.wheel_radius - tread + flexible[2]},
-                                       side * flexible[3], side * flexible[4]);
-  const auto& p = one.wheelset.at;
-  one.found.wheelset_at = marker({0, side * p[1], z - one.wheel_radius}, side * p[3], side * p[4]);
-  RigidPair out;
-  out.rail = &*one.rail;
-  out.wheel = &*one.wheel;
-  out.rail_at = one.found.rail_at;
-  out.wheel_at = placed(one.found.wheelset_at, one.found.wheel_in_wheelset);
-  out.wheel_radius = one.wheel_radius;
-  out.roller_radius = on_roller(base) ? t.roller_radius : 0;
-  return out;
-}
-
-Vec3 mirrored(Vec3 v, double side) { return {v.x, side * v.y, v.z}; }
-Vec3 mirrored_turn(double roll, double pitch, double yaw, double side) { return {side * roll, pitch, side * yaw}; }
-
-/// Velocity and rotation of the bodies at a point, in the axes of the patch.
-struct Moving {
-  Vec3 velocity, turn;
-};
-
-Moving of_rail(const ModuleOne& one, const Problem& base, const Marker& patch) {
-  const double side = side_of(base), curvature = one.track.curvature;
-  const auto& shift = one.rail_shift;
-  const Vec3 arm = patch.at - one.found.rail_at.at;
-  Moving out;
-  if (!on_roller(base)) {
-    const double turning = -side * one.wheelset.rate[0] * curvature;
-    out.turn = {side * shift[5], 0, turning};
-    out.velocity = Vec3{-turning * one.found.rail_at.at.y, side * shift[3], shift[4]} + cross(out.turn, arm);
-    return out;
-  }
-  const Vec3 from_axle = patch.at - Vec3{0, 0, one.track.roller_radius};
-  const Vec3 of_profile{side * shift[5], 0, 0};
-  const double pitch = one.pitch_rate_of_roller;
-  const Vec3 roller{0, pitch, -side * std::abs(from_axle.z) * pitch * curvature};
-  out.turn = of_profile + roller;
-  out.velocity = Vec3{0, side * shift[3], shift[4]} + cross(of_profile, arm) + cross(roller, from_axle);
-  return out;
-}
-
-struct Rolling {
-  double speed = 0, chi = 0;
-  Creepages creepages;  ///< SI
-};
-
-/// (rail - wheel) over the mean of the wheel's way along the track and around its axle. [eve70a/CONTACT, user guide]
-Rolling rolling(const ModuleOne& one, const Problem& base, const WheelRailPatch& patch) {
-  const double side = side_of(base);
-  const Marker& m = patch.plane.reference;
-  const Vec3 point = m.at + patch.approach * m.axes[2];
-  const Moving rail = of_rail(one, base, m);
-  const auto &r = one.wheelset.rate, &f = one.flexibility.rate;
-  const Vec3 in_wheelset = one.found.wheelset_at.to_inner(point);
-  const Vec3 bending = mirrored_turn(f[3], f[5], f[4], side);
-  const Vec3 own = mirrored({f[0], f[1], f[2]}, side) + cross(bending, in_wheelset - one.found.wheel_in_wheelset.at);
-  const Vec3 turn = one.found.wheelset_at.turned(mirrored_turn(r[3], r[5], r[4], side));
-  const Vec3 arm = one.found.wheelset_at.turned(in_wheelset);
-  const Vec3 wheel = mirrored({r[0], r[1], r[2]}, side) + cross(turn, arm) + one.found.wheelset_at.turned(own);
-  const double around = cross(one.found.wheelset_at.turned({0, r[5], 0}), arm).x;
-  Rolling out;
-  const Vec3 slip = m.turned_back(rail.velocity - wheel);
-  const Vec3 spin = m.turned_back(rail.turn - turn - one.found.wheelset_at.turned(bending));
-  const bool shift = flag(base.settings, kTang) == 1;
-  if (shift) {
-    out.speed = 1;
-  } else if (!on_roller(base)) {
-    const double along = wheel.x - rail.velocity.x - around;
-    out.speed = 0.5 * (std::abs(along) + std::abs(around));
-    const bool forward = std::abs(along) >= std::abs(around) ? along >= 0 : around <= 0;
-    out.chi = forward ? 0 : std::numbers::pi;
-  } else {
-    const double roller = m.turned_back(rail.velocity).x;
-    out.speed = 0.5 * std::abs(roller + m.turned_back(wheel).x);
-    const bool forward = std::abs(roller) >= std::abs(wheel.x) ? roller <= 0 : wheel.x <= 0;
-    out.chi = forward ? 0 : std::numbers::pi;
-  }
-  if (out.speed < 1e-9) return out;
-  out.creepages = {slip.x / out.speed, slip.y / out.speed, spin.z / out.speed, 1};
-  return out;
 }
 
 std::vector<double> numbers_at(const std::vector<FrictionSlice>& slices, double at) {
@@ -156,16 +65,19 @@ class Parts {
  public:
   Parts(const WheelRailPatch& patch, const SearchSteps& steps) : boxes_(patch.overlap.parts), steps_(steps) {
     const PatchPlane& plane = patch.plane;
-    const double more = 0.4 * steps.combine, slope = std::cos(plane.angle);
-    for (int j = 0; j < plane.my; ++j)
+    const double more = 0.4 * steps.combine;
+    for (int j = 0; j < plane.my; ++j) {
+      const CurvedRow row =
+          plane.rows.empty() ? CurvedRow{plane.across(j), 0, 0} : plane.rows[static_cast<std::size_t>(j)];
+      const double slope = std::cos(plane.angle + row.turn), y = plane.reference.to_outer({0, row.s, row.n}).y;
       for (int i = 0; i < plane.mx; ++i) {
         const double x = plane.reference.at.x + plane.x + i * plane.dx;
-        const double y = plane.reference.at.y + (plane.s + j * plane.ds) * slope;
         const auto holds = [&](const Box& b) {
           return x >= b.x[0] - more && x <= b.x[1] + more && y >= b.y[0] - more * slope && y <= b.y[1] + more * slope;
         };
         part_.push_back(static_cast<std::size_t>(std::find_if(boxes_.begin(), boxes_.end(), holds) - boxes_.begin()));
       }
+    }
   }
 
   /// Solves without friction until the gap of each part, less what the others do not do to it, is settled.
@@ -227,10 +139,12 @@ class Wheel {
     require_settings(one_, base_);
     keep_before();
     one_.found.patches.clear();
-    if (flag(base_.settings, kNorm) == 0)
-      press(one_.wheelset.at[2], true);
-    else
-      sink();
+    balance(one_, base_,
+            {[this](double z) { return press(z); },
+             [this] { return search_overlaps(place(one_, base_, 0), one_.steps).least_gap; }});
+    std::vector<Overlap> found;
+    for (const WheelRailPatch& patch : one_.found.patches) found.push_back(patch.overlap);
+    if (!on_roller(base_)) require_found(place(one_, base_, one_.wheelset.at[2]), found);
   }
 
  private:
@@ -271,7 +185,7 @@ class Wheel {
   }
 
   /// The patches of the wheel at the height z; the vertical force on the rail.
-  double press(double z, bool with_friction) {
+  double press(double z) {
     one_.wheelset.at[2] = z;
     const RigidPair pair = place(one_, base_, z);
     const Search search = search_overlaps(pair, one_.steps);
@@ -283,53 +197,126 @@ class Wheel {
       WheelRailPatch patch;
       patch.overlap = overlap;
       patch.plane = plane_of(overlap, pair, one_.steps, flag(base_.settings, kMostCells), lattice());
+      if (method_of(base_) == kConformal) bend(patch.plane, overlap, pair);
+      // As in CONTACT, which discards tractions outside of a patch under a given height.
+      const bool keeps = lattice() && flag(base_.settings, kNorm) == 1;
+      const More added = keeps ? more_to_cover(patch.plane, before(overlap.extent)) : More{};
+      widen(patch.plane, added);
       Distance distance = rigid_distance(pair, patch.plane);
+      take_apart(distance, patch.plane, added);
       patch.approach = distance.approach;
       patch.on_wheel = seen_from(pair.wheel_at, patch.plane.reference);
       patch.on_rail = seen_from(pair.rail_at, patch.plane.reference);
       patch.along = one_.wheelset.at[0] + patch.plane.reference.at.x;
       patch.across = one_.rail->arc(patch.on_rail.at.y) - one_.rail->zero_arc();
       one_.found.patches.push_back(std::move(patch));
-      force += solve_patch(static_cast<int>(one_.found.patches.size()), std::move(distance.gap), with_friction,
-                           pair.wheel_at);
+      force += solve_patch(static_cast<int>(one_.found.patches.size()), distance, pair.wheel_at);
     }
     return force;
   }
 
-  double solve_patch(int number, std::vector<double> gap, bool with_friction, const Marker& wheel) {
+  /// The elements that were in contact before are needed for what they do to those of now.
+  static More more_to_cover(const PatchPlane& plane, const std::optional<Solved>& before) {
+    if (!before) return {};
+    const PatchGrid& g = before->on.grid;
+    const Plane& pressure = before->rolling.normal.pressure;
+    const long x0 = std::lround((g.x0 - plane.x - plane.origin_x) / plane.dx);
+    const long s0 = std::lround((g.y0 - plane.s - plane.origin_s) / plane.ds);
+    More by;
+    for (int i = 0; i < g.nx; ++i)
+      for (int j = 0; j < g.ny; ++j) {
+        if (!(pressure[g.index(i, j)] > 0)) continue;
+        const int x = static_cast<int>(x0) + i, s = static_cast<int>(s0) + j;
+        by.before = std::max(by.before, -x);
+        by.behind = std::max(by.behind, x - plane.mx + 1);
+        by.below = std::max(by.below, -s);
+        by.above = std::max(by.above, s - plane.my + 1);
+      }
+    return by;
+  }
+
+  /// Nothing touches in the elements that were added: there may be another patch.
+  static void take_apart(Distance& distance, const PatchPlane& plane, const More& added) {
+    constexpr double kApart = 0.05;  // m
+    double least = kApart;
+    for (int j = 0; j < plane.my; ++j)
+      for (int i = 0; i < plane.mx; ++i) {
+        double& gap = distance.gap[static_cast<std::size_t>(i + plane.mx * j)];
+        const bool own_x = i >= added.before && i < plane.mx - added.behind;
+        if (own_x && j >= added.below && j < plane.my - added.above)
+          least = std::min(least, gap);
+        else
+          gap = kApart;
+      }
+    for (double& gap : distance.gap) gap -= least;
+    distance.approach -= least;
+  }
+
+  double solve_patch(int number, const Distance& distance, const Marker& wheel) {
     WheelRailPatch& patch = one_.found.patches[static_cast<std::size_t>(number - 1)];
     Problem& problem = problems_.patch(number);
     const PatchPlane& plane = patch.plane;
     problem.units = base_.units;
     problem.side = side_of(base_);
     problem.settings = base_.settings;
+    problem.rows = plane.rows;
     Settings& s = problem.settings;
     problem.origin_x = plane.origin_x;
     problem.origin_y = plane.origin_s;
     problem.broken = false;
     s.grid = {3, plane.mx, plane.my, {plane.x + plane.origin_x, plane.s + plane.origin_s, plane.dx, plane.ds}};
-    s.gap = {9, 0, 0, std::move(gap)};
-    s.flags[kNorm] = 0;
-    s.flags[kTang] = with_friction ? flag(base_.settings, kTang) : 0;
+    s.gap = {9, 0, 0, distance.gap};
+    s.flags[kNorm] = s.flags[kForce] = 0;
+    s.flags[kTang] = flag(base_.settings, kTang);
     s.approach = patch.approach;
-    const Rolling moving = rolling(one_, base_, patch);
+    set_motion(patch, distance, s);
+    if (one_.varies > 0) set_slice(patch, problem);
+    if (patch.overlap.parts.size() > 1) Parts(patch, one_.steps).settle(problem);
+    problem.solved = before(patch.overlap.extent);
+    s.flags[kTime] = problem.solved ? 0 : 2;
+    solve(problem, remarks_);
+    add_up(patch, problem, wheel);
+    return patch.force.z;
+  }
+
+  void set_motion(const WheelRailPatch& patch, const Distance& distance, Settings& s) const {
+    const PatchPlane& plane = patch.plane;
+    const int method = method_of(base_);
+    Rolling moving;
+    if (method == kOnSurfaces || method == kConformal) {
+      SurfaceSlip slip = surface_slip(one_, base_, plane, distance);
+      moving = slip.rolling;
+      s.flags[kExtraSlip] = 1;
+      // As the interface has it: of a shift in mm.
+      const double unit = flag(base_.settings, kTang) == 1 ? 1e3 : 1;
+      for (std::vector<double>* part : {&slip.more_x, &slip.more_y})
+        for (double& value : *part) value *= unit;
+      s.extra_x = std::move(slip.more_x);
+      s.extra_y = std::move(slip.more_y);
+    } else {
+      moving = rolling(one_, base_, patch);
+    }
     s.creepages = moving.creepages;
     s.creepages.x += moving.creepages.spin * plane.origin_s;
     s.creepages.y -= moving.creepages.spin * plane.origin_x;
     s.chi = moving.chi;
     s.speed = std::max(moving.speed, 1e-12);
     s.step = one_.relative_step * plane.dx;
-    if (one_.varies > 0)
-      set_friction(problem, one_.friction_digit,
-                   numbers_at(one_.slices, one_.varies == 1 ? patch.on_wheel.roll() : one_.wheelset.at[0]));
-    if (patch.overlap.parts.size() > 1) Parts(patch, one_.steps).settle(problem);
-    problem.solved = before(patch.overlap.extent);
-    s.flags[kTime] = problem.solved ? 0 : 2;
-    std::vector<std::string> remarks;
-    solve(problem, remarks);
-    if (with_friction) remarks_.insert(remarks_.end(), remarks.begin(), remarks.end());
-    add_up(patch, problem, wheel);
-    return patch.force.z;
+  }
+
+  /// Friction by the inclination or the place; of a curved patch each row has its own.
+  void set_slice(const WheelRailPatch& patch, Problem& problem) const {
+    const bool by_angle = one_.varies == 1;
+    const double at = by_angle ? patch.on_wheel.roll() : one_.wheelset.at[0];
+    set_friction(problem, one_.friction_digit, numbers_at(one_.slices, at));
+    if (!by_angle || patch.plane.rows.empty()) return;
+    if (one_.friction_digit != 0)
+      throw Refused(kFriction,
+                    "friction by the inclination (V = 1) of a conformal contact (D = 4) is offered with L = 0");
+    for (const CurvedRow& row : patch.plane.rows) {
+      const std::vector<double> numbers = numbers_at(one_.slices, patch.plane.angle + row.turn);
+      problem.settings.row_friction.push_back(std::max(1e-6, std::min(numbers[0], numbers[1])));
+    }
   }
 
   void add_up(WheelRailPatch& patch, const Problem& problem, const Marker& wheel) const {
@@ -342,45 +329,6 @@ class Wheel {
     patch.moment_on_wheel = one_.found.wheelset_at.turned_back(cross(m.at - wheel.at, patch.force) + moment);
   }
 
-  /// The height under the load: F = k (z - z_0)^(3/2) through the last heights, between heights that bracket it.
-  void sink() {
-    const double load = one_.load, touching = search_overlaps(place(one_, base_, 0), one_.steps).least_gap;
-    constexpr double kFirst = 5e-5;  // m
-    const bool near = flag(base_.settings, kTime) == 0 || flag(base_.settings, kEstimate) > 0;
-    double low = touching, high = touching, z = touching + (near && one_.found.sunk > 0 ? one_.found.sunk : kFirst);
-    double force = 0;
-    bool bracketed = false;
-    for (int k = 0; k < kMostHeights; ++k) {
-      force = press(z, true);
-      one_.found.sunk = z - touching;
-      if (std::abs(force - load) <= base_.settings.tolerance * load) return;
-      if (force < load)
-        low = std::max(low, z);
-      else {
-        high = z;
-        bracketed = true;
-      }
-      const double sunk = z - touching;
-      double next = touching + (force > 0 ? sunk * std::pow(load / force, power(z - touching, force)) : 2 * sunk);
-      next = std::min(next, touching + 4 * sunk);
-      if (bracketed && !(next > low && next < high)) next = 0.5 * (low + high);
-      if (!bracketed && next <= low) next = low + 0.5 * sunk;
-      if (std::abs(next - z) < 1e-13) return;
-      z = next;
-    }
-    throw Refused(kTotalForce, fmt::format("no height of the wheelset was found for the vertical force {:g}", load));
-  }
-
-  /// 1/n of F = k sunk^n through this height and the one before.
-  double power(double sunk, double force) {
-    double out = 2.0 / 3;
-    if (last_force_ > 0 && force > 0 && force != last_force_ && sunk != last_sunk_)
-      out = std::clamp(std::log(sunk / last_sunk_) / std::log(force / last_force_), 0.1, 1.5);
-    last_sunk_ = sunk;
-    last_force_ = force;
-    return out;
-  }
-
   struct Before {
     Box extent;
     std::optional<Solved> solved;
@@ -391,7 +339,6 @@ class Wheel {
   PatchProblems& problems_;
   std::vector<Before> before_;
   std::vector<std::string>& remarks_;
-  double last_sunk_ = 0, last_force_ = 0;
 };
 
 }  // namespace

@@ -60,9 +60,11 @@ Outline outline(ProfileKind kind, std::vector<Vec2> points, const OutlineOptions
   if (points.size() >= 2 && points.front().y > points.back().y) std::reverse(points.begin(), points.end());
   const bool turn = options.mirror_z == 1 || (options.mirror_z == 0 && points.size() >= 2 && points_up(kind, points));
   // CONTACT's z is down, that of a Profile up.
-  for (Vec2& p : points) p = (kMilli * options.scale) * Vec2{p.y, turn ? p.z : -p.z};
-  const auto repeated = [](Vec2 a, Vec2 b) { return norm(a - b) < kSamePoint; };
+  for (Vec2& p : points) p = options.scale * Vec2{p.y, turn ? p.z : -p.z};
+  const auto repeated = [](Vec2 a, Vec2 b) { return kMilli * norm(a - b) < kSamePoint; };
   points.erase(std::unique(points.begin(), points.end(), repeated), points.end());
+  points = smoothed(without_zigzags(points, options.smoothing.zigzag), options.smoothing);
+  for (Vec2& p : points) p = kMilli * p;
   const double zero = begin_of_arc(points);
   double aside = 0;
   if (!points.empty() && points.front().y * points.back().y > 0) aside = points[points.size() / 2].y;

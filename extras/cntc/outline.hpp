@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cntc/profile_smoothing.hpp"
 #include "geometry/profile.hpp"
 
 namespace railstrata::cntc {
@@ -13,6 +14,7 @@ struct OutlineOptions {
   bool mirror_y = false;
   int mirror_z = 0;    ///< 0: z is turned down where it points up, -1: as it is, 1: turned
   double scale = 1e3;  ///< mm in the unit of the points
+  Smoothing smoothing;
 };
 
 /// A profile with points of its running surface for searches.

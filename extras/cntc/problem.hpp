@@ -14,6 +14,7 @@
 
 #include "bem/influence_operator.hpp"
 #include "bem/rolling_contact.hpp"
+#include "cntc/curved_row.hpp"
 #include "cntc/units.hpp"
 #include "halfspace/layered.hpp"
 
@@ -96,6 +97,7 @@ struct Settings {
   Creepages creepages;
   double relative_x = 0, relative_y = 0;  ///< forces on body 1 over fstat fn
   std::vector<double> extra_x, extra_y;   ///< in the order of the elements
+  std::vector<double> row_friction;       ///< of each row of elements; empty: that of the law
   double chi = 0;                         ///< rad
   std::optional<double> step;             ///< m
   double speed = 1;                       ///< m/s
@@ -127,6 +129,7 @@ struct Solved {
   ThirdBody film;
   std::array<double, 2> flexibility{0, 0};  ///< m/Pa, L / k of simplified theory along x and y; 0: half-spaces
   double reduction = 1;                     ///< k of simplified theory
+  Plane local_friction;                     ///< of each element; empty: uniform
   std::array<Plane, 3> late;                ///< m, displacement by delay along the normal, x and y; empty: elastic
   Plane temperature;                        ///< of each element, °C; empty: H = 0
   double speed = 1;
@@ -152,6 +155,7 @@ struct Problem {
   double origin_x = 0, origin_y = 0;  ///< m, the point of forces and creepages, in the coordinates of the elements
   bool of_wheel = false;              ///< settings and patches of module 1
   double side = 1;                    ///< -1: of a left wheel, which is seen in a mirror: y of results is turned
+  std::vector<CurvedRow> rows;        ///< of elements on a curved surface; empty: a plane
   Settings settings;
   InfluenceCache cache;
   std::optional<Solved> solved;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cntc/discretise.hpp"
+#include "cntc/marker.hpp"
 #include "cntc/simplified.hpp"
 
 namespace railstrata::cntc {
@@ -60,7 +61,7 @@ Plane normal_displacement(const Solved& s) {
 
 Plane friction_field(const Solved& s) {
   const TangentialSolution& t = s.rolling.tangential;
-  Plane out(s.on.grid.size(), s.friction.at_rest);
+  Plane out = s.local_friction.empty() ? Plane(s.on.grid.size(), s.friction.at_rest) : s.local_friction;
   if (!s.friction.by_temperature.empty() && !s.temperature.empty())
     for (std::size_t k = 0; k < out.size(); ++k) out[k] *= over_table(s.friction.by_temperature, s.temperature[k]);
   if (!t.lost_friction.empty())
@@ -129,9 +130,15 @@ Resultant resultant(const Problem& p) {
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {
       const std::size_t k = g.index(i, j);
-      const Vec3 traction{-t.q_x[k], -t.q_y[k], s.rolling.normal.pressure[k]};
+      Vec3 traction{-t.q_x[k], -t.q_y[k], s.rolling.normal.pressure[k]};
+      Vec3 place{g.x(i) - p.origin_x, g.y(j) - p.origin_y, 0};
+      if (!p.rows.empty()) {
+        const CurvedRow& row = p.rows[static_cast<std::size_t>(j)];
+        traction = marker({}, row.turn).turned(traction);
+        place = {place.x, row.s, row.n};
+      }
       out.force += traction;
-      out.moment += cross(Vec3{g.x(i) - p.origin_x, g.y(j) - p.origin_y, 0}, traction);
+      out.moment += cross(place, traction);
     }
   return {g.cell_area() * out.force, g.cell_area() * out.moment};
 }
@@ -146,8 +153,8 @@ Grid grid_of(const Problem& p) {
 std::array<double, 4> forces(const Problem& p) {
   const Resultant r = resultant(p);
   const double body = p.units.body;
-  return {solution(p).rolling.normal.load, body * r.force.x, body * p.side * r.force.y,
-          body * p.side * r.moment.z / p.units.length};
+  const double normal = p.rows.empty() ? solution(p).rolling.normal.load : r.force.z;
+  return {normal, body * r.force.x, body * p.side * r.force.y, body * p.side * r.moment.z / p.units.length};
 }
 
 std::array<double, 3> creepages(const Problem& p) {

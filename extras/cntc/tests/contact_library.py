@@ -188,16 +188,19 @@ class Wheel(Contact):
         getattr(self.library, name)(c_int(self.ire), c_int(digit), c_int(len(values)),
                            (c_double * max(1, len(values)))(*values))
 
-    def profile(self, file, kind, mirror_y, mirror_z, scale, smooth):
-        ints, reals = (c_int * 4)(kind, 0, mirror_y, mirror_z), (c_double * 2)(scale, smooth)
+    def profile(self, file, kind, mirror_y, mirror_z, scale, smooth, spline=0, kinks=()):
+        """kinks: largest share of points left out, ZIGTHRS, KINKHIGH, KINKLOW, KINKWID."""
+        values = [scale, smooth, *kinks]
+        ints, reals = (c_int * 6)(kind, 0, mirror_y, mirror_z, 0, spline), (c_double * len(values))(*values)
         name = str(file).encode()
-        self.library.cntc_setprofileinputfname(c_int(self.ire), name, c_int(len(name)),
-                                               c_int(4), ints, c_int(2), reals)
+        self.library.cntc_setprofileinputfname(c_int(self.ire), name, c_int(len(name)), c_int(6), ints,
+                                               c_int(len(values)), reals)
 
-    def profile_values(self, points, kind, scale=1.0):
+    def profile_values(self, points, kind, scale=1.0, smooth=0.0, spline=0):
         flat = [float(v) for point in points for v in point]
         self.library.cntc_setprofileinputvalues(c_int(self.ire), c_int(len(points)), (c_double * len(flat))(*flat),
-                                                c_int(1), (c_int * 1)(kind), c_int(1), (c_double * 1)(scale))
+                                                c_int(6), (c_int * 6)(kind, 0, 0, 0, 0, spline), c_int(2),
+                                                (c_double * 2)(scale, smooth))
 
     def load(self, force):
         self.library.cntc_setverticalforce(c_int(self.ire), c_double(force))
@@ -222,3 +225,8 @@ class Wheel(Contact):
 
     def global_forces(self, icp=-1):
         return self.list_of("cntc_getglobalforces", icp, 24)
+
+    def list_of_wheel(self, name, count):
+        out = (c_double * count)()
+        getattr(self.library, name)(c_int(self.ire), c_int(count), out)
+        return list(out)

@@ -66,11 +66,15 @@ def profile(c, lines, folder, kind):
     if not file:
         raise Unread(line.strip())
     options = numbers(file[2])
-    mirror_z = int(options[3]) if len(options) > 3 else 0
-    if len(options) > 4:
-        for _ in range(int(options[4])):
-            lines.next()
-    c.profile(folder / file[1].replace("\\", "/"), kind, int(options[0]), mirror_z, options[1], options[2])
+    mirror_z, more = (int(v) for v in (options[3:5] + [0, 0])[:2])
+    spline, kinks = 0, []
+    if more >= 1:
+        spline, *angles = lines.numbers(5)[:5]
+        kinks = [0.5, *angles]
+    if more >= 2:
+        lines.next()
+    c.profile(folder / file[1].replace("\\", "/"), kind, int(options[0]), mirror_z, options[1], options[2],
+              int(spline), kinks)
 
 
 def friction(c, lines, varies, law):
@@ -98,13 +102,15 @@ def design(values, roller):
     return values[:3] + fourth + [values[4] if len(values) > 4 else 0.0]
 
 
-def track(c, lines, folder, digit, roller):
+def track(c, lines, folder, digit, roller, gives_way):
     values = design(lines.numbers(4), roller) if digit in (1, 3) else []
     if digit == 3:
         profile(c, lines, folder, 0)
     if digit in (2, 3):
         values += lines.numbers(6)[:6]
     c.wheel("cntc_settrackdimensions", digit, values)
+    if digit in (2, 3) and gives_way:
+        c.wheel("cntc_settrackdimensions", 30 + digit, lines.numbers(4))
 
 
 def wheelset(c, lines, folder, digit, normal, forces):
@@ -120,8 +126,9 @@ def wheelset(c, lines, folder, digit, normal, forces):
         c.wheel("cntc_setwheelsetposition", digit, values)
     if digit >= 2:
         values = lines.numbers(6)[:6]
-        if forces != 0:
-            raise Unread(f"F = {forces}")
+        if forces == 1:
+            c.call("cntc_settangentialforces", values[5], 0.0)
+            values[5] = 0.0
         c.wheel("cntc_setwheelsetvelocity", digit, values)
     if digit >= 4:
         c.wheel("cntc_setwheelsetflexibility", digit, lines.numbers(6)[:6] + lines.numbers(6)[:6])
@@ -146,6 +153,8 @@ def set_case(c, lines, folder):
         c.call("cntc_setsolverflags", 0, 4, [int(v) for v in values[:4]], 1, [values[4]])
     if law != 1:
         friction(c, lines, varies, law)
+    if influence == 4:
+        raise Unread("C = 4")
     if influence >= 2:
         if m not in MORE_OF_MATERIAL:
             raise Unread(f"M = {m}")
@@ -161,7 +170,7 @@ def set_case(c, lines, folder):
         values = lines.numbers(6)
         c.call("cntc_setrollingstepsize", 0.0, values[2])
         c.grid(-1, values[:2] + values[3:])
-    track(c, lines, folder, z, config >= 4)
+    track(c, lines, folder, z, config >= 4, f == 3)
     wheelset(c, lines, folder, e, n, f)
     if stress >= 2:
         subsurface(lines)
@@ -181,9 +190,10 @@ def printed(path):
         for part in parts:
             lines, values = part.splitlines(), {}
             for k, line in enumerate(lines[:-1]):
-                if re.match(r" +(FX\(TR\)|XCP\(TR\)|XCP\(W\)|CHI|FN|FN/G|NPOT) ", line):
+                if re.match(r" +(FX\(TR\)|XCP\(TR\)|XCP\(W\)|CHI|FN|FN/G|BAR_FN|TILDE_FN|NPOT) ", line):
                     values.update(rows(lines, k))
-            found.append(values)
+            # Of a conformal contact: the forces in the reference's axes.
+            found.append({name.removeprefix("BAR_"): value for name, value in values.items()})
         out[int(number)] = found
     return out
 
@@ -243,6 +253,8 @@ def run(library, file, options):
             wrong, most = differences(c, wanted[number])
         except (Refusal, Unread, IndexError, KeyError) as e:
             reasons.append(str(e))
+            if options.verbose:
+                print(f"  {file.stem} case {number}: {e}")
             continue
         good += not wrong
         off += bool(wrong)
@@ -251,9 +263,9 @@ def run(library, file, options):
         if options.verbose:
             print(f"  {file.stem} case {number}: {', '.join(wrong) or 'equal'}")
             if wrong or options.numbers:
-                for number, patch in enumerate(wanted[number][1:], 1):
-                    for name, value in answers(c, number).items():
-                        print(f"      {number} {name:12} {value:14.6g} {patch.get(name, float('nan')):14.6g}")
+                for k, patch in enumerate(wanted[number][1:], 1):
+                    for name, value in answers(c, k).items():
+                        print(f"      {k} {name:12} {value:14.6g} {patch.get(name, float('nan')):14.6g}")
     print(f"{file.stem:22} {cases:5} {good:6} {off:5}  {worst['place']:8.4f} {100 * worst['force']:8.3f}  "
           f"{'; '.join(dict.fromkeys(reasons))[:400]}", flush=True)
     return cases, good, off

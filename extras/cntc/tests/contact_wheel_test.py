@@ -195,17 +195,115 @@ class WheelOnRail(unittest.TestCase):
             for value, expected, arm in ((found[1], fx, 1), (found[2], fs, 1), (about, moment, 4)):  # mm, a half axis
                 self.assertAlmostEqual(value, expected, delta=1e-3 * 239.8 * arm, msg=number)
 
+    def test_conformal_contact_is_that_of_contact(self):
+        """CONTACT's example mbench_conf, the wheel in the gauge corner: forces 0.1 % of FN, creepages 0.1 %."""
+        slices = [2.0, math.radians(-20), 0.2, 0.2, math.radians(-10), 0.3, 0.3]
+        c = wheel("right", friction=(10, slices))
+        c.flag(DISCRETISATION, 4)
+        c.flags(N=0)
+        c.grid(-1, [0.2, 0.2, math.pi / 2, 9, 6])
+        c.wheel("cntc_settrackdimensions", 3, [14, 0, 1435, 0.025] + 7 * [0.0])
+        c.wheel("cntc_setwheelsetposition", 2, [0, 6.25, 0.1720, 0, 0.024, 0])
+        c.wheel("cntc_setwheelsetvelocity", 2, [SPEED, 0, 0, 0, 0, -4.3481124])
+        self.assertEqual(c.calculate(), 0, c.error())
+        printed = [((8677, -573.0, -1669), (9.357e-3, 2.659e-2, 9.007e-4), (-12.2183, 724.9451, 4.5350, -0.4232)),
+                   ((3310, -220.4, -626.1), (2.540e-2, 7.204e-2, 2.042e-3), (14.0993, 718.0626, 11.9436, -1.2220))]
+        self.assertEqual(c.patches(), len(printed))
+        for number, (forces, creepages, place) in enumerate(printed, 1):
+            for value, expected in zip(c.patch(number).forces(), forces):
+                self.assertAlmostEqual(value, expected, delta=1e-3 * forces[0])
+            for value, expected in zip(c.patch(number).creepages(), creepages):
+                self.assertAlmostEqual(value, expected, delta=1e-3 * expected)
+            for value, expected in zip(c.location(number), place):
+                self.assertAlmostEqual(value, expected, delta=5e-3)
+
+    def test_slip_on_the_surfaces_is_that_of_the_plane_on_the_tread(self):
+        """D = 3 for D = 2, to the part of the creepage that the tread's curvature makes."""
+        plane, surface = wheel("right", ire=1), wheel("right", ire=2)
+        surface.flag(DISCRETISATION, 3)
+        for c in (plane, surface):
+            self.assertEqual(roll(c, 2.0, 0, 0, -4.3481181), 0, c.error())
+        for a, b in zip(plane.global_forces()[:3], surface.global_forces()[:3]):
+            self.assertAlmostEqual(a, b, delta=2e-3 * LOAD)
+
+    def test_a_force_along_the_track_gives_the_pitch_rate_that_needs_it(self):
+        for side in ("left", "right"):
+            c = wheel(side)
+            c.flag(FORCE, 1)
+            for wanted in (-1500.0, 0.0, 800.0):
+                c.call("cntc_settangentialforces", wanted, 0.0)
+                self.assertEqual(roll(c, 1.0, 0, 0, 0.0), 0, c.error())
+                self.assertAlmostEqual(c.global_forces()[6], wanted, delta=1e-4 * LOAD)
+                self.assertAlmostEqual(c.global_forces()[2], LOAD, delta=2e-5 * LOAD)
+            found = c.list_of_wheel("cntc_getwheelsetvelocity", 6)
+            free = wheel(side, ire=2)
+            self.assertEqual(roll(free, 1.0, 0, 0, found[5]), 0)
+            self.assertAlmostEqual(free.global_forces()[6], wanted, delta=1e-4 * LOAD)
+        c.call("cntc_settangentialforces", 0.5 * LOAD, 0.0)  # friction carries 0.3 of it
+        self.assertEqual(roll(c, 1.0, 0, 0, 0.0), -26)
+        self.assertIn("no pitch rate has the given force", c.error()[1])
+
+    def test_a_rail_gives_way_until_its_springs_carry_the_wheel(self):
+        for side in ("left", "right"):
+            across, down, extra = 2e4, 5e4, (300.0, -700.0)
+            c = wheel(side)
+            c.flag(FORCE, 3)
+            c.wheel("cntc_settrackdimensions", 32, [across, extra[0], down, extra[1]])
+            self.assertEqual(roll(c, 2.0 if side == "right" else -2.0, 0, 0.005, -4.3481181), 0, c.error())
+            way, force = c.location(1)[17:19], c.global_forces()
+            self.assertAlmostEqual(force[1] + extra[0], across * way[0], delta=1e-4 * LOAD)
+            self.assertAlmostEqual(force[2] + extra[1], down * way[1], delta=1e-4 * LOAD)
+            height = c.list_of_wheel("cntc_getwheelsetposition", 6)
+            c.flags(N=0)
+            c.wheel("cntc_setwheelsetposition", 2, height)
+            self.assertEqual(c.calculate(), 0, c.error())
+            self.assertAlmostEqual(c.global_forces()[2], LOAD, delta=1e-3 * LOAD)
+            self.assertAlmostEqual(c.location(1)[18], way[1], delta=1e-3 * way[1])
+
+    def test_smoothing_takes_noise_out_of_a_profile(self):
+        """Points of the tread up and down by 3 um, 0.1 mm apart: pressures as without, with SMOOTH of both kinds."""
+        listed = points("mbench_wheel.csv")
+        near = [k for k, (y, _) in enumerate(listed) if abs(y) < 30]
+        fine = [(y, z0 + (y - y0) / (y1 - y0) * (z1 - z0)) for k in near[:-1]
+                for (y0, z0), (y1, z1) in [(listed[k], listed[k + 1])]
+                for y in [y0 + (y1 - y0) * i / 5 for i in range(5)]]
+        rough = [(y, z + (0.003 if k % 2 else -0.003)) for k, (y, z) in enumerate(fine)]
+        found = {}
+        for name, values, smooth, spline in (("fine", fine, 0, 0), ("old", rough, 2.0, 0), ("new", rough, 5.0, 1)):
+            c = wheel("right")
+            c.profile_values(values, 1, smooth=smooth, spline=spline)
+            self.assertEqual(roll(c, 0.0, 0, 0, -4.3481181), 0, c.error())
+            found[name] = c.patch(1).p_max()
+        self.assertAlmostEqual(found["old"], found["fine"], delta=0.03 * found["fine"])
+        self.assertAlmostEqual(found["new"], found["fine"], delta=0.03 * found["fine"])
+
+    def test_a_wheel_in_the_side_of_a_rail_is_refused(self):
+        """The back of its flange in a guard rail."""
+        c = wheel("right")
+        c.flags(N=0)
+        back = [(-70.0, 4.0), (-69.7, 15.0), (-67.0, 22.0), (-62.0, 26.5), (-55.0, 27.5)]
+        c.profile_values(back + points("mbench_wheel.csv"), 1)
+        corner = [(25 + 5 * math.sin(a), 5 - 5 * math.cos(a)) for a in [math.radians(6 * k) for k in range(16)]]
+        half = [(2.5 * k, 0.0) for k in range(10)] + corner + [(30.0, 5.0 + 2.5 * k) for k in range(1, 11)]
+        c.profile_values([(-y, z) for y, z in half[:0:-1]] + half, 0)
+        c.wheel("cntc_settrackdimensions", 3, [-1.0, 651.0, 2.0] + 8 * [0.0])
+        c.wheel("cntc_setwheelsetposition", 2, [0, 0, 0, 0, 0, 0])
+        c.wheel("cntc_setwheelsetvelocity", 2, [SPEED, 0, 0, 0, 0, -4.3481181])
+        self.assertEqual(c.calculate(), -25)
+        self.assertRegex(c.error()[1], "end of a profile|contacts on the side of a rail are not offered")
+
     def test_what_is_not_offered_is_refused_in_contacts_names(self):
         def refused(code, words, change):
             c = wheel("left")
             change(c)
-            self.assertEqual(roll(c, 0.0, 0, 0, -4.3481181), code)
+            self.assertEqual(roll(c, 0.0, 0, 0, -4.3481181), code, words)
             self.assertIn(words, c.error()[1])
 
-        refused(-99, "D = 4", lambda c: c.flag(DISCRETISATION, 4))
-        refused(-99, "F = 3", lambda c: c.wheel("cntc_settrackdimensions", 33, [0, 0, 0, 0]))
+        refused(-99, "D = 6", lambda c: c.flag(DISCRETISATION, 6))
+        refused(-99, "F = 0 to 2 (module 3), 0, 1 and 3 (module 1)", lambda c: c.flag(FORCE, 2))
+        refused(-99, "KZRAIL", lambda c: c.wheel("cntc_settrackdimensions", 33, [0, 0, -1, 0]))
         refused(-32, "slcs", lambda c: c.profile("nose.slcs", 0, 0, 0, 1.0, 0.0))
-        refused(-32, "SMOOTH", lambda c: c.profile("rail.prr", 0, 0, 0, 1.0, 2.0))
+        refused(-32, "ISMOOTH", lambda c: c.profile("rail.prr", 0, 0, 0, 1.0, 2.0, spline=2))
         refused(-25, "does not stand over the rail",
                 lambda c: c.wheel("cntc_setwheelsetdimensions", 3, [1860, -70, 460]))
         c = Wheel(library)
