@@ -1,5 +1,6 @@
 // A vehicle code's use of the C interface: 1,000 contacts along a lateral sweep, as one time step after the other would
-// ask for them (LMA on CN60, 85 kN, creepage 1e-3, cells of 0.5 mm: about 500 in contact). CPU time of one thread.
+// ask for them (LMA on CN60 and S1002 on UIC60, 85 kN, creepage 1e-3, cells of 0.5 mm: about 500 in contact). CPU time
+// of one thread.
 //
 // Lines: median, 90 % and 99 % quantile of a solution, each started from the one before (warm) or anew (cold), without
 // a layer and with 2 mm at 2 E0; with a yaw, and a roll besides; rs_jacobian by six inputs after each solution. Then
@@ -28,6 +29,8 @@ double cpu_seconds() {
 }
 
 constexpr const char *kPlain = "[geometry]\nlateral_shift = \"0 mm\"\n",
+                     *kEuropean =
+                         "[geometry]\nlateral_shift = \"0 mm\"\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\n",
                      *kLayered =
                          "[geometry]\nlateral_shift = \"0 mm\"\n[[layer]]\nthickness = \"2 mm\"\nyoung_ratio = 2\n";
 
@@ -93,13 +96,17 @@ void lateral_sweep(benchmark::State& state, const Sweep& sweep) {
   BENCHMARK_CAPTURE(lateral_sweep, name, Sweep __VA_ARGS__)->Unit(benchmark::kMillisecond)->Iterations(1)
 SWEEP(plain_warm, {kPlain, true});
 SWEEP(plain_cold, {kPlain, false});
+SWEEP(european_warm, {kEuropean, true});
+SWEEP(european_cold, {kEuropean, false});
 SWEEP(layered_warm, {kLayered, true});
 SWEEP(layered_cold, {kLayered, false});
 SWEEP(yaw_1e6_warm, {kPlain, true, 1e-6});
 SWEEP(yaw_warm, {kPlain, true, 5e-3});
+SWEEP(european_yaw_warm, {kEuropean, true, 5e-3});
 SWEEP(yaw_cold, {kPlain, false, 5e-3});
 SWEEP(roll_warm, {kPlain, true, 5e-3, 1e-3});
 SWEEP(plain_derivatives, {kPlain, true, 5e-3, 0, true});
+SWEEP(european_derivatives, {kEuropean, true, 5e-3, 0, true});
 SWEEP(layered_derivatives, {kLayered, true, 5e-3, 0, true});
 
 /// Shift within 6 mm, yaw within 5e-3, the roll that cones of 1:20 give with the shift, load 85 kN and 30 % more or
@@ -119,11 +126,11 @@ rs_state running(Share&& share) {
 }
 
 /// Successive: two waves of hunting, as of 15 m at 30 m/s in steps of 1 ms, the load in five waves.
-void run_of_states(benchmark::State& state, bool successive) {
+void run_of_states(benchmark::State& state, const char* text, bool successive) {
   railstrata::set_threads(1);
   constexpr int kSolutions = 1000;
   rs_error error{};
-  rs_contact* contact = rs_contact_from_text(kPlain, nullptr, 0, &error);
+  rs_contact* contact = rs_contact_from_text(text, nullptr, 0, &error);
   rs_set_cell(contact, 0.5e-3, &error);
   rs_forces forces{};
   forces.size = sizeof(forces);
@@ -146,8 +153,12 @@ void run_of_states(benchmark::State& state, bool successive) {
   tell(state, seconds, "");
   state.counters["failed"] = failed;
 }
-BENCHMARK_CAPTURE(run_of_states, successive, true)->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK_CAPTURE(run_of_states, random, false)->Unit(benchmark::kMillisecond)->Iterations(1);
+#define STATES(name, ...) \
+  BENCHMARK_CAPTURE(run_of_states, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)->Iterations(1)
+STATES(successive, kPlain, true);
+STATES(random, kPlain, false);
+STATES(european_successive, kEuropean, true);
+STATES(european_random, kEuropean, false);
 
 }  // namespace
 

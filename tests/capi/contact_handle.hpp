@@ -10,6 +10,9 @@ namespace railstrata {
 
 inline const std::string kQuick = source_dir() / "cases/quick/case.toml";
 
+/// A European pair in place of LMA on CN60.
+inline const std::vector<const char*> kEuropean{"geometry.wheel_profile=\"S1002\"", "geometry.rail_profile=\"UIC60\""};
+
 struct Handle {
   explicit Handle(const std::vector<const char*>& overrides = {})
       : handle(rs_contact_new(kQuick.c_str(), overrides.data(), static_cast<int>(overrides.size()), &error)) {

@@ -122,9 +122,10 @@ Deviations deviations(const std::vector<const char*>& overrides, int states) {
 }
 
 const std::vector<const char*> kUniform{"layer.0.young_ratio=1"}, kStiffLayer{};
+const std::vector<const char*> kCases[] = {kUniform, kStiffLayer, kEuropean};
 
 TEST(CDerivatives, AreTheSlopesOfNewSolutions) {
-  for (const auto& overrides : {kUniform, kStiffLayer}) {
+  for (const auto& overrides : kCases) {
     const Deviations found = deviations(overrides, 2);
     EXPECT_LT(found.largest, 1e-4);
     EXPECT_LT(found.at_jumps, 0.05 * found.compared);
@@ -132,7 +133,7 @@ TEST(CDerivatives, AreTheSlopesOfNewSolutions) {
 }
 
 TEST(SlowCDerivatives, AreTheSlopesOfNewSolutions) {
-  for (const auto& overrides : {kUniform, kStiffLayer}) {
+  for (const auto& overrides : kCases) {
     const Deviations found = deviations(overrides, 25);
     EXPECT_LT(found.largest, 1e-4);
     EXPECT_LT(found.at_jumps, 0.05 * found.compared);

@@ -7,9 +7,11 @@ import pytest
 import railstrata as rs
 
 
-@pytest.fixture(scope="module")
-def wheelset():
-    return rs.Wheelset("cases/quick", "1 mm", threads=1)
+@pytest.fixture(scope="module", params=[("LMA", "CN60"), ("S1002", "UIC60")], ids=lambda pair: pair[0])
+def wheelset(request):
+    wheel, rail = request.param
+    case = rs.Case("cases/quick").with_({"geometry.wheel_profile": wheel, "geometry.rail_profile": rail})
+    return rs.Wheelset(case, "1 mm", threads=1)
 
 
 def test_a_wheelset_bears_its_load_and_roll_moment(wheelset):
