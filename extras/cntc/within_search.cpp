@@ -60,6 +60,7 @@ void require_found(const RigidPair& pair, const std::vector<Overlap>& found) {
     const Vec3 q = pair.rail_at.to_outer({0, p.y, p.z});
     p = {q.y, q.z};
   }
+  const double top = std::min_element(rail.begin(), rail.end(), [](Vec2 a, Vec2 b) { return a.z < b.z; })->z;
   const auto is_found = [&](double y) {
     return std::any_of(found.begin(), found.end(),
                        [&](const Overlap& o) { return y > o.extent.y[0] - kBeside && y < o.extent.y[1] + kBeside; });
@@ -69,7 +70,7 @@ void require_found(const RigidPair& pair, const std::vector<Overlap>& found) {
       const double radius = pair.wheel_radius + p.z, x = kFarthest * radius * k / kAlong;
       const Vec3 q = pair.wheel_at.to_outer({x, p.y, std::sqrt(radius * radius - x * x) - pair.wheel_radius});
       const Vec2 at{q.y, q.z};
-      if (is_found(at.y) || !is_inside(rail, at) || distance_to(rail, at) < kDeep) continue;
+      if (at.z < top + kDeep || is_found(at.y) || !is_inside(rail, at) || distance_to(rail, at) < kDeep) continue;
       throw Refused(kSearch, fmt::format("the wheel is also inside the rail at y = {:.1f} mm, where a profile is too "
                                          "steep for the search: contacts on the side of a rail are not offered",
                                          kToMilli * at.y));
