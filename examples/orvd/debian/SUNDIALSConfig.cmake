@@ -1,0 +1,10 @@
+# SUNDIALS of Debian in place of 7.7: the calls of CVODE are the same, of the older one the communicator has no name.
+foreach(part cvode nvecserial sunmatrixdense sunlinsoldense generic)
+  if(NOT TARGET SUNDIALS::${part})
+    find_library(SUNDIALS_${part}_FILE sundials_${part} REQUIRED)
+    add_library(SUNDIALS::${part} INTERFACE IMPORTED GLOBAL)
+    target_link_libraries(SUNDIALS::${part} INTERFACE ${SUNDIALS_${part}_FILE})
+    target_compile_definitions(SUNDIALS::${part} INTERFACE SUN_COMM_NULL=nullptr)
+  endif()
+endforeach()
+set(SUNDIALS_FOUND TRUE)
