@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 """A vehicle of OpenRailVehicleDynamics in its curves, with its own contact and with RailStrata's beside it.
 
-usage: curve.py CHECKOUT LIBRARY [--radius 300] [--seconds 8] [--cell 1e-3] [--folder FOLDER]
+usage: curve.py CHECKOUT LIBRARY [--radius 1000] [--seconds 8] [--cell 1e-3] [--folder FOLDER]
 
 CHECKOUT: a clone of github.com/wenquantongxin/OpenRailVehicleDynamics; LIBRARY: librailstrata.so. Builds both in
 FOLDER/build (Debian: libsundials-dev libeigen3-dev libfmt-dev nlohmann-json3-dev), checks the adapter by one_wheel,
 then runs GZ18 at 60 km/h on the shipped track of each radius, without irregularities, and prints a table of the end of
-the run. Results are in FOLDER/r300-theirs, FOLDER/r300-ours."""
+the run. Results are in FOLDER/r1000-theirs, FOLDER/r1000-ours."""
 import argparse
 import csv
 import json
@@ -126,7 +126,9 @@ def drive(folder, who, radius, seconds, cell=1e-3):
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     command = [program, data / "vehicle_library/gz18/vehicle_definition.json", folder / f"startup-{who}.json",
                data / "track_library/geometries" / track, data, "none", out, str(round(1e9 * seconds)), "10000000"]
-    subprocess.run(command, check=True, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    done = subprocess.run(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if done.returncode:
+        sys.exit(f"radius {radius} m, contact {who}: {done.stderr}")
     return read_report(report), resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
@@ -182,7 +184,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("checkout", type=lambda p: pathlib.Path(p).resolve())
     parser.add_argument("library", type=lambda p: pathlib.Path(p).resolve())
-    parser.add_argument("--radius", type=int, nargs="+", default=[300], choices=[300, 600, 800, 1000])
+    parser.add_argument("--radius", type=int, nargs="+", default=[1000], choices=[300, 600, 800, 1000])
     parser.add_argument("--seconds", type=float, default=8)
     parser.add_argument("--cell", type=float, default=1e-3)
     parser.add_argument("--folder", type=lambda p: pathlib.Path(p).resolve(), default=pathlib.Path("orvd").resolve())

@@ -32,7 +32,7 @@ RailWheel::RailWheel(const Settings& settings, WheelSide side, double cant)
   measure();
 }
 
-/// Where wheel and rail stand in the wheelset, which the library does not tell: from where a centred one touches.
+/// Where wheel and rail stand in the wheelset, which the library does not give: from where a centred one touches.
 void RailWheel::measure() {
   rs_wheelset_state state{};
   state.size = sizeof state;
