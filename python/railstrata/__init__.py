@@ -24,7 +24,7 @@ from .patch import Patch, PatchState
 from .results import BemResult, Body, Check, FolderResult, Peak, Peaks, Result, von_mises
 from .solve import bem, resume, run, shakedown, sweep
 from .table import Table
-from .wheelset import WheelForces, Wheelset, WheelsetForces
+from .wheelset import WheelForces, Wheelset, WheelsetDerivatives, WheelsetForces
 from .yielding import PassesResult, passes
 from .yielding import open_folder as open  # noqa: A004 - the word users expect
 
@@ -40,6 +40,7 @@ __all__ = [
     "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Contact", "ContactDerivatives", "ContactForces",
     "CreepTable", "Diagnostic", "DrivenPath", "FolderResult", "MachineError", "MaterialFit", "NumericalError",
     "PassesResult", "Patch", "PatchForces", "PatchState", "Peak", "Peaks", "Result", "Table", "WheelForces", "Wheelset",
-    "WheelsetForces", "bem", "calibrate", "damage", "material", "open", "open_table", "passes", "resume", "run",
+    "WheelsetDerivatives", "WheelsetForces", "bem", "calibrate", "damage", "material", "open", "open_table", "passes",
+    "resume", "run",
     "schema", "shakedown", "shipped_data", "solve_many", "sweep", "threads", "von_mises",
 ]

@@ -68,6 +68,24 @@ class WheelsetForces:
     remarks: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class WheelsetDerivatives:
+    """Derivatives of what `Wheelset.solve` gave by one number of its state, SI per unit of that.
+
+    z: m and roll: rad, where they are found. force: N and moment: N m, as of WheelsetForces. left_force, left_moment,
+    right_force, right_moment: of the contact on one wheel.
+    """
+
+    z: float
+    roll: float
+    force: _Triple
+    moment: _Triple
+    left_force: _Triple
+    left_moment: _Triple
+    right_force: _Triple
+    right_moment: _Triple
+
+
 def _pair(values: Any, what: str) -> list[float]:
     if len(values) != 2:
         raise ValueError(f"{what}: two numbers are wanted, of the left and the right side")
@@ -152,6 +170,21 @@ class Wheelset:
         given = {name: value for name, value in locals().items() if name != "self"}
         found = _bridge.work("solve_wheelset", wheelset=self._wheelset, threads=self._given[3], state=_motion(given))
         return _wheelset_forces(found, 3)
+
+    def jacobian(self, *inputs: str) -> dict[str, WheelsetDerivatives]:
+        """Derivatives of the last solution by numbers of its state, {"y": ...}; all others stay as they were given, and
+        z and roll that were found follow, so that load and roll moment stay. Of pairs: "rail_y[0]", "rail_y[1]".
+
+            wheelset.solve(speed=20, load=160e3, y=2e-3)
+            wheelset.jacobian("y", "yaw", "y_rate")["y"].force
+
+        Errors, and how: as Contact.jacobian. Of a lifted wheel all are 0. CaseError: no solution, no such number, one
+        that is a result of the last state.
+        """
+        found = _bridge.work("jacobian_of_wheelset", wheelset=self._wheelset, inputs=list(inputs),
+                             threads=self._given[3])
+        return {name: WheelsetDerivatives(**{key: _plain(value) for key, value in slopes.items()})
+                for name, slopes in zip(inputs, found["slopes"])}
 
     def patches(self, side: str, about: Any = None) -> tuple[PatchForces, ...]:
         """What each patch of a wheel carries in the last solution, in the track's axes, the largest pressure first;

@@ -6,7 +6,7 @@
 
 namespace railstrata {
 
-inline constexpr const char* kEuropean =
+inline constexpr const char* kEuropeanCase =
     "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\nwheel_radius = \"460 mm\"\n"
     "[drive]\nfriction_coefficient = 0.35\n";
 

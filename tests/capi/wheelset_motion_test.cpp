@@ -59,7 +59,7 @@ TEST(WheelsetMotion, RollingBackIsRollingOnSeenFromBehind) {
 }
 
 TEST(WheelsetMotion, AWheelsetThatStandsHasAnAnswerBetweenThoseOfBothDirections) {
-  Set set(kEuropean);
+  Set set(kEuropeanCase);
   rs_wheelset_state state = loaded(2e-3);
   state.y_rate = 2e-6;  // slip of 2e-4 over 0.01 m/s
   state.speed = 0;
@@ -145,7 +145,7 @@ rs_patch patch_of(const Set& set, int side, int patch, const double* about = nul
 }
 
 TEST(WheelsetMotion, PatchesAddUpToTheirWheelInTheAxesOfTheTrack) {
-  Set set(kEuropean);
+  Set set(kEuropeanCase);
   rs_wheelset_state state = half_turned(moving());
   state.y = 5.2e-3;
   ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;

@@ -14,7 +14,7 @@ namespace railstrata {
 namespace {
 
 /// LMA on CN60 under a layer, and the European pair.
-const std::string kPairs[] = {{}, kEuropean};
+const std::string kPairs[] = {{}, kEuropeanCase};
 
 void expect_load_and_moment(const std::string& text) {
   Set set(text);
@@ -158,12 +158,12 @@ void expect_answers(const std::string& text, double largest) {
 
 TEST(Wheelset, StatesOfARunAllHaveAnAnswer) {
   expect_answers({}, 6e-3);
-  expect_answers(kEuropean, 6e-3);
+  expect_answers(kEuropeanCase, 6e-3);
 }
 
 // What the states before leave must not lead a solution astray: from nothing each of these has an answer.
 TEST(Wheelset, AStateBesideThoseBeforeItHasAnAnswer) {
-  Set set(kEuropean);
+  Set set(kEuropeanCase);
   ASSERT_NE(set.handle, nullptr) << set.error.message;
   rs_wheelset_state state = loaded();
   state.load = 60e3;
@@ -183,7 +183,7 @@ TEST(Wheelset, AStateBesideThoseBeforeItHasAnAnswer) {
 
 // S1002 on UIC60 near the middle of the track: 0.8 urad of roll move the place of the first contact by 10 mm.
 TEST(Wheelset, AWheelThatChangesItsPlaceBearsItsLoad) {
-  Set set(kEuropean);
+  Set set(kEuropeanCase);
   ASSERT_NE(set.handle, nullptr) << set.error.message;
   rs_wheelset_state state = loaded(2.2376e-4, 1.19695e-4);
   state.load = 220e3;
@@ -198,7 +198,7 @@ TEST(Wheelset, AWheelThatChangesItsPlaceBearsItsLoad) {
 
 // Towards the flange and beyond what a load without a roll moment can hold: an answer is an equilibrium.
 TEST(Wheelset, OnTheFlangeIsInEquilibriumOrRefused) {
-  Set set(kEuropean);
+  Set set(kEuropeanCase);
   ASSERT_NE(set.handle, nullptr) << set.error.message;
   int answered = 0;
   for (const double y : {6.0, 6.2, 6.3, 6.4, 6.5, 6.6, 7.0, -6.4, -6.5}) {

@@ -95,3 +95,15 @@ def test_mistakes_have_a_reason(wheelset):
         wheelset.solve(speed=20, load="160 kN")
     with pytest.raises(rs.CaseError):
         rs.Wheelset("cases/quick", right={"geometry.rail_profile": "no such profile"})
+
+
+def test_a_jacobian_keeps_what_is_given(case):
+    wheelset = rs.Wheelset(case, "1 mm")
+    wheelset.solve(speed=20, load=160e3, y=2e-3)
+    slopes = wheelset.jacobian("y", "load", "rail_y[1]")
+    assert slopes["load"].force[2] == pytest.approx(1)
+    assert slopes["y"].force[2] == pytest.approx(0, abs=1e-6 * abs(slopes["y"].force[1]))
+    assert slopes["y"].left_force[1] + slopes["y"].right_force[1] == pytest.approx(slopes["y"].force[1])
+    for wrong, said in (("z", "is a result"), ("rail_y", "no number"), ("speeed", "no number")):
+        with pytest.raises(rs.CaseError, match=said):
+            wheelset.jacobian(wrong)

@@ -7,7 +7,7 @@
 #include "ask/many_handles.hpp"
 #include "ask/patch_forces.hpp"
 #include "ask/solve_settings.hpp"
-#include "ask/wheelset.hpp"
+#include "ask/wheelset_slopes.hpp"
 #include "bridge/records.hpp"
 #include "core/stop_request.hpp"
 
@@ -148,6 +148,24 @@ void solve_wheelset(Call& call) {
   call.answer = solved(*set, call.argument("state"));
 }
 
+/// Derivatives by numbers of the state, by their names.
+void jacobian_of_wheelset(Call& call) {
+  const Held<Wheelset> set(call, "wheelset");
+  std::vector<WheelsetInput> inputs;
+  for (const std::string& name : call.texts("inputs")) inputs.push_back(wheelset_input(name));
+  const ThreadsOfCaller threads(call.whole("threads"));
+  call.answer["slopes"] = Json::array();
+  for (const WheelsetSlopes& one : slopes(*set, inputs)) {
+    Json named = json_of(kWheelsetSlopes, one);
+    for (const std::size_t side : {kLeft, kRight}) {
+      const std::string wheel = side == kLeft ? "left" : "right";
+      named[wheel + "_force"] = json_of(one.wheels[side].force);
+      named[wheel + "_moment"] = json_of(one.wheels[side].moment);
+    }
+    call.answer["slopes"].push_back(std::move(named));
+  }
+}
+
 /// All patches of a wheel, in the track's axes.
 void patches_of_wheelset(Call& call) {
   const Held<Wheelset> set(call, "wheelset");
@@ -216,6 +234,7 @@ Functions contact_functions() {
           {"solve_contacts", solve_many<Contact>},
           {"open_wheelset", open_wheelset},
           {"solve_wheelset", solve_wheelset},
+          {"jacobian_of_wheelset", jacobian_of_wheelset},
           {"patches_of_wheelset", patches_of_wheelset},
           {"set_profile_of_wheelset", set_profile_of_wheelset},
           {"set_tolerance_of_wheelset", set_tolerance_of_wheelset},

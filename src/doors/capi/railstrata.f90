@@ -3,6 +3,11 @@
 module railstrata
   use, intrinsic :: iso_c_binding
   implicit none
+  integer(c_int), parameter :: rs_by_y = 0, rs_by_z = 1, rs_by_yaw = 2, rs_by_roll = 3, rs_by_speed = 4, &
+    rs_by_y_rate = 5, rs_by_z_rate = 6, rs_by_yaw_rate = 7, rs_by_roll_rate = 8, rs_by_pitch_rate = 9, &
+    rs_by_load = 10, rs_by_roll_moment = 11, rs_by_rail_y = 12, rs_by_rail_z = 13, rs_by_rail_roll = 14, &
+    rs_by_rail_y_rate = 15, rs_by_rail_z_rate = 16, rs_by_wheel_pitch_rate = 17, rs_by_rail_yaw = 18, &
+    rs_of_right = 32
   integer(c_int), parameter :: rs_ok = 0, rs_left = 0, rs_right = 1, rs_rail = 0, rs_wheel_body = 1
   integer(c_int), parameter :: rs_load = 1, rs_approach = 2, rs_lateral_shift = 4, rs_yaw = 8, rs_roll = 16, &
     rs_speed = 32, rs_friction = 64, rs_creepage_x = 128, rs_creepage_y = 256, rs_spin = 512, rs_force_x = 1024, &
@@ -62,6 +67,11 @@ module railstrata
     real(c_double) :: z, roll, force(3), moment(3)
     type(rs_wheel) :: wheel(2)
     integer(c_int) :: solutions, reserved, beyond, reserved2
+  end type
+
+  type, bind(c) :: rs_wheelset_derivatives
+    integer(c_size_t) :: size
+    real(c_double) :: z, roll, force(3), moment(3), left_force(3), left_moment(3), right_force(3), right_moment(3)
   end type
 
   interface
@@ -316,6 +326,16 @@ module railstrata
       type(rs_wheelset_forces), intent(inout) :: forces(*)
       type(rs_error), intent(inout) :: errors(*)
       integer(c_int), value :: threads
+      integer(c_int) :: code
+    end function
+
+    function rs_wheelset_jacobian(wheelset, inputs, count, slopes, error) bind(c) result(code)
+      import
+      type(c_ptr), value :: wheelset
+      integer(c_int), intent(in) :: inputs(*)
+      integer(c_int), value :: count
+      type(rs_wheelset_derivatives), intent(inout) :: slopes(*)
+      type(rs_error), intent(out) :: error
       integer(c_int) :: code
     end function
 

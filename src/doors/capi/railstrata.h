@@ -354,6 +354,46 @@ RS_API int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* sta
 RS_API int rs_wheelset_solve_many(int n, rs_wheelset* const* wheelsets, const rs_wheelset_state* states,
                                   rs_wheelset_forces* forces, rs_error* errors, int threads);
 
+/* Inputs of rs_wheelset_jacobian, members of rs_wheelset_state; of those with two numbers that of the left rail or wheel,
+ * with RS_OF_RIGHT added that of the right one. */
+#define RS_BY_Y 0
+#define RS_BY_Z 1
+#define RS_BY_YAW 2
+#define RS_BY_ROLL 3
+#define RS_BY_SPEED 4
+#define RS_BY_Y_RATE 5
+#define RS_BY_Z_RATE 6
+#define RS_BY_YAW_RATE 7
+#define RS_BY_ROLL_RATE 8
+#define RS_BY_PITCH_RATE 9
+#define RS_BY_LOAD 10
+#define RS_BY_ROLL_MOMENT 11
+#define RS_BY_RAIL_Y 12
+#define RS_BY_RAIL_Z 13
+#define RS_BY_RAIL_ROLL 14
+#define RS_BY_RAIL_Y_RATE 15
+#define RS_BY_RAIL_Z_RATE 16
+#define RS_BY_WHEEL_PITCH_RATE 17
+#define RS_BY_RAIL_YAW 18
+#define RS_OF_RIGHT 32
+
+/* Derivatives of what rs_wheelset_solve gave by one input, in SI units per unit of the input; as rs_wheelset_forces. */
+typedef struct rs_wheelset_derivatives {
+  size_t size; /* sizeof(rs_wheelset_derivatives), to be set by the caller */
+  double z, roll;
+  double force[3], moment[3];
+  double left_force[3], left_moment[3]; /* of the contact on the left wheel, moment about the wheelset's centre */
+  double right_force[3], right_moment[3];
+} rs_wheelset_derivatives;
+
+/* Derivatives of the last solution by `count` inputs, RS_BY_Y and so on; out[k] is that of inputs[k]. All other numbers
+ * of the state stay; z and roll that were found follow, so that load and roll moment stay. By the linear equations of the
+ * cells in contact, as rs_jacobian, one solution of these a wheel and input; where there are none, by differences of two
+ * solutions. Of a lifted wheel 0. Errors: RS_CASE without a solution, for a number that is a result of the last state;
+ * as rs_wheelset_solve. */
+RS_API int rs_wheelset_jacobian(rs_wheelset* wheelset, const int* inputs, int count, rs_wheelset_derivatives* out,
+                                rs_error* error);
+
 /* A patch of the last solution as rs_patch_forces gives it, but in the track's axes, signs as in rs_wheel. about: the
  * point [m, track axes] that moments are about; NULL: the centre of the wheelset. Patches of a wheel add up to its
  * force and moment. Errors: RS_CASE without a solution, of a lifted wheel, for a side or a patch that is not there. */

@@ -1,4 +1,4 @@
-#include "ask/wheelset.hpp"
+#include "ask/wheelset_slopes.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -35,6 +35,23 @@ rs_wheelset_forces in_c(const WheelsetForces& found) {
     capi::fill(kWheelForces, found.wheels[side], out.wheel[side], offsetof(rs_wheel, force));
   out.solutions = found.solutions;
   out.beyond = found.beyond;
+  return out;
+}
+
+WheelsetInput input_of(int number) {
+  if (number < 0) throw CaseError(fmt::format("there is no input {}", number), "give RS_BY_Y and so on");
+  const auto given = static_cast<std::size_t>(number);
+  return {given % RS_OF_RIGHT, given / RS_OF_RIGHT};
+}
+
+rs_wheelset_derivatives in_c(const WheelsetSlopes& found) {
+  rs_wheelset_derivatives out{};
+  capi::Writer write{reinterpret_cast<char*>(&out.z)};
+  for (const auto& row : kWheelsetSlopes) with_member(row, found, write);
+  for (const Wrench& wheel : found.wheels) {
+    write(wheel.force);
+    write(wheel.moment);
+  }
   return out;
 }
 
@@ -90,6 +107,21 @@ int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_
     WheelsetState wanted = state_of(*state);
     wanted.extrapolate = capi::shows_beyond(*forces);
     capi::give(in_c(solve(asked, wanted)), *forces);
+  });
+}
+
+int rs_wheelset_jacobian(rs_wheelset* wheelset, const int* inputs, int count, rs_wheelset_derivatives* out,
+                         rs_error* error) {
+  return guarded(error, [&] {
+    Wheelset& asked = wheelset_of(wheelset);
+    if (count < 0 || (count > 0 && (!inputs || !out)))
+      throw CaseError("inputs or out is missing", "give arrays of `count`");
+    const auto n = static_cast<std::size_t>(count);
+    capi::require_sizes(out, n, "rs_wheelset_derivatives");
+    std::vector<WheelsetInput> wanted;
+    for (std::size_t k = 0; k < n; ++k) wanted.push_back(input_of(inputs[k]));
+    const std::vector<WheelsetSlopes> found = slopes(asked, wanted);
+    for (std::size_t k = 0; k < n; ++k) capi::give(in_c(found[k]), capi::element(out, k));
   });
 }
 

@@ -275,6 +275,19 @@ CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Place
   return patch;
 }
 
+void place_cells(const CasePatch& patch, const RigidContact& contact, ContactField& field) {
+  const PatchGrid& g = patch.grid;
+  field.resize(g.ny, g.nx);
+  const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    const Vec2 point = contact.point + g.y_of(k) * tangent + patch.profile.rail_height[k] * normal;
+    field.x[k] = g.x_of(k);
+    field.y[k] = point.y;
+    field.z[k] = point.z;
+    field.area[k] = g.cell_area();
+  }
+}
+
 bool reaches_edge(const PatchGrid& grid, const Plane& pressure) {
   const Touches edge = touches(grid, pressure);
   return edge.x || edge.y;

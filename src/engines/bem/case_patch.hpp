@@ -7,6 +7,7 @@
 
 #include "bem/bem_options.hpp"
 #include "bem/profile_gap.hpp"
+#include "contact/contact_field.hpp"
 #include "geometry/height_field.hpp"
 #include "halfspace/layered.hpp"
 #include "model/model.hpp"
@@ -76,6 +77,9 @@ CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Place
 
 /// Fills the patch's contact problem from the case; the grid and the gap are there already.
 void set_problem(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, CasePatch& patch);
+
+/// Makes a field of the cells: where they lie on the rail, x from the contact on, and their areas.
+void place_cells(const CasePatch& patch, const RigidContact& contact, ContactField& field);
 
 /// Whether the patch touches the outermost ring of cells.
 bool reaches_edge(const PatchGrid& grid, const Plane& pressure);

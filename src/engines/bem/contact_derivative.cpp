@@ -41,7 +41,7 @@ bool ContactDerivatives::linear() const {
 ContactDerivatives::Beside ContactDerivatives::beside(const PlacedCase& there, double descent) const {
   const OnePatch one = lowered(there.spec, there.placement, descent);
   Beside out;
-  out.angle = one.plane().angle;
+  out.plane = one.plane();
   if (same_place(one.plane(), one_.plane())) {
     out.patch = patch_;
     set_problem(there.spec, one.placement(), {{}, one.own_approach()}, out.patch);
@@ -52,16 +52,39 @@ ContactDerivatives::Beside ContactDerivatives::beside(const PlacedCase& there, d
   return out;
 }
 
+RollingDerivative ContactDerivatives::rolling(const Beside& more, const Beside& less, double step) {
+  if (!rolling_) rolling_.emplace(*patch_.influence, patch_.grid, patch_.contact, solved_.solution);
+  return rolling_->by(more.patch.contact, less.patch.contact, step);
+}
+
+PlaneTractions ContactDerivatives::moved(const Beside& there, const RollingDerivative& slope, double step) const {
+  PlaneTractions out{there.plane, {}};
+  place_cells(there.patch, there.plane, out.field);
+  const auto along = [&](const Plane& now, const Plane& by, Plane& moved) {
+    for (std::size_t k = 0; k < now.size(); ++k) moved[k] = now[k] + step * by[k];
+  };
+  along(solved_.solution.normal.pressure, slope.normal.pressure, out.field.p);
+  along(solved_.solution.tangential.q_x, slope.tangential.q_x, out.field.q_x);
+  along(solved_.solution.tangential.q_y, slope.tangential.q_y, out.field.q_y);
+  return out;
+}
+
+std::array<PlaneTractions, 2> ContactDerivatives::tractions(const PlacedCase& more, const PlacedCase& less,
+                                                            const std::array<double, 2>& descents, double step) {
+  const Beside above = beside(more, descents[0]), below = beside(less, descents[1]);
+  const RollingDerivative slope = rolling(above, below, step);
+  return {moved(above, slope, step), moved(below, slope, -step)};
+}
+
 /// As of the target's approach, not of what follows it.
 ContactDerivative ContactDerivatives::between(const Beside& more, const Beside& less, double step) {
-  if (!rolling_) rolling_.emplace(*patch_.influence, patch_.grid, patch_.contact, solved_.solution);
   const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
-  const RollingDerivative d = rolling_->by(more.patch.contact, less.patch.contact, step);
+  const RollingDerivative d = rolling(more, less, step);
   const double normal = solved_.solution.normal.load, lateral = solved_.solution.tangential.force_y,
                cosine = std::cos(one_.plane().angle), sine = std::sin(one_.plane().angle),
                force_y = d.tangential.force_y;
   ContactDerivative out;
-  out.angle = slope(more.angle, less.angle);
+  out.angle = slope(more.plane.angle, less.plane.angle);
   out.force.x = d.tangential.force_x;
   out.force.y = d.normal.load * sine + force_y * cosine + (normal * cosine - lateral * sine) * out.angle;
   out.force.z = -d.normal.load * cosine + force_y * sine + (normal * sine + lateral * cosine) * out.angle;

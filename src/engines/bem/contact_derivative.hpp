@@ -1,6 +1,7 @@
 #pragma once
 // Derivatives of what solve_bem gives by the inputs of its case, at a solution of one patch: the equations of the cells
 // in contact, sticking and slipping, linearised at sets that stand. [Kalker1990 ch. 4]
+#include <array>
 #include <optional>
 
 #include "bem/case_patch.hpp"
@@ -22,6 +23,12 @@ struct PlacedCase {
   const Placement& placement;
 };
 
+/// Pressures and tractions in the cells of a plane, their places and areas.
+struct PlaneTractions {
+  RigidContact plane;
+  ContactField field;
+};
+
 /// All derivatives are taken at a descent d of the wheel, which the plane follows too. Under a weight G it follows each
 /// input u by V(u, d) = N cos(delta) - T sin(delta) = G (solve_bem.hpp):
 ///   dV/du + dV/dd d' = dG/du,   dV = dN cos(delta) - dT sin(delta) - (N sin(delta) + T cos(delta)) d delta.
@@ -36,14 +43,20 @@ class ContactDerivatives {
   bool linear() const;
   /// more, less: the case with the input larger and smaller by `step`.
   ContactDerivative by(const PlacedCase& more, const PlacedCase& less, double step);
+  /// The tractions of more and of less, whose wheels are lowered by `descents` [m]: those of the solution, and `step`
+  /// times their derivatives.
+  std::array<PlaneTractions, 2> tractions(const PlacedCase& more, const PlacedCase& less,
+                                          const std::array<double, 2>& descents, double step);
 
  private:
   /// The patch of a case that differs a little, at a descent.
   struct Beside {
     CasePatch patch;
-    double angle = 0;
+    RigidContact plane;
   };
   Beside beside(const PlacedCase& there, double descent) const;
+  RollingDerivative rolling(const Beside& more, const Beside& less, double step);
+  PlaneTractions moved(const Beside& there, const RollingDerivative& slope, double step) const;
   ContactDerivative between(const Beside& more, const Beside& less, double step);
   const ContactDerivative& by_descent();
 

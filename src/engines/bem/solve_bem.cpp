@@ -33,18 +33,11 @@ void check_friction(const CaseSpec& spec, double load, double normal) {
 
 void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidContact& contact, double speed,
                 ContactField& field) {
-  const PatchGrid& g = patch.grid;
-  field.resize(g.ny, g.nx);
+  place_cells(patch, contact, field);
   field.slip_is_distance = patch.contact.kind == RollingKind::shift;
   const double over_time = field.slip_is_distance ? 1.0 : speed;
   field.bound = s.tangential.bound;
-  const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
-  for (std::size_t k = 0; k < g.size(); ++k) {
-    const Vec2 point = contact.point + g.y_of(k) * tangent + patch.profile.rail_height[k] * normal;
-    field.x[k] = g.x_of(k);
-    field.y[k] = point.y;
-    field.z[k] = point.z;
-    field.area[k] = g.cell_area();
+  for (std::size_t k = 0; k < patch.grid.size(); ++k) {
     field.p[k] = s.normal.pressure[k];
     field.q_x[k] = s.tangential.q_x[k];
     field.q_y[k] = s.tangential.q_y[k];

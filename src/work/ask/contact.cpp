@@ -246,18 +246,26 @@ Forces Contact::pressed(const State& state) {
   return forces_of(*last_, summary);
 }
 
+std::unique_ptr<ContactEquations> Contact::equations() {
+  if (!last_) return nullptr;
+  const PlacedCase here = case_in(*state_);
+  auto out = std::make_unique<ContactEquations>();
+  out->options = options_;
+  if (const BemStart* solved = start.last().alone())
+    out->of.emplace(here.spec, here.placement, out->options, *solved, start.last().descent);
+  if (out->of && !out->of->linear()) out->of.reset();
+  return out;
+}
+
 std::vector<Slopes> Contact::slopes(const std::vector<const StateMember*>& inputs) {
   constexpr double kTolerance = 1e-10, kLonger = 30;  // of differences: a step that their errors allow
   std::vector<Slopes> out(inputs.size(), Slopes{});
   if (state_ && !last_) return out;  // lifted
   patch(0);
-  const Placement& here = set(*state_, here_);
-  BemOptions options = options_;
-  std::optional<ContactDerivatives> equations;
-  if (const BemStart* solved = start.last().alone())
-    equations.emplace(here_.spec, here, options, *solved, start.last().descent);
-  const bool linear = equations && equations->linear();
-  if (!linear) set_tolerance(options, kTolerance);
+  const auto last = equations();
+  const Placement& here = case_in(*state_).placement;
+  const bool linear = last->of.has_value();
+  if (!linear) set_tolerance(last->options, kTolerance);
   const auto beside = [&](const StateMember& input, double value, InState& there) -> PlacedCase {
     State state = *state_;
     state.*input.at = value;
@@ -269,7 +277,7 @@ std::vector<Slopes> Contact::slopes(const std::vector<const StateMember*>& input
     const double value = value_in_state(input, *state_, here_.spec, *last_),
                  step = (linear ? 1 : kLonger) * step_of(input, here_.spec);
     const PlacedCase more = beside(input, value + step, more_), less = beside(input, value - step, less_);
-    out[k] = linear ? slopes_of(equations->by(more, less, step)) : slopes_between(more, less, step, options);
+    out[k] = linear ? slopes_of(last->of->by(more, less, step)) : slopes_between(more, less, step, last->options);
   }
   return out;
 }

@@ -72,6 +72,12 @@ using Slopes = std::array<double, kSlopes>;
 Forces forces_of(const BemResult& result, const Summary& summary);
 int cells_with_pressure(const ContactField& field);
 
+/// The linear equations of a contact's last solution; without `of`: it has none.
+struct ContactEquations {
+  BemOptions options;
+  std::optional<ContactDerivatives> of;
+};
+
 /// The case with its profiles read once, what solutions share, and the last one. Belongs to one thread at a time.
 class Contact {
  public:
@@ -91,6 +97,14 @@ class Contact {
   /// Derivatives of the last solution by inputs of its state, one after the other. Throws CaseError: no solution, an
   /// input that is a result in it; and as solve.
   std::vector<Slopes> slopes(const std::vector<const StateMember*>& inputs);
+
+  /// Refer to this contact, until it is asked or moved again. Null: no solution.
+  std::unique_ptr<ContactEquations> equations();
+  /// The case in a state, until the next call. Throws as solve.
+  PlacedCase case_in(const State& state) {
+    const Placement& there = set(state, here_);
+    return {here_.spec, there};
+  }
 
   /// Of the last solution. Throws CaseError: there is none, or not this patch.
   const BemPatch& patch(int index) const;

@@ -16,7 +16,9 @@ PatchForces patch_forces(const Contact& contact, int index, Vec3 about) {
   require_point(about);
   const BemPatch& patch = contact.patch(index);
   const RigidContact& c = patch.place;
-  const Wrench carried = wrench_of(patch, [&](double x, Vec2 point) { return Vec3{x, point.y, point.z} - about; });
+  const Wrench carried = wrench_of(patch.contact, patch.field, [&](double x, Vec2 point) {
+    return Vec3{x, point.y, point.z} - about;
+  });
   const PatchMeasures measures = measure_patch(patch.field);
   return {carried.force,
           carried.moment,

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "ask/wheelset_forces.hpp"
-#include "bem/contact_places.hpp"
+#include "ask/wheelset_wheel.hpp"
 #include "core/faults.hpp"
 #include "core/root.hpp"
 #include "halfspace/hertz.hpp"
@@ -33,56 +33,15 @@ namespace {
 
 constexpr int kMostSolutions = 60, kFreeSolutions = 5;
 
-WheelsetMotion motion_of(const WheelsetState& s, double roll, std::size_t side) {
-  return {s.y,      s.z.value_or(0), s.yaw,      roll,        s.speed,
-          s.y_rate, s.z_rate,        s.yaw_rate, s.roll_rate, s.pitch_rate + s.wheel_pitch_rate[side]};
-}
-
-RailMotion rail_of(const WheelsetState& s, std::size_t side) {
-  return {s.rail_y[side],      s.rail_z[side],      s.rail_roll[side],
-          s.rail_y_rate[side], s.rail_z_rate[side], s.rail_yaw[side]};
-}
-
 /// Looks where the wheels touch and leaves it in their contacts, whose solutions then need not look again. hold: each
 /// wheel keeps to the place where it touches now, if another is lower by less than 5 um.
 void place(Wheelset& set, const WheelsetState& state, double roll, bool hold = false) {
   constexpr double kHeldWithin = 5e-6;  // m
   for (std::size_t side : {kLeft, kRight}) {
     Wheel& w = set.wheels[side];
-    w.motion = motion_of(state, roll, side);
-    w.rail = rail_of(state, side);
-    if (side == kRight) {
-      w.motion = mirrored(w.motion);
-      w.rail = mirrored(w.rail);
-    }
-    if (state.speed < 0) {
-      w.motion = reversed(w.motion);
-      w.rail = reversed(w.rail);
-    }
-    const Placement& p = w.contact.placement();
-    w.contact.move_to(track_under(p.wheel, p.rail, w.at_rest, w.motion, w.rail),
-                      hold ? HeldPlace{w.touching().rail_s, kHeldWithin} : HeldPlace{});
+    place(w, side, state, roll, hold ? HeldPlace{w.touching().rail_s, kHeldWithin} : HeldPlace{});
   }
   set.roll = roll;
-}
-
-/// Solves a wheel that is lowered by `descent` below where it touches.
-void press(Wheel& w, double descent, bool extrapolate) {
-  w.reference = descent > 0 ? reference_of(w.contact.placement(), descent) : w.touching();
-  const WheelSlip slip = slip_at(w.track(), w.reference, w.motion, w.rail);
-  State state;
-  state.approach = descent * std::cos(w.reference.angle);
-  state.speed = slip.speed;
-  state.rolling_share = w.motion.speed / slip.speed;
-  state.creepage_x = slip.creepage_x;
-  state.creepage_y = slip.creepage_y;
-  state.spin = slip.spin;
-  state.descent = descent;
-  state.extrapolate = extrapolate;
-  w.forces = w.contact.solve(state);
-  const Wrench carried = carried_by(w);
-  w.force = carried.force;
-  w.moment = carried.moment;
 }
 
 void press(Wheelset& set, const std::array<double, 2>& descents, bool extrapolate = false) {
@@ -91,13 +50,6 @@ void press(Wheelset& set, const std::array<double, 2>& descents, bool extrapolat
     press(set.wheels[k], descents[k], extrapolate);
     if (!set.wheels[k].forces.beyond) set.stiffening[k].add(descents[k], set.wheels[k].force.z);
   }
-}
-
-/// Descent of a wheel at the height z of the wheelset.
-double descent_at(const Wheel& w, double z) {
-  WheelsetMotion m = w.motion;
-  m.z = z;
-  return descent(w.track(), w.touching(), m, w.rail);
 }
 
 void begin_stiffening(Wheelset& set) {
@@ -164,8 +116,9 @@ std::array<double, 2> wanted_forces(const Wheelset& set, double load, double rol
 /// The roll at which both wheels have their descents, and the height; none was found: nothing.
 std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std::array<double, 2>& descents,
                            bool hold) {
-  constexpr double kLeastTurn = 1e-9;  // rad, that tells a slope
-  constexpr double kClose = 1e-10;     // m
+  constexpr double kLeastTurn = 1e-9;                                // rad, that tells a slope
+  constexpr double kClose = 1e-10, kRoundOff = 4e-15, kShare = 0.1;  // m; of the tolerance of the descents
+  const double close = std::clamp(kShare * tolerance_of(set) * std::min(descents[0], descents[1]), kRoundOff, kClose);
   double height[2];
   const auto apart = [&] {
     for (std::size_t k : {0, 1}) {
@@ -177,7 +130,7 @@ std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std:
   const double usual = -2 * std::max(tape_circle_distance(set.wheels[0].at_rest), 1e-3);
   double roll = set.roll, error = apart(), slope = set.tilting < 0 ? set.tilting : usual;
   for (int i = 0; i < kMostSolutions; ++i) {
-    if (std::abs(error) <= kClose) return 0.5 * (height[0] + height[1]);
+    if (std::abs(error) <= close) return 0.5 * (height[0] + height[1]);
     hold = hold || i == kFreeSolutions;
     const double next = roll - error / slope;
     place(set, state, next, hold);
@@ -322,7 +275,7 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
   }
   out.roll = set.roll;
   out.solutions = set.solutions;
-  set.solved = {state.y, out.z, state.speed};
+  set.solved = {state, out.z, out.roll};
   for (std::size_t side : {kLeft, kRight}) {
     out.wheels[side] = forces_of(set, side);
     out.force += out.wheels[side].force;

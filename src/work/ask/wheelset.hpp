@@ -128,9 +128,10 @@ struct WheelsetStart {
   std::array<NextStart, 2> contacts;
 };
 
-/// Where the axle of the last answer stands, m, and how it rolls, m/s.
-struct WheelsetPlace {
-  double y = 0, z = 0, speed = 0;
+/// The state of the last answer, and what it gave or found: m, rad.
+struct SolvedWheelset {
+  WheelsetState state;
+  double z = 0, roll = 0;
 };
 
 /// Both cases are those of left wheels: the right one's is that of its mirror image. Position, motion and load of the
@@ -143,7 +144,7 @@ struct Wheelset {
   double tilting = 0, left_share = 0.5;  ///< as WheelsetStart
   int solutions = 0;
   WheelsetStart kept;
-  std::optional<WheelsetPlace> solved;  ///< none after an error
+  std::optional<SolvedWheelset> solved;  ///< none after an error
   std::string remarks;  ///< of the last answer: checks that fail and notes, one a line, with the wheel before it
 };
 

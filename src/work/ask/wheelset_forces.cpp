@@ -12,8 +12,8 @@ namespace {
 
 /// Signs of what a wheel has in its own axes, of the left one that rolls on, in those of the track.
 struct InTrack {
-  InTrack(std::size_t side, const WheelsetPlace& solved)
-      : x(solved.speed < 0 ? -1 : 1), y(side == kRight ? -1 : 1), centre(solved.y) {}
+  InTrack(std::size_t side, const SolvedWheelset& solved)
+      : x(solved.state.speed < 0 ? -1 : 1), y(side == kRight ? -1 : 1), centre(solved.state.y) {}
   double x, y;
   double centre;  ///< m, y of the axle's
   Vec3 polar(Vec3 v) const { return {x * v.x, y * v.y, v.z}; }
@@ -30,14 +30,18 @@ Vec3 point_of(const Wheel& w, const RigidContact& place, const InTrack& sign) {
   return out;
 }
 
-/// About the centre of the wheelset, in the axes of a track on which this is the left wheel and rolls on.
-Wrench carried_by(const Wheel& w, const BemPatch& patch) {
+}  // namespace
+
+Wrench carried_by(const Wheel& w, const RigidContact& plane, const ContactField& field) {
   const Rotation<double> rail = rotation_by(w.rail.yaw);
-  const Wrench on_rail = wrench_of(patch, [&](double x, Vec2 point) { return arm(w, x, point); });
+  const Wrench on_rail = wrench_of(plane, field, [&](double x, Vec2 point) { return arm(w, x, point); });
   return {yaw(rail, on_rail.force), yaw(rail, on_rail.moment)};
 }
 
-}  // namespace
+Wrench in_track(const Wheelset& set, std::size_t side, const Wrench& of_wheel) {
+  const InTrack sign(side, *set.solved);
+  return {sign.polar(of_wheel.force), sign.axial(of_wheel.moment)};
+}
 
 Wrench carried_by(const Wheel& w) {
   Wrench out;
@@ -45,7 +49,7 @@ Wrench carried_by(const Wheel& w) {
   if (!w.contact.last()) return out;
   Vec3 of_cells;
   for (const BemPatch* patch : patches_of(*w.contact.last())) {
-    const Wrench one = carried_by(w, *patch);
+    const Wrench one = carried_by(w, patch->contact, patch->field);
     out.moment += one.moment;
     of_cells += one.force;
   }
@@ -91,12 +95,12 @@ PatchForces patch_forces(const Wheelset& set, int side, int index, const std::op
   const InTrack sign(static_cast<std::size_t>(side), *set.solved);
   PatchForces out = patch_forces(w.contact, index, {});
   const BemPatch& patch = w.contact.patch(index);
-  const Wrench carried = carried_by(w, patch);
+  const Wrench carried = carried_by(w, patch.contact, patch.field);
   out.force = sign.polar(carried.force);
   out.moment = sign.axial(carried.moment);
   if (about) {
     require_point(*about);
-    const Vec3 centre{0, set.solved->y, w.track().wheel_radius + set.solved->z};
+    const Vec3 centre{0, set.solved->state.y, w.track().wheel_radius + set.solved->z};
     out.moment += cross(centre - *about, out.force);
   }
   out.lateral_force *= sign.y;
