@@ -112,6 +112,24 @@ TEST(Roll, AWheelWithRollAndYawJustTouches) {
     }
 }
 
+// From one place to the next a walk follows the tangent, which may lead over the end of the profile.
+TEST(Roll, AWalkToTheEndOfTheOutlineStaysOnTheProfile) {
+  const Profile s1002 = builtin_profile(ProfileKind::wheel, "S1002");
+  for (const double roll : {0.0, 4e-3, -0.02})
+    for (const double yaw : {0.0, -9e-3, 0.02}) {
+      const TrackGeometry track = rolled(roll, yaw, 0.025);
+      const TurnedWheel wheel(s1002, track);
+      for (const double step : {-0.7e-3, 0.7e-3}) {
+        OutlineWalk walk(wheel);
+        const double end = step > 0 ? wheel.y_end() : wheel.y_begin();
+        for (int k = -20; k < 3; ++k) {
+          const double y = end + (k + 0.3) * step;
+          EXPECT_NEAR(walk.height(y), wheel.outline(wheel.s_at_y(y)).position.z, 1e-11);
+        }
+      }
+    }
+}
+
 // A rigid wheel that turns about its axle: the point that touches moves along the contact plane, and by so much
 // sideways that the creepage of roll and yaw is the opposite of lateral_motion.
 TEST(Roll, VelocityAtTheContactIsTheLateralMotion) {

@@ -59,6 +59,7 @@ double OutlineWalk::height(double y) {
   constexpr int kMostSteps = 4;
   for (int i = 0; s_ && i < kMostSteps; ++i) {
     *s_ += (y - last_.position.y) / std::max(last_.along.y, 0.01);
+    if (!wheel_.has(*s_)) break;
     last_ = wheel_.outline(*s_);
     if (std::abs(y - last_.position.y) < kNear)
       return last_.position.z + (y - last_.position.y) * last_.along.z / last_.along.y;

@@ -27,6 +27,7 @@ class TurnedWheel {
   /// The place of the circle where the surface's normal has no part along the rail: of the lower outline, whose lowest
   /// places touch an extruded rail first.
   TurnedPoint outline(double s) const;
+  bool has(double s) const { return s >= begin_ && s <= end_; }
   /// Its arc length at y. Clamped to the running surface.
   double s_at_y(double y) const;
   double y_begin() const { return outline(begin_).position.y; }
