@@ -97,8 +97,7 @@ def test_mistakes_have_a_reason(wheelset):
         rs.Wheelset("cases/quick", right={"geometry.rail_profile": "no such profile"})
 
 
-def test_a_jacobian_keeps_what_is_given(case):
-    wheelset = rs.Wheelset(case, "1 mm")
+def test_a_jacobian_keeps_what_is_given(wheelset):
     wheelset.solve(speed=20, load=160e3, y=2e-3)
     slopes = wheelset.jacobian("y", "load", "rail_y[1]")
     assert slopes["load"].force[2] == pytest.approx(1)

@@ -114,6 +114,7 @@ void WheelOnPatches::lay_start(Member& m, const BemStart& start) {
     m.laid_for = 0;
     return;
   }
+  m.patch = {};  // laid in another grid, if at all
   m.patch.grid = start.grid;
   m.solution = start.solution;
 }

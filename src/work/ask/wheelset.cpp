@@ -84,14 +84,31 @@ double expected_height(const Wheelset& set, double load) {
   return low;
 }
 
-/// The height under a load, with the roll that is given.
+/// A height and by how much more than the load is borne there, N.
+struct TriedHeight {
+  double z = 0, excess = 0;
+};
+
+/// The height under a load, with the roll that is given: that which is expected, and where this does not settle, for a
+/// wheel on tread and flange is no power of its descent, between the last ones that bear too much and too little.
 double sink(Wheelset& set, double load) {
-  begin_stiffening(set);
-  for (int i = 0; i < kMostSolutions; ++i) {
-    const double z = expected_height(set, load);
+  constexpr int kSoon = 8;
+  constexpr double kSame = 1e-15;  // m
+  const double close = tolerance_of(set) * load;
+  TriedHeight now;
+  const auto excess = [&](double z) {
     press(set, {descent_at(set.wheels[0], z), descent_at(set.wheels[1], z)});
-    if (std::abs(set.wheels[0].force.z + set.wheels[1].force.z - load) <= tolerance_of(set) * load) return z;
+    now = {z, set.wheels[0].force.z + set.wheels[1].force.z - load};
+    return now.excess;
+  };
+  begin_stiffening(set);
+  std::optional<TriedHeight> low, high;
+  for (int i = 0; i < kMostSolutions && !(i >= kSoon && low && high); ++i) {
+    if (std::abs(excess(expected_height(set, load))) <= close) return now.z;
+    (now.excess > 0 ? low : high) = now;
   }
+  if (low && high) narrow_root(low->z, low->excess, high->z, high->excess, close, kSame, kMostSolutions, excess);
+  if (std::abs(now.excess) <= close) return now.z;
   throw NumericalError("the height of the wheelset under its load was not found");
 }
 
