@@ -293,10 +293,19 @@ bool reaches_edge(const PatchGrid& grid, const Plane& pressure) {
   return edge.x || edge.y;
 }
 
-bool suits(const PatchGrid& grid, const PatchGrid& wanted) {
-  const auto near = [](int have, int want) { return have >= want - 4 && have <= 2 * want + 8; };
-  return grid.line == wanted.line && grid.dx == wanted.dx && grid.dy == wanted.dy && near(grid.nx, wanted.nx) &&
-         near(grid.ny, wanted.ny);
+bool suits(const BemStart& start, const PatchGrid& wanted) {
+  const PatchGrid& grid = start.grid;
+  if (grid.line != wanted.line || grid.dx != wanted.dx || grid.dy != wanted.dy) return false;
+  int along = 0, across = 0;  // from the middle to the farthest cell with pressure
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    if (!(start.solution.normal.pressure[k] > 0)) continue;
+    along = std::max(along, std::abs(static_cast<int>(k) / grid.ny - grid.nx / 2));
+    across = std::max(across, std::abs(static_cast<int>(k) % grid.ny - grid.ny / 2));
+  }
+  const auto near = [](int have, int want, int reach) {
+    return have >= want - 4 && have <= std::max(2 * want + 8, 4 * reach);
+  };
+  return near(grid.nx, wanted.nx, along) && near(grid.ny, wanted.ny, across);
 }
 
 }  // namespace railstrata

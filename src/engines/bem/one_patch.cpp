@@ -44,7 +44,8 @@ bool OnePatch::starts_from_neighbour(const BemOptions& options) const {
   if (!options.neighbour || !options.neighbour->alone()) return false;
   const PatchGrid& g = options.neighbour->alone()->grid;
   return room_.low == whole.low && room_.high == whole.high && g.y(0) <= room_.held_low &&
-         g.y(g.ny - 1) >= room_.held_high && suits(g, first_grid(*spec_, placement_, options, {}, room_));
+         g.y(g.ny - 1) >= room_.held_high &&
+         suits(*options.neighbour->alone(), first_grid(*spec_, placement_, options, {}, room_));
 }
 
 FirstPatch press_first(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {

@@ -110,7 +110,7 @@ void WheelOnPatches::lay_start(Member& m, const BemStart& start) {
   m.approach = m.approach_before = m.laid_for = start.solution.normal.approach;
   m.normal = m.normal_before = m.expected = start.solution.normal.load;
   const PatchGrid wanted = first_grid(spec_, m.placement, cells_for(m), {.approach = m.approach}, m.room);
-  if (!suits(start.grid, wanted)) {
+  if (!suits(start, wanted)) {
     m.laid_for = 0;
     return;
   }
