@@ -354,8 +354,8 @@ RS_API int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* sta
 RS_API int rs_wheelset_solve_many(int n, rs_wheelset* const* wheelsets, const rs_wheelset_state* states,
                                   rs_wheelset_forces* forces, rs_error* errors, int threads);
 
-/* Inputs of rs_wheelset_jacobian, members of rs_wheelset_state; of those with two numbers that of the left rail or wheel,
- * with RS_OF_RIGHT added that of the right one. */
+/* Inputs of rs_wheelset_jacobian, members of rs_wheelset_state; of those with two numbers that of the left rail or
+ * wheel, with RS_OF_RIGHT added that of the right one. */
 #define RS_BY_Y 0
 #define RS_BY_Z 1
 #define RS_BY_YAW 2
@@ -387,10 +387,10 @@ typedef struct rs_wheelset_derivatives {
 } rs_wheelset_derivatives;
 
 /* Derivatives of the last solution by `count` inputs, RS_BY_Y and so on; out[k] is that of inputs[k]. All other numbers
- * of the state stay; z and roll that were found follow, so that load and roll moment stay. By the linear equations of the
- * cells in contact, as rs_jacobian, one solution of these a wheel and input; where there are none, by differences of two
- * solutions. Of a lifted wheel 0. Errors: RS_CASE without a solution, for a number that is a result of the last state;
- * as rs_wheelset_solve. */
+ * of the state stay; z and roll that were found follow, so that load and roll moment stay. By the linear equations of
+ * the cells in contact, as rs_jacobian, one solution of these a wheel and input; where there are none, by differences
+ * of two solutions. Of a lifted wheel 0. Errors: RS_CASE without a solution, for a number that is a result of the last
+ * state; as rs_wheelset_solve. */
 RS_API int rs_wheelset_jacobian(rs_wheelset* wheelset, const int* inputs, int count, rs_wheelset_derivatives* out,
                                 rs_error* error);
 

@@ -133,7 +133,7 @@ std::array<double, 2> wanted_forces(const Wheelset& set, double load, double rol
 /// The roll at which both wheels have their descents, and the height; none was found: nothing.
 std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std::array<double, 2>& descents,
                            bool hold) {
-  constexpr double kLeastTurn = 1e-9;                                // rad, that tells a slope
+  constexpr double kLeastTurn = 1e-9;                                // rad, that shows a slope
   constexpr double kClose = 1e-10, kRoundOff = 4e-15, kShare = 0.1;  // m; of the tolerance of the descents
   const double close = std::clamp(kShare * tolerance_of(set) * std::min(descents[0], descents[1]), kRoundOff, kClose);
   double height[2];
