@@ -59,23 +59,36 @@ void keep(const PatchGrid& g, RollingSolution& s, Own&& own) {
   t.dissipation = all != 0 ? t.dissipation * kept / all : 0.0;
 }
 
+/// Each contact's own, in order along the rail.
+std::vector<RigidContact> own_places(const std::vector<RigidContact>& contacts, const Placement& placement,
+                                     double descent) {
+  std::vector<ContactPlace> each;
+  for (const RigidContact& c : contacts) each.push_back({c, 0});
+  put_in_order(each);
+  for (std::size_t k = 0; k < each.size(); ++k) each[k].patch = k;
+  std::vector<RigidContact> out;
+  for (const PatchPlace& place : patch_places(placement, each)) out.push_back(plane_of(placement, place, descent));
+  return out;
+}
+
 }  // namespace
 
-std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole) {
+std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole, const Placement& placement, double descent) {
+  const std::vector<RigidContact> places = own_places(whole.contacts, placement, descent);
   const ConnectedRegions part = connected_regions(whole.patch.grid.ny, whole.solution.normal.pressure, 0);
   const std::vector<PartExtent> extents = extents_of(whole, part);
   const auto t_of = [&](const RigidContact& c) { return along_plane(whole.contact, c.point); };
   std::vector<std::size_t> place_of;  // of each part
   for (const PartExtent& e : extents) {
     const auto off = [&](const RigidContact& c) { return std::abs(t_of(c) - e.centre); };
-    const auto nearest = std::min_element(whole.contacts.begin(), whole.contacts.end(),
-                                          [&](const auto& a, const auto& b) { return off(a) < off(b); });
-    place_of.push_back(static_cast<std::size_t>(nearest - whole.contacts.begin()));
+    const auto nearest =
+        std::min_element(places.begin(), places.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
+    place_of.push_back(static_cast<std::size_t>(nearest - places.begin()));
   }
   std::vector<PatchPiece> out;
-  for (std::size_t c = 0; c < whole.contacts.size(); ++c) {
+  for (std::size_t c = 0; c < places.size(); ++c) {
     if (std::find(place_of.begin(), place_of.end(), c) == place_of.end()) continue;
-    PatchPiece piece{whole.contacts[c], whole};
+    PatchPiece piece{places[c], whole};
     keep(whole.patch.grid, piece.patch.solution, [&](std::size_t k) {
       const int of = part.of[k];
       return of != ConnectedRegions::kNone && place_of[static_cast<std::size_t>(of)] == c;

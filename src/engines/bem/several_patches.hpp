@@ -49,13 +49,13 @@ double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& 
 
 /// One connected part of a patch, or several around one place.
 struct PatchPiece {
-  RigidContact place;  ///< of the profiles, with the contact angle there
+  RigidContact place;  ///< of its own overlap, with the contact angle there
   PatchOnWheel patch;  ///< on the grid and in the plane of the whole, nothing outside of the part
 };
 
-/// The cells with pressure that hang together, by sides or corners, belong to the contact that their centre of pressure
-/// is nearest to. The dissipation of the whole is shared by q·slip of the cells. Of one part: the whole, at the plane's
-/// own place where it holds several contacts, else at that contact.
-std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole);
+/// The cells with pressure that hang together, by sides or corners, belong to the place that their centre of pressure is
+/// nearest to: those of the overlaps of the whole's contacts on their stretches of the rail, under a descent [m]. The
+/// dissipation of the whole is shared by q·slip of the cells. Of one part: the whole, at the plane's own place.
+std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole, const Placement& placement, double descent);
 
 }  // namespace railstrata

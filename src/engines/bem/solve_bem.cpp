@@ -377,9 +377,10 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
 }
 
 /// The parts of a patch, each at its place.
-std::vector<BemPatch> parts_of(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& p, bool apart) {
+std::vector<BemPatch> parts_of(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& p, double descent,
+                               bool apart) {
   if (!apart || p.contacts.size() < 2) return {patch_result(spec, placement, p, p.contact)};
-  const std::vector<PatchPiece> pieces = pieces_of(p);
+  const std::vector<PatchPiece> pieces = pieces_of(p, placement, descent);
   std::vector<BemPatch> out;
   std::shared_ptr<const ContactField> together;
   if (pieces.size() > 1) together = std::make_shared<ContactField>(patch_result(spec, placement, p, p.contact).field);
@@ -391,13 +392,13 @@ std::vector<BemPatch> parts_of(const CaseSpec& spec, const Placement& placement,
 }
 
 BemResult result_of(const CaseSpec& spec, const Placement& placement, const std::vector<PatchOnWheel>& patches,
-                    bool apart) {
+                    double descent, bool apart) {
   BemResult r;
   r.wheel = patches.front().patch.wheel;
   r.rail = patches.front().patch.rail;
   r.effort.outer_iterations = 0;
   for (const PatchOnWheel& p : patches) {
-    std::vector<BemPatch> parts = parts_of(spec, placement, p, apart);
+    std::vector<BemPatch> parts = parts_of(spec, placement, p, descent, apart);
     const double bent = bending_by_others(spec, patches, p), rail_y = parts.front().surroundings.rail_y;
     for (BemPatch& part : parts) {
       part.surroundings.bent_by_others = bent;
@@ -445,7 +446,7 @@ double dissipation(const BemResult& result) {
 }
 
 BemResult bem_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& patch) {
-  return result_of(spec, placement, {patch}, true);
+  return result_of(spec, placement, {patch}, 0, true);
 }
 
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
@@ -457,7 +458,7 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
     throw CaseError("irregularity: a wheel that touches at several places needs a rail and a wheel without heights",
                     "take it out, or move the wheel (geometry.lateral_shift) until it touches at one place",
                     "irregularity");
-  BemResult r = result_of(spec, placement, shared.patches, options.apart);
+  BemResult r = result_of(spec, placement, shared.patches, shared.descent, options.apart);
   if (options.neighbour) {
     *options.neighbour = {{}, shared.descent, shared.power, shared.along, shared.across, std::move(shared.smooth)};
     for (PatchOnWheel& p : shared.patches)

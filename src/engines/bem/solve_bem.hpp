@@ -55,8 +55,8 @@ struct BemPatch {
   ContactField field;
   PatchGrid grid;        ///< contact frame: x rolling, y along the common tangent, origin at the rigid contact point
   RigidContact contact;  ///< the plane that it was solved in: pressure acts along its normal
-  /// Where the profiles touch. Of a part of a patch of several contacts (several_patches.hpp) the contact nearest to
-  /// it, with its own angle; else `contact`. Moments, creepages and spin refer to it.
+  /// Of a part of a patch of several contacts (several_patches.hpp) the place of its own overlap, with its angle; else
+  /// `contact`. Moments, creepages and spin refer to it.
   RigidContact place;
   /// Of such a part: all that was solved in its plane, on the same grid. Stresses inside are under all of it.
   std::shared_ptr<const ContactField> together;
