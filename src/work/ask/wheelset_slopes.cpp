@@ -7,8 +7,6 @@
 #include <optional>
 #include <string_view>
 
-#include <Eigen/LU>
-
 #include "ask/wheelset_forces.hpp"
 #include "ask/wheelset_wheel.hpp"
 #include "core/faults.hpp"
@@ -226,23 +224,22 @@ class FoundUnderLoad {
   /// load, roll_moment: how the input changes these.
   void follow(double load, double roll_moment, WheelsetSlopes& out) const {
     if (columns_.empty()) return;
-    const auto n = static_cast<Eigen::Index>(columns_.size());
-    Eigen::MatrixXd rise(n, n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      WheelsetSlopes one;
-      add(columns_[static_cast<std::size_t>(k)], 1, one);
-      rise.col(k) = rows(n, one.force.z, one.moment.x);
+    WheelsetSlopes by_z, by_roll;
+    add(columns_[0], 1, by_z);
+    const double force = load - out.force.z, moment = -roll_moment - out.moment.x;
+    if (columns_.size() == 1) {
+      out.z = force / by_z.force.z;
+    } else {
+      add(columns_[1], 1, by_roll);
+      const double det = by_z.force.z * by_roll.moment.x - by_roll.force.z * by_z.moment.x;
+      out.z = (force * by_roll.moment.x - by_roll.force.z * moment) / det;
+      out.roll = (by_z.force.z * moment - force * by_z.moment.x) / det;
+      add(columns_[1], out.roll, out);
     }
-    const Eigen::VectorXd moved = rise.partialPivLu().solve(rows(n, load - out.force.z, -roll_moment - out.moment.x));
-    for (Eigen::Index k = 0; k < n; ++k) add(columns_[static_cast<std::size_t>(k)], moved(k), out);
-    out.z = moved(0);
-    if (n > 1) out.roll = moved(1);
+    add(columns_[0], out.z, out);
   }
 
  private:
-  static Eigen::VectorXd rows(Eigen::Index n, double force, double moment) {
-    return Eigen::Vector2d(force, moment).head(n);
-  }
   std::vector<Wrenches> columns_;
 };
 
