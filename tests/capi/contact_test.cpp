@@ -312,6 +312,19 @@ std::vector<double> two_loads(double load) {
   return out;
 }
 
+TEST(CInterface, AWheelThatHasClimbedTheRailIsMarked) {
+  Handle h(kEuropean);
+  rs_state state = state_of(RS_LOAD | RS_LATERAL_SHIFT);
+  state.load = 80e3;
+  for (const double shift : {2e-3, 24e-3}) {
+    state.lateral_shift = shift;
+    ASSERT_EQ(h.solve(state), RS_OK) << h.error.message;
+    const bool named = std::string(rs_remarks(h.handle)).find("contact_on_flange_crest") != std::string::npos;
+    EXPECT_EQ(named, shift > 10e-3);
+    EXPECT_EQ(h.forces.checks_hold, named ? 0 : 1);
+  }
+}
+
 TEST(CInterface, EightContactsOnFourThreadsHaveTheBitsOfOne) {
   std::vector<std::vector<double>> alone(8), together(8);
   for (std::size_t k = 0; k < alone.size(); ++k) alone[k] = two_loads(70e3 + 2e3 * static_cast<double>(k));

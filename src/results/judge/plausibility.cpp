@@ -139,6 +139,12 @@ double film_shear(const CaseSpec& spec, const PatchMeasures& patch) {
   return patch.q_max_point * third_body(spec).flexibility() / (0.5 * shorter_axis(patch));
 }
 
+std::vector<Warning> flange_warnings(const PatchSurroundings& around) {
+  Warnings out(Engine::bem);
+  warn_of_flange(around, out);
+  return out.take();
+}
+
 std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const PatchSurroundings& around,
                                  double element) {
   Warnings out(s.run.engine);

@@ -23,6 +23,9 @@ double film_shear(const CaseSpec& spec, const PatchMeasures& patch);
 std::vector<Warning> implausible(const Summary& summary, const CaseSpec& spec, const PatchSurroundings& around,
                                  double element);
 
+/// Of half-spaces, contact_on_flange_crest and flange_outside_gauge alone: a wheel that has climbed the rail.
+std::vector<Warning> flange_warnings(const PatchSurroundings& around);
+
 // ---- of a finite element run before it starts, and of its results for the same reasons
 /// Warnings of a case that is measured at a wheel position [m]:
 ///   measured_within_torque_ramp   the window begins before the torque has its full value (the ramp's time times the

@@ -10,6 +10,7 @@
 #include "ask/solve_settings.hpp"
 #include "geometry/read_profile.hpp"
 #include "judge/bem_summary.hpp"
+#include "judge/plausibility.hpp"
 #include "model/drive_at_contact.hpp"
 #include "rules/clashes.hpp"
 
@@ -42,10 +43,23 @@ bool stands_at(const GeometrySpec& geometry, const TrackGeometry& track) {
   return geometry.lateral_shift == track.lateral_shift && geometry.yaw == track.yaw && geometry.roll == track.roll;
 }
 
+/// Of the patch that stands farthest on or over its flange.
+std::vector<Warning> climbed(const BemResult& result) {
+  std::vector<Warning> out;
+  for (const BemPatch* patch : patches_of(result))
+    if (std::vector<Warning> of_patch = flange_warnings(patch->surroundings); of_patch.size() > out.size())
+      out = std::move(of_patch);
+  return out;
+}
+
 std::string remarks_of(const BemResult& result, const Summary& summary) {
   std::string out;
+  const auto fails = [&](const auto& check) {
+    out += fmt::format("check {} fails: {:g}, limit {:g}\n", check.name, check.value, check.limit);
+  };
   for (const Check& check : summary.checks)
-    if (!check.ok) out += fmt::format("check {} fails: {:g}, limit {:g}\n", check.name, check.value, check.limit);
+    if (!check.ok) fails(check);
+  for (const Warning& warning : climbed(result)) fails(warning);
   for (const std::string& note : result.notes) out += note + "\n";
   if (!out.empty()) out.pop_back();
   return out;
@@ -99,6 +113,7 @@ Forces forces_of(const BemResult& result, const Summary& summary) {
              static_cast<int>(1 + result.further.size()),
              cells_with_pressure(result.field),
              result.effort.iterations};
+  out.checks_hold = climbed(result).empty();
   for (const Check& check : summary.checks) out.checks_hold = out.checks_hold && check.ok;
   return out;
 }

@@ -109,6 +109,12 @@ double sink(Wheelset& set, double load) {
   }
   if (low && high) narrow_root(low->z, low->excess, high->z, high->excess, close, kSame, kMostSolutions, excess);
   if (std::abs(now.excess) <= close) return now.z;
+  if (low && high)
+    throw NoAnswer(
+        fmt::format("no equilibrium: near z = {:.6g} mm the vertical force jumps past the load, by {:.4g} N at "
+                    "the least",
+                    1e3 * now.z, std::abs(now.excess)),
+        "give z and the roll, or another y");
   throw NumericalError("the height of the wheelset under its load was not found");
 }
 
