@@ -262,6 +262,22 @@ class CConsumer(Consumer):
         self.assertEqual(by_c, trajectory("octave-cli", "--no-gui", "-q", examples / "hunting.m",
                                           self.folder / "wheelset_pipe"))
 
+    def test_a_bogie_needs_few_newton_steps(self):
+        examples = PREFIX / "share/railstrata/examples/vehicle"
+        done("gcc", "-std=c89", "-pedantic", "-Wall", "-Werror", "-I", PREFIX / "include", examples / "bogie.c",
+             "-o", self.folder / "bogie", *self.links, "-lm")
+        aside = {}
+        for given in ("load", "height"):
+            run = subprocess.run([self.folder / "bogie", examples / "bogie.toml", given, "0.001", "0.05"],
+                                 capture_output=True, text=True, check=True)
+            aside[given] = float(run.stdout.splitlines()[1].split(",")[1])
+            steps, newton, unfinished, failed, beyond = (
+                int(re.search(rf"(\d+) {what}\b", run.stderr)[1])
+                for what in ("steps", "of Newton", "without end", "failed", "beyond"))
+            self.assertEqual((steps, unfinished, failed, beyond), (50, 0, 0, 0), run.stderr)
+            self.assertLess(newton, 2.5 * steps)
+        self.assertAlmostEqual(aside["load"], aside["height"], delta=2e-3)  # mm; the roll has inertia in one
+
     def test_the_c_of_the_manuals_compiles(self):
         for page in ("library", "creep-table"):
             lines = re.search(r"```c\n(.*?)```", (SOURCE / f"docs/{page}.md").read_text(), re.S)[1].splitlines()
