@@ -60,21 +60,23 @@ void keep(const PatchGrid& g, RollingSolution& s, Own&& own) {
 }
 
 /// Each contact's own, in order along the rail.
-std::vector<RigidContact> own_places(const std::vector<RigidContact>& contacts, const Placement& placement,
-                                     double descent) {
+std::vector<RigidContact> own_places(const PatchOnWheel& whole, const Placement& placement, double descent) {
   std::vector<ContactPlace> each;
-  for (const RigidContact& c : contacts) each.push_back({c, 0});
+  for (const RigidContact& c : whole.contacts) each.push_back({c, 0});
   put_in_order(each);
   for (std::size_t k = 0; k < each.size(); ++k) each[k].patch = k;
+  std::vector<PatchPlace> places = patch_places(placement, each);
+  places.front().stretch.low = whole.stretch.low;
+  places.back().stretch.high = whole.stretch.high;
   std::vector<RigidContact> out;
-  for (const PatchPlace& place : patch_places(placement, each)) out.push_back(plane_of(placement, place, descent));
+  for (const PatchPlace& place : places) out.push_back(plane_of(placement, place, descent));
   return out;
 }
 
 }  // namespace
 
 std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole, const Placement& placement, double descent) {
-  const std::vector<RigidContact> places = own_places(whole.contacts, placement, descent);
+  const std::vector<RigidContact> places = own_places(whole, placement, descent);
   const ConnectedRegions part = connected_regions(whole.patch.grid.ny, whole.solution.normal.pressure, 0);
   const std::vector<PartExtent> extents = extents_of(whole, part);
   const auto t_of = [&](const RigidContact& c) { return along_plane(whole.contact, c.point); };
@@ -95,6 +97,9 @@ std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole, const Placement& pl
     });
     out.push_back(std::move(piece));
   }
+  std::stable_sort(out.begin(), out.end(), [](const PatchPiece& a, const PatchPiece& b) {
+    return a.patch.solution.normal.load > b.patch.solution.normal.load;
+  });
   return out.size() > 1 ? std::move(out) : std::vector<PatchPiece>{{whole.contact, whole}};
 }
 

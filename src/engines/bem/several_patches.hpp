@@ -25,6 +25,7 @@ struct PatchOnWheel {
   CasePatch patch;
   RollingSolution solution;
   std::vector<RigidContact> contacts{};  ///< that were solved in one plane, `contact`; empty: that one
+  RailStretch stretch{};                 ///< between the ridges to other patches
 };
 
 struct SharedLoad {
@@ -53,9 +54,10 @@ struct PatchPiece {
   PatchOnWheel patch;  ///< on the grid and in the plane of the whole, nothing outside of the part
 };
 
-/// The cells with pressure that hang together, by sides or corners, belong to the place that their centre of pressure is
-/// nearest to: those of the overlaps of the whole's contacts on their stretches of the rail, under a descent [m]. The
-/// dissipation of the whole is shared by q·slip of the cells. Of one part: the whole, at the plane's own place.
+/// The cells with pressure that hang together, by sides or corners, belong to the place that their centre of pressure
+/// is nearest to: those of the overlaps of the whole's contacts on their stretches of the rail, under a descent [m].
+/// The dissipation of the whole is shared by q·slip of the cells. The heaviest first. Of one part: the whole, at the
+/// plane's own place.
 std::vector<PatchPiece> pieces_of(const PatchOnWheel& whole, const Placement& placement, double descent);
 
 }  // namespace railstrata

@@ -323,6 +323,7 @@ SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const B
     shared.descent = descent;
     shared.power = alone.power;
     alone.contacts = std::move(shared.alone.contacts);
+    alone.stretch = shared.alone.stretch;
     shared.patches.push_back(std::move(alone));
     return shared;
   }
@@ -347,7 +348,7 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
   one.lower(descent);
   out.descent = descent;
   out.load_iterations = 1;
-  out.patches.push_back({one.plane(), {}, {}, std::move(out.alone.contacts)});
+  out.patches.push_back({one.plane(), {}, {}, std::move(out.alone.contacts), out.alone.stretch});
   const NormalTarget target{{}, one.approach()};
   CasePatch& patch = out.patches.front().patch;
   RollingSolution& solution = out.patches.front().solution;

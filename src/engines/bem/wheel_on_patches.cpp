@@ -145,7 +145,9 @@ SharedLoad WheelOnPatches::take() {
   SharedLoad out;
   out.load_iterations = iterations_;
   for (Member& m : members_)
-    if (m.loaded()) out.patches.push_back({m.contact(), std::move(m.patch), std::move(m.solution), m.place.contacts});
+    if (m.loaded())
+      out.patches.push_back(
+          {m.contact(), std::move(m.patch), std::move(m.solution), m.place.contacts, m.place.stretch});
   out.descent = descent_;
   out.along = along_;
   out.across = across_;
