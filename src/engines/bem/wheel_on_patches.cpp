@@ -119,7 +119,6 @@ void WheelOnPatches::lay_start(Member& m, const BemStart& start) {
   m.solution = start.solution;
 }
 
-/// Two patches of which one reaches the ridge between them.
 std::optional<std::pair<std::size_t, std::size_t>> WheelOnPatches::merged() const {
   for (std::size_t k = 0; k < members_.size(); ++k) {
     const Member& m = members_[k];

@@ -16,7 +16,7 @@
 
 namespace railstrata {
 
-/// Of the softer of both bodies together: E* [Pa] of the bodies below the layers.
+/// E* [Pa] of wheel and rail together, below their layers.
 double modulus_of(const CaseSpec& spec);
 
 class WheelOnPatches {
