@@ -204,6 +204,84 @@ TEST(SeveralPatches, ACommonPlaneIsTheMeanByTheOverlap) {
   }
 }
 
+/// S1002 on UIC60 with two places whose angles differ by less than that of one plane, and the descent at which the
+/// wheel overlaps the rail all the way between them.
+struct AlmostOnePlane {
+  CaseSpec spec;
+  Placement placement;
+  double overlapping = 0;
+
+  AlmostOnePlane() {
+    for (double shift = 4.9e-3; shift < 5.3e-3; shift += 0.02e-3) {
+      spec = european(shift);
+      placement = place(spec, {});
+      const RigidContact& first = placement.contact;
+      const auto further = further_contacts(placement.wheel, placement.rail, placement.track, first, 0.1e-3);
+      if (further.size() != 1 || std::abs(further[0].angle - first.angle) > kAngleOfOnePlane) continue;
+      const Ridge ridge = ridge_between(placement.wheel, placement.rail, placement.track, first, further[0]);
+      overlapping = ridge.gap + first.wheel_offset_z;
+      if (further[0].axle_height < first.axle_height - overlapping + 5e-6) continue;
+      return;
+    }
+    overlapping = 0;
+  }
+  std::vector<Grouping> at(double descent) const { return groupings_of(spec, placement, descent); }
+};
+
+// The answer of two planes fades into that of one over the last micrometre: 3 t^2 - 2 t^3.
+TEST(SeveralPatches, PlacesBecomeOneByShares) {
+  const AlmostOnePlane pair;
+  ASSERT_GT(pair.overlapping, 5e-6);
+  for (const double over : {1e-9, 20e-6}) {
+    const auto one = pair.at(pair.overlapping + over);
+    ASSERT_EQ(one.size(), 1U);
+    EXPECT_EQ(one[0].places[0].patch, one[0].places[1].patch);
+  }
+  for (const double t : {0.1, 0.5, 0.9}) {
+    const auto both = pair.at(pair.overlapping - (1 - t) * kFadingGap);
+    ASSERT_EQ(both.size(), 2U) << t;
+    EXPECT_NE(both[0].places[0].patch, both[0].places[1].patch);
+    EXPECT_EQ(both[1].places[0].patch, both[1].places[1].patch);
+    EXPECT_NEAR(both[1].share, 3 * t * t - 2 * t * t * t, 1e-6);
+    EXPECT_NEAR(both[0].share + both[1].share, 1, 1e-15);
+  }
+  const auto apart = pair.at(pair.overlapping - 1.01 * kFadingGap);
+  ASSERT_EQ(apart.size(), 1U);
+  EXPECT_NE(apart[0].places[0].patch, apart[0].places[1].patch);
+}
+
+// Sums of the result are those of both solutions by their shares; under a load they bear it.
+TEST(SeveralPatches, AMeanBearsItsLoadAndItsApproach) {
+  const AlmostOnePlane pair;
+  ASSERT_GT(pair.overlapping, 0);
+  BemOptions options = coarse();
+  CaseSpec spec = pair.spec;
+  spec.drive.friction_coefficient = 0.3;
+  options.descent = pair.overlapping - 0.5 * kFadingGap;
+  spec.vehicle.approach = options.descent * std::cos(reference_of(pair.placement, options.descent).angle);
+  const BemResult pressed = solve_bem(spec, pair.placement, options);
+  ASSERT_EQ(pressed.others.size(), 1U);
+  EXPECT_NEAR(pressed.share + pressed.others[0].share, 1, 1e-15);
+  EXPECT_NEAR(pressed.share, 0.5, 1e-6);
+  double vertical = 0, power = 0;
+  for (const BemPatch* p : patches_of(pressed)) {
+    vertical += pressed.share * p->force.z;
+    power += pressed.share * p->dissipation;
+  }
+  for (const BemPatch& p : pressed.others[0].patches) {
+    vertical += pressed.others[0].share * p.force.z;
+    power += pressed.others[0].share * p.dissipation;
+  }
+  EXPECT_NEAR(force_on_rail(pressed).z / vertical, 1, 1e-14);
+  EXPECT_NEAR(dissipation(pressed) / power, 1, 1e-14);
+  options.descent = 0;
+  spec.vehicle.set_load(-vertical);
+  const BemResult loaded = solve_bem(spec, pair.placement, options);
+  EXPECT_EQ(loaded.others.size(), 1U);
+  EXPECT_NEAR(-force_on_rail(loaded).z / spec.vehicle.load(), 1, 2 * options.balance);
+  EXPECT_NEAR(norm(force_on_rail(loaded) - force_on_rail(pressed)) / -vertical, 0, 1e-4);
+}
+
 // CONTACT's rules, by module 1 of extras/cntc: cells of 0.5 mm, friction 1e-4.
 TEST(PlaneOfAPatch, GivesTheLateralForceOfContactsRules) {
   constexpr double kForces[][2] = {{-1, 1740.8}, {-0.5, 2159.7}, {0, 2751.7}, {0.5, 3502.5},

@@ -1,6 +1,7 @@
 // Wheelsets of the C interface: equilibrium, mirror images, trial steps, many states, Klingel's wavelength.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -194,6 +195,81 @@ TEST(Wheelset, AWheelThatChangesItsPlaceBearsItsLoad) {
   ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
   EXPECT_NEAR(set.forces.force[2], 220e3, 22);
   EXPECT_NEAR(set.forces.moment[0], 0, 22);
+}
+
+/// A bogie's wheelset between tread and gauge corner.
+struct BetweenPlanes {
+  double y, yaw;                        ///< m, rad
+  double y_rate, yaw_rate, pitch_rate;  ///< m/s, rad/s
+  double roll_moment, rail_y;           ///< N m, m
+  rs_wheelset_state state() const {
+    rs_wheelset_state out = loaded(y, yaw);
+    out.load = 109100;
+    out.y_rate = y_rate;
+    out.yaw_rate = yaw_rate;
+    out.pitch_rate = pitch_rate;
+    out.roll_moment = roll_moment;
+    out.rail_y[RS_LEFT] = out.rail_y[RS_RIGHT] = rail_y;
+    return out;
+  }
+};
+/// Places whose angles become nearer than those of one plane; patches whose pressures reach the ridge between them.
+constexpr BetweenPlanes kTurns{0.005222303846900928,  0.0012050263801346103, -0.0002341538428388014,
+                               -0.013954913610259924, -0.067997667946069873, -669.8347047230717,
+                               0.00016910843242349882},
+    kMeets{0.0050584164147168221, 0.0013475929651244427, -0.002429306637423832,  -0.016972273766443433,
+           -0.079160375849027478, -928.76240570846073,   -8.6867191200560179e-05};
+
+constexpr const char* kBogie =
+    "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\nwheel_radius = \"460 mm\"\n"
+    "[drive]\nfriction_coefficient = 0.3\n";
+
+TEST(Wheelset, ALoadBetweenTheForcesOfTwoPlanesAndOfOneHasAnAnswer) {
+  for (const BetweenPlanes& between : {kTurns, kMeets}) {
+    Set set(kBogie);
+    ASSERT_EQ(set.solve(between.state()), RS_OK) << between.y << ": " << set.error.message;
+    EXPECT_NEAR(set.forces.force[2], 109100, 11) << between.y;
+    EXPECT_NEAR(set.forces.moment[0], -between.roll_moment, 11) << between.y;
+  }
+}
+
+/// Cold solutions at 61 heights and rolls about those given.
+struct Way {
+  int mixed = 0;                      ///< solutions that are means of two
+  double force = 0, roll_moment = 0;  ///< the largest changes from one to the next, N, N m
+
+  Way(const BetweenPlanes& between, double z, double roll, double by_z, double by_roll) {
+    Set set(kBogie);
+    for (int side : {RS_LEFT, RS_RIGHT}) rs_set_tolerance(rs_wheelset_contact(set.handle, side), 1e-7, nullptr);
+    rs_wheelset_state state = between.state();
+    state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
+    rs_wheelset_forces before{};
+    for (int i = -30; i <= 30; ++i) {
+      state.z = z + i * by_z;
+      state.roll = roll + i * by_roll;
+      rs_wheelset_forget(set.handle);
+      EXPECT_EQ(set.solve(state), RS_OK) << set.error.message;
+      mixed += std::string(rs_wheelset_remarks(set.handle)).find("on the way into one plane") != std::string::npos;
+      if (i > -30) {
+        force = std::max(force, std::abs(set.forces.force[2] - before.force[2]));
+        roll_moment = std::max(roll_moment, std::abs(set.forces.moment[0] - before.moment[0]));
+      }
+      before = set.forces;
+    }
+  }
+};
+
+// By one of both planes at a time the vertical force has a step of 730 N over the height, where 50 nm are 130 N, and
+// one of 960 N over the roll, where 0.4 urad are 40 N.
+TEST(Wheelset, ForcesAreContinuousWhereTwoPlanesBecomeOne) {
+  const Way over_height(kMeets, 5.6207e-5, 3.69866337298e-4, -5e-8, 0);
+  EXPECT_GT(over_height.mixed, 5);
+  EXPECT_LT(over_height.force, 250);
+  EXPECT_LT(over_height.roll_moment, 100);
+  const Way over_roll(kTurns, 4.63e-5, 3.6e-4, 0, 4e-7);
+  EXPECT_GT(over_roll.mixed, 5);
+  EXPECT_LT(over_roll.force, 80);
+  EXPECT_LT(over_roll.roll_moment, 600);
 }
 
 // Towards the flange and beyond what a load without a roll moment can hold: an answer is an equilibrium.

@@ -36,8 +36,9 @@ struct BemNeighbour {
   double power = kPowerOfHertz;                 ///< of the descent in the vertical force, of one patch
   SoughtCreepage along{}, across{};             ///< of the wheel's reference, of several patches
   std::vector<std::vector<BemStart>> smooth{};  ///< without friction: of each trial which patches merge
+  std::vector<BemNeighbour> others{};           ///< where the answer is a mean of several: those after the first
   bool empty() const { return patches.empty(); }
-  /// The one patch that bears all; null: there are several, or none.
+  /// The one patch that bears all, of the first answer; null: there are several, or none.
   const BemStart* alone() const { return patches.size() == 1 ? &patches.front() : nullptr; }
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "core/faults.hpp"
@@ -14,17 +15,91 @@ double along_plane(const RigidContact& contact, Vec2 point) {
   return dot(point - contact.point, {std::cos(contact.angle), std::sin(contact.angle)});
 }
 
-std::vector<ContactPlace> places_of(const CaseSpec& spec, const Placement& p, double descent) {
-  std::vector<ContactPlace> out{{p.contact, 0}};
+double fade(double x) {
+  const double t = std::clamp(x, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+namespace {
+
+/// The contacts under a descent, the first one first, and the links of each to those before it.
+struct LinkedContacts {
+  std::vector<RigidContact> contacts;
+  std::vector<std::vector<double>> links;
+
+  /// Links that reach the threshold hold.
+  std::vector<ContactPlace> grouped(double threshold) const {
+    std::vector<ContactPlace> out;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      const auto with = std::find_if(links[k].begin(), links[k].end(), [&](double link) { return link >= threshold; });
+      const bool joins = with != links[k].end();
+      out.push_back({contacts[k], joins ? out[static_cast<std::size_t>(with - links[k].begin())].patch : k});
+    }
+    return out;
+  }
+};
+
+double link_between(const Placement& p, const RigidContact& a, const RigidContact& b, double level) {
+  const double by_angle = fade(1 + (kAngleOfOnePlane - std::abs(a.angle - b.angle)) / kFadingAngle);
+  if (by_angle == 0) return 0;
+  return by_angle * fade(1 + (level - ridge_between(p.wheel, p.rail, p.track, a, b).gap) / kFadingGap);
+}
+
+LinkedContacts linked_contacts(const CaseSpec& spec, const Placement& p, double descent) {
+  LinkedContacts out{{p.contact}, {{}}};
   if (spec.geometry.in_line() || p.contact.settled) return out;
   for (const RigidContact& c : further_contacts(p.wheel, p.rail, p.track, p.contact, descent)) {
-    const auto with = std::find_if(out.begin(), out.end(), [&](const ContactPlace& other) {
-      return std::abs(c.angle - other.contact.angle) <= kAngleOfOnePlane &&
-             ridge_between(p.wheel, p.rail, p.track, c, other.contact).gap < descent - p.contact.wheel_offset_z;
-    });
-    out.push_back({c, with != out.end() ? with->patch : out.size()});
+    std::vector<double> links;
+    for (const RigidContact& other : out.contacts)
+      links.push_back(link_between(p, c, other, descent - p.contact.wheel_offset_z));
+    out.contacts.push_back(c);
+    out.links.push_back(std::move(links));
   }
   return out;
+}
+
+bool same_patches(const std::vector<ContactPlace>& a, const std::vector<ContactPlace>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const ContactPlace& x, const ContactPlace& y) { return x.patch == y.patch; });
+}
+
+}  // namespace
+
+std::vector<ContactPlace> places_of(const CaseSpec& spec, const Placement& placement, double descent) {
+  return linked_contacts(spec, placement, descent).grouped(1);
+}
+
+std::vector<Grouping> groupings_of(const CaseSpec& spec, const Placement& placement, double descent) {
+  const LinkedContacts linked = linked_contacts(spec, placement, descent);
+  std::vector<double> thresholds{1};
+  for (const std::vector<double>& links : linked.links)
+    for (const double link : links)
+      if (link > 0) thresholds.push_back(link);
+  std::sort(thresholds.begin(), thresholds.end(), std::greater<>());
+  std::vector<Grouping> out;
+  for (std::size_t k = 0; k < thresholds.size(); ++k) {
+    const double share = thresholds[k] - (k + 1 < thresholds.size() ? thresholds[k + 1] : 0.0);
+    if (share == 0) continue;
+    std::vector<ContactPlace> places = linked.grouped(thresholds[k]);
+    if (!out.empty() && same_patches(out.back().places, places))
+      out.back().share += share;
+    else
+      out.push_back({share, std::move(places)});
+  }
+  return out;
+}
+
+bool agrees(const std::vector<ContactPlace>& first, const std::vector<ContactPlace>& second) {
+  const auto in_first = [&](const ContactPlace& place) {
+    return std::find_if(first.begin(), first.end(),
+                        [&](const ContactPlace& p) { return same_place(p.contact, place.contact); });
+  };
+  for (const ContactPlace& a : second)
+    for (const ContactPlace& b : second) {
+      const auto x = in_first(a), y = in_first(b);
+      if (x == first.end() || y == first.end() || (x->patch == y->patch) != (a.patch == b.patch)) return false;
+    }
+  return true;
 }
 
 void put_in_order(std::vector<ContactPlace>& places) {

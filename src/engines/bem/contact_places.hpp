@@ -15,6 +15,12 @@ namespace railstrata {
 /// where the wheel overlaps the rail all the way between them: half of the angle that one patch may span without a
 /// warning.
 inline constexpr double kAngleOfOnePlane = 10 * std::numbers::pi / 180;
+/// Between planes of their own and one plane the answer fades: over this much of the angle above it, and over so much
+/// of the gap that is left between them [m] before the wheel overlaps the rail all the way.
+inline constexpr double kFadingAngle = 0.02 * std::numbers::pi / 180, kFadingGap = 1e-6;
+
+/// From 0 to 1 over x from 0 to 1, with the slope 0 at both ends.
+double fade(double x);
 
 /// A lowest place of the gap and the patch that it belongs to: by its number in order of descent.
 struct ContactPlace {
@@ -26,6 +32,21 @@ struct ContactPlace {
 /// are one patch where it overlaps the rail all the way between them. A contact in a line is one
 /// place, and so is one that is settled.
 std::vector<ContactPlace> places_of(const CaseSpec& spec, const Placement& placement, double descent);
+
+/// One way to group the places, and its share in the answer.
+struct Grouping {
+  double share = 1;
+  std::vector<ContactPlace> places;
+};
+
+/// All ways to group the places that count under a descent [m]. Two neighbours have a link of 1 where places_of makes
+/// them one patch; it fades to 0 over kFadingAngle and kFadingGap. For each threshold between 0 and 1 links that reach
+/// it hold, and the answer is the mean over the thresholds: continuous in all that links follow. The first one is that
+/// of places_of, alone where no link fades.
+std::vector<Grouping> groupings_of(const CaseSpec& spec, const Placement& placement, double descent);
+
+/// Whether both groupings make the same patches of the places of the second one, which the first one has all.
+bool agrees(const std::vector<ContactPlace>& first, const std::vector<ContactPlace>& second);
 
 /// The patches' numbers without gaps, and the places in order along the rail.
 void put_in_order(std::vector<ContactPlace>& places);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "bem/one_patch.hpp"
 #include "core/faults.hpp"
+#include "core/root.hpp"
 
 namespace railstrata {
 
@@ -103,7 +105,7 @@ LoadedPatch balance_in_plane(const OnePatch& one, CasePatch laid, const BemOptio
   }
 }
 
-double vertical_force(const LoadedPatch& p) {
+double vertical_force(const PatchOnWheel& p) {
   return p.solution.normal.load * std::cos(p.contact.angle) - p.solution.tangential.force_y * std::sin(p.contact.angle);
 }
 
@@ -147,16 +149,43 @@ LoadedPatch balance_by_descent(OnePatch& one, CasePatch laid, const BemOptions& 
   }
 }
 
-SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+std::size_t count_patches(const std::vector<ContactPlace>& places) {
+  std::set<std::size_t> out;
+  for (const ContactPlace& p : places) out.insert(p.patch);
+  return out.size();
+}
+
+/// Of a neighbour with several solutions the last one of as many patches, else the first one, is where to start.
+BemOptions starting_from(const BemOptions& options, const std::vector<ContactPlace>& places) {
+  if (!options.neighbour || options.neighbour->others.empty()) return options;
+  std::vector<BemNeighbour>& others = options.neighbour->others;
+  const std::size_t patches = count_patches(places);
+  const auto other =
+      std::find_if(others.rbegin(), others.rend(), [&](const BemNeighbour& n) { return n.patches.size() == patches; });
+  BemOptions out = options;
+  if (other != others.rend()) out.neighbour = &*other;
+  return out;
+}
+
+struct BorneLoad {
+  SharedLoad load;
+  std::vector<ContactPlace> places;  ///< that were looked at
+  bool near_merging = false;         ///< as of share_load
+};
+
+/// Bears the load on patches of the places that count under a first descent.
+BorneLoad bear_on_places(const CaseSpec& spec, const Placement& placement, const BemOptions& all_options,
+                         std::optional<FirstPatch> first, double descent) {
   constexpr int kMostRounds = 5;
   const double load = spec.vehicle.load();
-  check_friction(spec, load, normal_load(load, 0, placement.contact));
-  std::optional<FirstPatch> first;
-  if (!options.neighbour || options.neighbour->empty()) first.emplace(press_first(spec, placement, options));
-  double descent = first ? first->one.descent_at(first->laid.frictionless.approach) : options.neighbour->descent;
   for (int round = 1;; ++round) {
-    SharedLoad shared = share_load(spec, placement, descent, options);
-    if (!shared.patches.empty()) return shared;
+    BorneLoad out;
+    out.places = places_of(spec, placement, descent);
+    const BemOptions options = starting_from(all_options, out.places);
+    SharedLoad& shared = out.load;
+    shared = share_load(spec, placement, out.places, descent, options,
+                        forces_wanted(spec) ? Merging::at_once : Merging::by_reach, out.near_merging);
+    if (!shared.patches.empty()) return out;
     const bool as_laid = first && first->one.place().same_as(shared.alone);
     OnePatch one = as_laid ? first->one : OnePatch(spec, placement, shared.alone);
     if (!as_laid) one.lower(descent);
@@ -173,25 +202,15 @@ SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const B
     alone.contacts = std::move(shared.alone.contacts);
     alone.stretch = shared.alone.stretch;
     shared.patches.push_back(std::move(alone));
-    return shared;
+    return out;
   }
 }
 
-/// Under a given approach the vertical force F_z is a result. Forces of the drive count over it: F_z and they are found
-/// in turn, from the frictionless contact on.
-SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+/// Fills `out` with its one patch. Under a given approach the vertical force F_z is a result. Forces of the drive count
+/// over it: F_z and they are found in turn, from the frictionless contact on.
+void press_alone(const CaseSpec& spec, const Placement& placement, double descent, const BemOptions& options,
+                 SharedLoad& out) {
   constexpr int kMostRounds = 40;
-  const double descent = options.descent > 0 ? options.descent : descent_of(placement, *spec.vehicle.approach);
-  SharedLoad out;
-  if (!forces_wanted(spec)) {
-    out = share_load(spec, placement, descent, options);
-    if (!out.patches.empty()) return out;
-  } else {
-    require_one_plane(
-        placement, *spec.vehicle.approach, "vehicle.approach",
-        "give creepages instead of forces, or a load instead of vehicle.approach: the contacts share the force");
-    out.alone = first_place(spec, placement, descent);
-  }
   OnePatch one(spec, placement, out.alone);
   one.lower(descent);
   out.descent = descent;
@@ -205,7 +224,7 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
     one.drive(0, patch.contact);
     solution = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling,
                              &options.neighbour->alone()->solution);
-    if (!reaches_edge(patch.grid, solution.normal.pressure)) return out;
+    if (!reaches_edge(patch.grid, solution.normal.pressure)) return;
   }
   patch = one.lay(target, options);
   const double cosine = std::cos(one.plane().angle), sine = std::sin(one.plane().angle);
@@ -217,7 +236,7 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
     const double before = vertical;
     vertical = cosine * solution.normal.load - sine * solution.tangential.force_y;
     const bool driven = patch.contact.x.force.value_or(0) != 0 || patch.contact.y.force.value_or(0) != 0;
-    if (!driven || std::abs(vertical - before) <= options.balance * std::abs(vertical)) return out;
+    if (!driven || std::abs(vertical - before) <= options.balance * std::abs(vertical)) return;
     if (out.load_iterations == kMostRounds)
       throw CaseError("the ratio of forces to the resulting load does not converge with a given approach",
                       "lower the traction coefficients, or give a load instead of vehicle.approach",
@@ -225,10 +244,152 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
   }
 }
 
+/// A way to group the places that is still to be solved, of the patches that it came from by merging.
+struct Pending {
+  Grouping grouping;
+  std::vector<std::vector<BemStart>> smooth{};
+};
+
+/// In order of the number of patches, the most first; the shares of equal ones are added.
+void add(Pending one, std::vector<Pending>& all) {
+  const std::size_t patches = count_patches(one.grouping.places);
+  for (auto it = all.begin(); it != all.end(); ++it) {
+    if (agrees(it->grouping.places, one.grouping.places)) {
+      it->grouping.share += one.grouping.share;
+      if (it->smooth.empty()) it->smooth = std::move(one.smooth);
+      return;
+    }
+    if (count_patches(it->grouping.places) < patches) {
+      all.insert(it, std::move(one));
+      return;
+    }
+  }
+  all.push_back(std::move(one));
+}
+
+/// Solves every way to group the places under a descent, and what of their patches is merged.
+std::vector<SharedLoad> press_together(const CaseSpec& spec, const Placement& placement, double descent,
+                                       const BemOptions& options) {
+  std::vector<Pending> pending;
+  for (Grouping& grouping : groupings_of(spec, placement, descent)) {
+    put_in_order(grouping.places);
+    add({std::move(grouping)}, pending);
+  }
+  std::vector<SharedLoad> out;
+  while (!pending.empty()) {
+    const Pending now = std::move(pending.front());
+    pending.erase(pending.begin());
+    const std::vector<ContactPlace>& places = now.grouping.places;
+    const BemOptions how = starting_from(options, places);
+    SharedLoad one = share_between(spec, placement, places, descent, how, Merging::by_reach, now.smooth);
+    const double share = one.meet ? share_merged(*one.meet) : 0;
+    if (share > 0) add({{share * now.grouping.share, merged(places, *one.meet)}, one.smooth}, pending);
+    if (share == 1 && one.meet->reach > kSurelyOne) continue;
+    one.share = (1 - share) * now.grouping.share;
+    if (one.patches.empty()) press_alone(spec, placement, descent, how, one);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+std::vector<SharedLoad> press_to_approach(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  const double descent = options.descent > 0 ? options.descent : descent_of(placement, *spec.vehicle.approach);
+  if (!forces_wanted(spec)) return press_together(spec, placement, descent, options);
+  require_one_plane(
+      placement, *spec.vehicle.approach, "vehicle.approach",
+      "give creepages instead of forces, or a load instead of vehicle.approach: the contacts share the force");
+  std::vector<SharedLoad> out(1);
+  out[0].alone = first_place(spec, placement, descent);
+  press_alone(spec, placement, descent, options, out[0]);
+  return out;
+}
+
+/// The descent at which the mean of all groupings bears the load, near one: a root of a continuous force. Nothing where
+/// none is found.
+std::vector<SharedLoad> sink_under_load(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                                        double near) {
+  constexpr int kMostSteps = 30;
+  constexpr double kSharper = 0.1, kFirstStep = 1e-3, kSame = 1e-14;  // of the tolerance; of the descent; m
+  const double load = spec.vehicle.load(), close = options.balance * load;
+  CaseSpec pressed = spec;
+  BemNeighbour last = options.neighbour ? *options.neighbour : BemNeighbour{};
+  BemOptions how = options;
+  how.balance *= kSharper;
+  how.neighbour = &last;
+  std::vector<SharedLoad> out;
+  double missed = 0;
+  const auto excess = [&](double descent) {
+    pressed.vehicle.approach = descent * std::cos(reference_of(placement, descent).angle);
+    how.descent = descent;
+    out = press_to_approach(pressed, placement, how);
+    last = neighbour_of(out);
+    missed = -load;
+    for (const SharedLoad& one : out)
+      for (const PatchOnWheel& p : one.patches) missed += one.share * vertical_force(p);
+    return missed;
+  };
+  double a = near, at_a = excess(a), step = (at_a < 0 ? kFirstStep : -kFirstStep) * near;
+  if (std::abs(at_a) <= close) return out;
+  for (int i = 0; i < kMostSteps; ++i, step *= 2) {
+    const double b = a + step, at_b = b > 0 ? excess(b) : -load;
+    if (std::abs(at_b) <= close) return out;
+    if (at_a * at_b < 0) {
+      narrow_root(a, at_a, b, at_b, close, kSame, kMostSteps, excess);
+      return std::abs(missed) <= close ? std::move(out) : std::vector<SharedLoad>{};
+    }
+    if (!(b > 0)) break;
+    a = b;
+    at_a = at_b;
+  }
+  return {};
+}
+
+/// The groupings of the places are those under the descent that is found; where this one is on the way between two, the
+/// mean bears the load. Forces of the drive, which may be more than friction bears at another descent, keep those under
+/// the first descent.
+std::vector<SharedLoad> bear_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  constexpr int kMostRounds = 3;
+  const double load = spec.vehicle.load();
+  check_friction(spec, load, normal_load(load, 0, placement.contact));
+  std::optional<FirstPatch> first;
+  if (!options.neighbour || options.neighbour->empty()) first.emplace(press_first(spec, placement, options));
+  double descent = first ? first->one.descent_at(first->laid.frictionless.approach) : options.neighbour->descent;
+  BorneLoad borne;
+  for (int round = 1;; ++round) {
+    borne = bear_on_places(spec, placement, options, std::exchange(first, std::nullopt), descent);
+    descent = borne.load.descent;
+    const std::vector<Grouping> there = forces_wanted(spec) || borne.places.size() == 1
+                                            ? std::vector<Grouping>{}
+                                            : groupings_of(spec, placement, descent);
+    const bool agreed = there.empty() || (there.size() == 1 && agrees(borne.places, there.front().places));
+    if (agreed && !borne.near_merging) break;
+    if (!agreed && there.size() == 1 && round < kMostRounds) continue;
+    std::vector<SharedLoad> sunk = sink_under_load(spec, placement, options, descent);
+    if (sunk.empty()) break;
+    return sunk;
+  }
+  std::vector<SharedLoad> out;
+  out.push_back(std::move(borne.load));
+  return out;
+}
+
 }  // namespace
 
-SharedLoad loaded_wheel(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+std::vector<SharedLoad> loaded_wheel(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   return spec.vehicle.approach ? press_to_approach(spec, placement, options) : bear_weight(spec, placement, options);
+}
+
+BemNeighbour neighbour_of(std::vector<SharedLoad> solved) {
+  BemNeighbour out;
+  for (SharedLoad& one : solved) {
+    BemNeighbour n{{}, one.descent, one.power, one.along, one.across, std::move(one.smooth), {}};
+    for (PatchOnWheel& p : one.patches) n.patches.push_back({p.patch.grid, std::move(p.solution), p.contact.rail_s});
+    if (&one == &solved.front())
+      out = std::move(n);
+    else
+      out.others.push_back(std::move(n));
+  }
+  return out;
 }
 
 }  // namespace railstrata

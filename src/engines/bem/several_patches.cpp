@@ -9,31 +9,55 @@
 
 namespace railstrata {
 
-SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double descent, const BemOptions& options) {
-  std::vector<ContactPlace> places = places_of(spec, placement, descent);
-  std::vector<std::vector<BemStart>> smooth;
-  for (;;) {
-    put_in_order(places);
-    SharedLoad alone;
-    alone.descent = descent;
-    alone.smooth = smooth;
-    std::vector<PatchPlace> patches = patch_places(placement, places);
-    alone.alone = patches.front();
-    alone.places = places.size();
-    if (patches.size() == 1) return alone;
+SharedLoad share_between(const CaseSpec& spec, const Placement& placement, const std::vector<ContactPlace>& places,
+                         double descent, const BemOptions& options, Merging merging,
+                         std::vector<std::vector<BemStart>> smooth) {
+  SharedLoad alone;
+  alone.descent = descent;
+  std::vector<PatchPlace> patches = patch_places(placement, places);
+  alone.alone = patches.front();
+  alone.places = places.size();
+  if (patches.size() > 1) {
     WheelOnPatches wheel(spec, placement, patches, descent, options);
-    smooth.push_back(wheel.settle(smooth.size()));
-    const auto merged = wheel.merged();
-    if (!merged) {
-      SharedLoad out = wheel.take();
+    smooth.push_back(wheel.settle(smooth.size(), merging == Merging::at_once ? 0.0 : kSurelyOne));
+    alone.meet = wheel.meeting();
+    SharedLoad out = wheel.take();
+    const bool bears_all = out.patches.size() == 1 && out.patches.front().contacts.size() == 1 &&
+                           out.patches.front().contacts.front().rail_s == placement.contact.rail_s;
+    if (!bears_all) {
+      out.alone = std::move(alone.alone);
+      out.places = alone.places;
+      out.meet = alone.meet;
       out.smooth = std::move(smooth);
-      if (out.patches.size() > 1 || out.patches.front().contacts.size() > 1) return out;
-      const bool first = out.patches.front().contacts.front().rail_s == placement.contact.rail_s;
-      return first ? alone : out;
+      return out;
     }
-    const auto [into, from] = std::minmax(merged->first, merged->second);
-    for (ContactPlace& p : places)
-      if (p.patch == from) p.patch = into;
+  }
+  alone.smooth = std::move(smooth);
+  return alone;
+}
+
+std::vector<ContactPlace> merged(std::vector<ContactPlace> places, const PatchesMeet& meet) {
+  for (ContactPlace& p : places)
+    if (p.patch == meet.from) p.patch = meet.into;
+  put_in_order(places);
+  return places;
+}
+
+double share_merged(const PatchesMeet& meet) { return fade(meet.reach); }
+
+SharedLoad share_load(const CaseSpec& spec, const Placement& placement, std::vector<ContactPlace> places,
+                      double descent, const BemOptions& options, Merging merging, bool& near_merging) {
+  constexpr double kFar = 2;  // reach: more than a percent of descent away
+  SharedLoad out;
+  put_in_order(places);
+  for (;;) {
+    out = share_between(spec, placement, places, descent, options, merging, std::move(out.smooth));
+    if (!out.meet) return out;
+    if (merging == Merging::by_reach) {
+      near_merging = near_merging || out.meet->reach < kFar;
+      if (share_merged(*out.meet) < 0.5) return out;
+    }
+    places = merged(std::move(places), *out.meet);
   }
 }
 

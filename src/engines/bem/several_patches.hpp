@@ -13,6 +13,8 @@
 // over the patch is left out (bending_by_others). T is the sum along the planes of the patches, each its own: what one
 // lateral creepage makes. xi, eta and a given spin are those of the wheel's
 // reference (reference_of), 0; a given spin turns the wheel about the vertical. Planes and reference follow d.
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "bem/case_patch.hpp"
@@ -28,7 +30,18 @@ struct PatchOnWheel {
   RailStretch stretch{};                 ///< between the ridges to other patches
 };
 
+/// Two patches of which one comes near the ridge between them. reach: from 0, where cells within one of the ridge come
+/// into contact, over 1, where they bear a tenth of its largest pressure.
+struct PatchesMeet {
+  std::size_t into = 0, from = 0;
+  double reach = 0;
+};
+/// From this reach on, which is known to some 3 % without friction, patches are one.
+inline constexpr double kSurelyOne = 1.05;
+
+/// What bears the load, or one of those that do where the answer is the mean of several (groupings_of).
 struct SharedLoad {
+  double share = 1;                   ///< in the answer; 0: for the next one to start from
   std::vector<PatchOnWheel> patches;  ///< that carry load; empty: one patch carries it all, at `alone`
   PatchPlace alone;
   std::size_t places = 0;                     ///< that were looked at
@@ -36,13 +49,29 @@ struct SharedLoad {
   double power = kPowerOfHertz;               ///< of the descent in the vertical force, of one patch
   SoughtCreepage along, across;               ///< of the reference, of several patches
   std::vector<std::vector<BemStart>> smooth;  ///< as of BemNeighbour
+  std::optional<PatchesMeet> meet;            ///< the two that are nearest to becoming one
   int load_iterations = 0;
 };
 
-/// Looks where a wheel touches that is lowered by `descent` [m], that of a first patch that bears the whole load, or
-/// given, and shares the load if there are several patches. Patches that reach the ridge between them become one.
-/// Throws CaseError: traction above friction, friction that bears the weight (a wedged wheel).
-SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double descent, const BemOptions& options);
+/// How far patches come to each other before they are one: by the rule, or by any pressure in a cell beside the ridge.
+enum class Merging { by_reach, at_once };
+
+/// Shares the load between the patches of these places, in order, of a wheel that is lowered by `descent` [m], that of
+/// a first patch that bears the whole load, or given, if they are several. Patches that surely become one are not
+/// solved with friction. Throws CaseError: traction above friction, friction that bears the weight (a wedged wheel).
+SharedLoad share_between(const CaseSpec& spec, const Placement& placement, const std::vector<ContactPlace>& places,
+                         double descent, const BemOptions& options, Merging merging,
+                         std::vector<std::vector<BemStart>> smooth = {});
+
+/// The places with the patches that meet as one.
+std::vector<ContactPlace> merged(std::vector<ContactPlace> places, const PatchesMeet& meet);
+/// The share that an answer with both as one has: 0 to 1.
+double share_merged(const PatchesMeet& meet);
+
+/// The same where patches that reach the ridge between them, by half of share_merged, become one. near_merging: becomes
+/// true where the share of an answer with others may be more than 0.
+SharedLoad share_load(const CaseSpec& spec, const Placement& placement, std::vector<ContactPlace> places,
+                      double descent, const BemOptions& options, Merging merging, bool& near_merging);
 
 /// By how much the other patches bend the surfaces over one patch, of the contact's own smaller curvature kappa:
 /// the sum of 2/(pi E*) ∫ p_j/r_j³ dA over kappa, in the plane the second derivative of the depression.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "bem/loaded_wheel.hpp"
@@ -204,6 +205,32 @@ BemResult result_of(const CaseSpec& spec, const Placement& placement, const std:
   return r;
 }
 
+/// Of several solutions that with the largest share, and the others beside it.
+BemResult mean_result(const CaseSpec& spec, const Placement& placement, const std::vector<SharedLoad>& solved,
+                      bool apart) {
+  const auto most = std::max_element(solved.begin(), solved.end(),
+                                     [](const SharedLoad& a, const SharedLoad& b) { return a.share < b.share; });
+  BemResult out = result_of(spec, placement, most->patches, most->descent, apart);
+  out.effort.load_iterations = most->load_iterations;
+  for (const SharedLoad& one : solved) {
+    if (&one == &*most || one.share == 0) continue;
+    BemResult other = result_of(spec, placement, one.patches, one.descent, apart);
+    out.effort.outer_iterations = std::max(out.effort.outer_iterations, other.effort.outer_iterations);
+    out.effort.iterations += other.effort.iterations;
+    BemShare& beside = out.others.emplace_back(BemShare{one.share, {}});
+    std::vector<BemPatch> further = std::move(other.further);
+    beside.patches.push_back(std::move(other));
+    std::move(further.begin(), further.end(), std::back_inserter(beside.patches));
+  }
+  if (out.others.empty()) return out;
+  out.share = most->share;
+  out.notes.push_back(
+      fmt::format("two places are on the way into one plane: forces are means of the solution with "
+                  "these patches, by {:.0f} %, and of that with the others",
+                  100 * out.share));
+  return out;
+}
+
 /// sign: of the friction on this body, over that on the rail.
 Subsurface interior(const LayeredHalfSpace& body, const BemPatch& patch, double sign) {
   const ContactField& f = patch.together ? *patch.together : patch.field;
@@ -221,15 +248,19 @@ std::vector<const BemPatch*> patches_of(const BemResult& r) {
 }
 
 Vec3 force_on_rail(const BemResult& result) {
-  Vec3 sum{result.force.x, result.force.y, result.force.z};
-  for (const BemPatch& p : result.further) sum = sum + Vec3{p.force.x, p.force.y, p.force.z};
-  return sum;
+  return mean_of_solutions(result, [](const std::vector<const BemPatch*>& patches) {
+    Vec3 sum;
+    for (const BemPatch* p : patches) sum = sum + Vec3{p->force.x, p->force.y, p->force.z};
+    return sum;
+  });
 }
 
 double dissipation(const BemResult& result) {
-  double sum = result.dissipation;
-  for (const BemPatch& p : result.further) sum += p.dissipation;
-  return sum;
+  return mean_of_solutions(result, [](const std::vector<const BemPatch*>& patches) {
+    double sum = 0;
+    for (const BemPatch* p : patches) sum += p->dissipation;
+    return sum;
+  });
 }
 
 BemResult bem_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& patch) {
@@ -239,18 +270,14 @@ BemResult bem_result(const CaseSpec& spec, const Placement& placement, const Pat
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   require_support(spec.run.rolling ? uses::kSteadyRolling : uses::kHalfSpaces, spec);
-  SharedLoad shared = loaded_wheel(spec, placement, options);
-  if (shared.patches.size() > 1 && !spec.irregularities.empty())
-    throw CaseError("irregularity: a wheel that touches at several places needs a rail and a wheel without heights",
-                    "take it out, or move the wheel (geometry.lateral_shift) until it touches at one place",
-                    "irregularity");
-  BemResult r = result_of(spec, placement, shared.patches, shared.descent, options.apart);
-  if (options.neighbour) {
-    *options.neighbour = {{}, shared.descent, shared.power, shared.along, shared.across, std::move(shared.smooth)};
-    for (PatchOnWheel& p : shared.patches)
-      options.neighbour->patches.push_back({p.patch.grid, std::move(p.solution), p.contact.rail_s});
-  }
-  r.effort.load_iterations = shared.load_iterations;
+  std::vector<SharedLoad> solved = loaded_wheel(spec, placement, options);
+  for (const SharedLoad& one : solved)
+    if (one.patches.size() > 1 && !spec.irregularities.empty())
+      throw CaseError("irregularity: a wheel that touches at several places needs a rail and a wheel without heights",
+                      "take it out, or move the wheel (geometry.lateral_shift) until it touches at one place",
+                      "irregularity");
+  BemResult r = mean_result(spec, placement, solved, options.apart);
+  if (options.neighbour) *options.neighbour = neighbour_of(std::move(solved));
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return r;
 }

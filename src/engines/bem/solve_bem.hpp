@@ -71,17 +71,39 @@ struct BemPatch {
   PatchSurroundings surroundings;
 };
 
+/// The patches of one of several solutions whose mean is the answer, and its share.
+struct BemShare {
+  double share = 0;
+  std::vector<BemPatch> patches;
+};
+
 /// A result is its patch, where the wheel touches at several places the one with the largest pressure; the others
-/// follow in that order. Their forces together are force_on_rail().
+/// follow in that order. Their forces together are force_on_rail(). Where two places are on the way into one plane
+/// (groupings_of) the patches are those of the solution with the largest share, and sums are means of all solutions.
 struct BemResult : BemPatch {
   LayeredHalfSpace wheel, rail;
   std::vector<BemPatch> further;
+  double share = 1;              ///< of these patches in the sums
+  std::vector<BemShare> others;  ///< the other solutions
   SolverEffort effort;
   std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
 };
 
 /// Its own patch first, then the further ones.
 std::vector<const BemPatch*> patches_of(const BemResult& result);
+/// The mean over the solutions of a sum, which `sum_of` makes of their patches.
+template <class SumOf>
+auto mean_of_solutions(const BemResult& result, SumOf&& sum_of) {
+  auto out = sum_of(patches_of(result));
+  if (result.others.empty()) return out;
+  out = result.share * out;
+  for (const BemShare& other : result.others) {
+    std::vector<const BemPatch*> patches;
+    for (const BemPatch& p : other.patches) patches.push_back(&p);
+    out = out + other.share * sum_of(patches);
+  }
+  return out;
+}
 /// N, model frame: of all patches together.
 Vec3 force_on_rail(const BemResult& result);
 /// W, of all patches together.

@@ -44,11 +44,11 @@ double WheelOnPatches::Member::stiffness() const {
   return secant > 0.5 * of_hertz && secant < 2 * of_hertz ? secant : of_hertz;
 }
 
-bool WheelOnPatches::Member::carries(int column) const {
+double WheelOnPatches::Member::largest_pressure(int column) const {
   const PatchGrid& g = patch.grid;
-  for (int i = 0; i < g.nx; ++i)
-    if (solution.normal.pressure[g.index(i, column)] > 0) return true;
-  return false;
+  double out = 0;
+  for (int i = 0; i < g.nx; ++i) out = std::max(out, solution.normal.pressure[g.index(i, column)]);
+  return out;
 }
 
 WheelOnPatches::WheelOnPatches(const CaseSpec& spec, const Placement& placement, const std::vector<PatchPlace>& places,
@@ -73,12 +73,12 @@ WheelOnPatches::WheelOnPatches(const CaseSpec& spec, const Placement& placement,
   }
 }
 
-std::vector<BemStart> WheelOnPatches::settle(std::size_t trial) {
+std::vector<BemStart> WheelOnPatches::settle(std::size_t trial, double most) {
   const BemNeighbour none, &near = options_.neighbour ? *options_.neighbour : none;
   if (trial >= near.smooth.size() || !start_from(near.smooth[trial])) descent_ = first_descent();
   descend();
   std::vector<BemStart> smooth = starts();
-  if (merged()) return smooth;
+  if (const auto meet = meeting(); meet && meet->reach > most) return smooth;
   if (start_from(near.patches)) descend();  // under friction's forces as they were
   rubs_ = true;
   descend();
@@ -119,18 +119,27 @@ void WheelOnPatches::lay_start(Member& m, const BemStart& start) {
   m.solution = start.solution;
 }
 
-std::optional<std::pair<std::size_t, std::size_t>> WheelOnPatches::merged() const {
+std::optional<PatchesMeet> WheelOnPatches::meeting() const {
+  constexpr double kNear = 1.1, kOne = 0.1;  // cells from the ridge; of the largest pressure
+  std::optional<PatchesMeet> out;
   for (std::size_t k = 0; k < members_.size(); ++k) {
     const Member& m = members_[k];
     if (!m.loaded()) continue;
     const PatchGrid& g = m.patch.grid;
+    const double most = *std::max_element(m.solution.normal.pressure.begin(), m.solution.normal.pressure.end());
     for (int j = 0; j < g.ny; ++j) {
-      if (!m.carries(j)) continue;
-      if (m.place.beside_low && g.y(j) - g.dy < m.room.low) return {{k, *m.place.beside_low}};
-      if (m.place.beside_high && g.y(j) + g.dy > m.room.high) return {{k, *m.place.beside_high}};
+      const auto meets = [&](const std::optional<std::size_t>& beside, double from_ridge) {
+        const double near = (kNear - from_ridge / g.dy) / (kNear - 1),
+                     pressure = beside && near > 0 ? m.largest_pressure(j) : 0;
+        if (!(pressure > 0)) return;
+        const double reach = std::min(near, 1.0) * pressure / (kOne * most);
+        if (!out || reach > out->reach) out = {std::min(k, *beside), std::max(k, *beside), reach};
+      };
+      meets(m.place.beside_low, g.y(j) - m.room.low);
+      meets(m.place.beside_high, m.room.high - g.y(j));
     }
   }
-  return {};
+  return out;
 }
 
 std::vector<BemStart> WheelOnPatches::starts() const {

@@ -3,7 +3,6 @@
 // (several_patches.hpp has the equations).
 #include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,11 +24,12 @@ class WheelOnPatches {
   WheelOnPatches(const CaseSpec& spec, const Placement& placement, const std::vector<PatchPlace>& places,
                  double descent, const BemOptions& options);
 
-  /// Without friction first, which shows at little cost which patches merge; where none do, with friction. Starts from
-  /// the neighbour's trial of this number and its solution. Returns the patches without friction. Throws as share_load.
-  std::vector<BemStart> settle(std::size_t trial);
-  /// Two patches of which one reaches the ridge between them.
-  std::optional<std::pair<std::size_t, std::size_t>> merged() const;
+  /// Without friction first, which shows at little cost which patches merge; where none meet by more than `most`
+  /// (PatchesMeet::reach), with friction. Starts from the neighbour's trial of this number and its solution. Returns
+  /// the patches without friction. Throws as share_load.
+  std::vector<BemStart> settle(std::size_t trial, double most);
+  /// Of two patches those that meet most.
+  std::optional<PatchesMeet> meeting() const;
   SharedLoad take();
 
  private:
@@ -53,7 +53,7 @@ class WheelOnPatches {
     PressureOnRail on_rail() const { return {contact(), patch.grid, solution.normal.pressure, normal}; }
     double vertical() const;
     double stiffness() const;
-    bool carries(int column) const;
+    double largest_pressure(int column) const;
   };
 
   bool start_from(const std::vector<BemStart>& patches);

@@ -168,6 +168,8 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   if (!r.further.empty()) {
     for (const BemPatch* p : patches_of(r))
       s.patches.push_back({p->place.point.y, p->surroundings.rail_y, p->surroundings.wheel_y, patch_numbers(spec, *p)});
+  }
+  if (!r.further.empty() || !r.others.empty()) {
     const Vec3 all = force_on_rail(r);
     s.contact.F_x = 0.0 - all.x;
     s.contact.F_y = 0.0 - all.y;

@@ -266,7 +266,7 @@ std::unique_ptr<ContactEquations> Contact::equations() {
   const PlacedCase here = case_in(*state_);
   auto out = std::make_unique<ContactEquations>();
   out->options = options_;
-  if (const BemStart* solved = start.last().alone())
+  if (const BemStart* solved = start.last().alone(); solved && start.last().others.empty())
     out->of.emplace(here.spec, here.placement, out->options, *solved, start.last().descent);
   if (out->of && !out->of->linear()) out->of.reset();
   return out;

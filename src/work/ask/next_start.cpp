@@ -41,6 +41,18 @@ void continue_solution(double share, const RollingSolution& before, RollingSolut
     last.normal.*number = continued(last.normal.*number, before.normal.*number, share);
 }
 
+/// Whether the patches of both lie on the same grids.
+bool same_grids(const BemNeighbour& a, const BemNeighbour& b) {
+  return std::equal(a.patches.begin(), a.patches.end(), b.patches.begin(), b.patches.end(),
+                    [](const BemStart& x, const BemStart& y) { return same_grid(x.grid, y.grid); });
+}
+
+void continue_patches(double share, const BemNeighbour& before, BemNeighbour& last) {
+  for (std::size_t k = 0; k < last.patches.size(); ++k)
+    continue_solution(share, before.patches[k].solution, last.patches[k].solution);
+  last.descent = continued(last.descent, before.descent, share);
+}
+
 }  // namespace
 
 NextStart::Coordinates NextStart::coordinates(const CaseSpec& spec) {
@@ -53,10 +65,7 @@ BemNeighbour NextStart::of(const CaseSpec& spec) const {
   constexpr double kFarthest = 2;  // steps
   const BemNeighbour& last = last_.solved;
   const BemNeighbour& before = before_.solved;
-  const auto same = [](const BemStart& a, const BemStart& b) { return same_grid(a.grid, b.grid); };
-  if (last.empty() ||
-      !std::equal(last.patches.begin(), last.patches.end(), before.patches.begin(), before.patches.end(), same))
-    return last;
+  if (last.empty() || !same_grids(last, before)) return last;
   const Coordinates now = coordinates(spec);
   double along = 0, square = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -67,9 +76,9 @@ BemNeighbour NextStart::of(const CaseSpec& spec) const {
   if (!(square > 0) || !(along > 0) || along > kFarthest * square) return last;
   BemNeighbour start = last;
   const double share = along / square;
-  for (std::size_t k = 0; k < start.patches.size(); ++k)
-    continue_solution(share, before.patches[k].solution, start.patches[k].solution);
-  start.descent = continued(last.descent, before.descent, share);
+  continue_patches(share, before, start);
+  for (std::size_t k = 0; k < std::min(start.others.size(), before.others.size()); ++k)
+    if (same_grids(start.others[k], before.others[k])) continue_patches(share, before.others[k], start.others[k]);
   return start;
 }
 

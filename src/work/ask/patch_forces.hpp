@@ -48,6 +48,8 @@ PatchForces patch_forces(const Contact& contact, int patch, Vec3 about);
 struct Wrench {
   Vec3 force, moment;
 };
+constexpr Wrench operator+(const Wrench& a, const Wrench& b) { return {a.force + b.force, a.moment + b.moment}; }
+constexpr Wrench operator*(double s, const Wrench& w) { return {s * w.force, s * w.moment}; }
 
 /// Sum over the cells of dF and arm x dF, dF = dA (-q_x, -p sin(delta) - q_y cos(delta), p cos(delta) - q_y
 /// sin(delta)). arm_of(x, point): from where the moment is asked for to a point of the model frame; x from the middle

@@ -47,14 +47,15 @@ Wrench carried_by(const Wheel& w) {
   Wrench out;
   out.force = yaw(rotation_by(w.rail.yaw), {w.forces.force_x, w.forces.force_y, w.forces.force_z});
   if (!w.contact.last()) return out;
-  Vec3 of_cells;
-  for (const BemPatch* patch : patches_of(*w.contact.last())) {
-    const Wrench one = carried_by(w, patch->contact, patch->field);
-    out.moment += one.moment;
-    of_cells += one.force;
-  }
+  const Wrench of_cells = mean_of_solutions(*w.contact.last(), [&](const std::vector<const BemPatch*>& patches) {
+    Wrench sum;
+    for (const BemPatch* patch : patches) sum = sum + carried_by(w, patch->contact, patch->field);
+    return sum;
+  });
+  out.moment = of_cells.moment;
   if (w.forces.beyond)  // what the cells do not carry acts at the place
-    out.moment += cross(yaw(rotation_by(w.rail.yaw), arm(w, w.reference.x, w.reference.point)), out.force - of_cells);
+    out.moment +=
+        cross(yaw(rotation_by(w.rail.yaw), arm(w, w.reference.x, w.reference.point)), out.force - of_cells.force);
   return out;
 }
 
