@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Writes what follows from src/doors/capi/railstrata.h: types and bits of the Fortran module; in the Python package the
-members of states and forces, with their meanings. Without --check, which names the files that are not up to date."""
+"""Writes what follows from src/doors/capi/railstrata.h: types, bits and inputs of the Fortran module; in the Python
+package the members of states and forces, with their meanings. Without --check, which names the files that are not up to
+date."""
 import argparse
 import re
 import sys
@@ -26,6 +27,11 @@ def structs(header):
 
 def bits(header, prefix):
     return re.findall(rf"#define ({prefix}\w+) (\d+)u", header)
+
+
+def inputs(header):
+    """Numbers of rs_wheelset_jacobian's inputs, and what is added for those of the right side."""
+    return re.findall(r"#define (RS_BY_\w+|RS_OF_RIGHT) (\d+)\n", header)
 
 
 def wrapped(text, indent, hang=None, width=WIDTH):
@@ -58,8 +64,7 @@ def fortran(text, header):
         if name != "rs_error":
             text = re.sub(rf"  type, bind\(c\) :: {name}\n.*?  end type\n",
                           lambda _: fortran_type(name, declarations), text, flags=re.S)
-    for prefix in BITS:
-        found = bits(header, prefix)
+    for found in [inputs(header)] + [bits(header, prefix) for prefix in BITS]:
         items = [f"{bit.lower()} = {value}" for bit, value in found]
         text = re.sub(rf"  integer\(c_int\), parameter :: {found[0][0].lower()} = .*?\n(?=  integer|\n)",
                       lambda _: fortran_line("integer(c_int), parameter", items, "  "), text, flags=re.S)

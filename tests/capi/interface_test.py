@@ -50,6 +50,17 @@ class Interface(unittest.TestCase):
         self.assertEqual(write_interface.bits(HEADER, write_interface.BITS[0]),
                          [(f"RS_{name.upper()}", bit) for name, _, bit in state])
 
+    def test_inputs_of_a_wheelsets_derivatives_are_the_places_of_its_members(self):
+        state = [f"RS_BY_{name.upper()}" for name, *_ in rows("kWheelsetState", "wheelset")]
+        self.assertEqual(len(state), 19)
+        self.assertEqual(write_interface.inputs(HEADER),
+                         [(name, str(k)) for k, name in enumerate(state)] + [("RS_OF_RIGHT", "32")])
+        added = HEADER.replace("#define RS_BY_RAIL_YAW 18\n", "#define RS_BY_RAIL_YAW 18\n#define RS_BY_WIND 19\n")
+        module = (SOURCE / "src/doors/capi/railstrata.f90").read_text()
+        for header, last in ((HEADER, "rs_by_rail_yaw=18"), (added, "rs_by_wind=19")):
+            written = re.sub(r"[\s&]", "", write_interface.fortran(module, header))
+            self.assertIn(f"{last},rs_of_right=32", written)
+
     def test_fortran_and_python_follow_the_header(self):
         subprocess.run([sys.executable, SOURCE / "tools/write_interface.py", "--check"], check=True)
 

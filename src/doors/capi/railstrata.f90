@@ -6,8 +6,7 @@ module railstrata
   integer(c_int), parameter :: rs_by_y = 0, rs_by_z = 1, rs_by_yaw = 2, rs_by_roll = 3, rs_by_speed = 4, &
     rs_by_y_rate = 5, rs_by_z_rate = 6, rs_by_yaw_rate = 7, rs_by_roll_rate = 8, rs_by_pitch_rate = 9, &
     rs_by_load = 10, rs_by_roll_moment = 11, rs_by_rail_y = 12, rs_by_rail_z = 13, rs_by_rail_roll = 14, &
-    rs_by_rail_y_rate = 15, rs_by_rail_z_rate = 16, rs_by_wheel_pitch_rate = 17, rs_by_rail_yaw = 18, &
-    rs_of_right = 32
+    rs_by_rail_y_rate = 15, rs_by_rail_z_rate = 16, rs_by_wheel_pitch_rate = 17, rs_by_rail_yaw = 18, rs_of_right = 32
   integer(c_int), parameter :: rs_ok = 0, rs_left = 0, rs_right = 1, rs_rail = 0, rs_wheel_body = 1
   integer(c_int), parameter :: rs_load = 1, rs_approach = 2, rs_lateral_shift = 4, rs_yaw = 8, rs_roll = 16, &
     rs_speed = 32, rs_friction = 64, rs_creepage_x = 128, rs_creepage_y = 256, rs_spin = 512, rs_force_x = 1024, &
