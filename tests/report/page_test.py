@@ -759,7 +759,7 @@ class ThreePatches(Page):
         self.assertAlmostEqual(sum(p["load_N"] for p in geometry["patches"]),
                                sum(p["normal_force_N"] for p in summary["patches"]), delta=1)
         names = self.js("return document.getElementById('plot-profiles').drawn.data.map(t => t.name)")
-        self.assertEqual(names[-3:], [f"rigid contact point, patch {k}" for k in (1, 2, 3)])
+        self.assertEqual(names[-3:], [f"place of patch {k}" for k in (1, 2, 3)])
         for k, patch in enumerate(summary["patches"]):
             self.assertAlmostEqual(self.trace("plot-profiles", len(names) - 3 + k)["x"][0], 1e3 * patch["y_m"],
                                    delta=1e-3)

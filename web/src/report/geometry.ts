@@ -61,7 +61,7 @@ function contactsOf(g: Geometry): LoadedContact[] {
 function pointsOf(g: Geometry): Point[] {
   const all = contactsOf(g);
   const pointOf = ({contact: c}: LoadedContact, k: number): Point => ({
-    name: all.length > 1 ? `rigid contact point, patch ${k + 1}` : "rigid contact point",
+    name: all.length > 1 ? `place of patch ${k + 1}` : "place of the patch",
     x: 1e3 * c.y_m,
     y: 1e3 * c.z_m,
     slope: Math.tan(c.angle_rad),

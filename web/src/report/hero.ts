@@ -93,9 +93,10 @@ function patchPicture(patches: Patch[], what: PatchPicture): Painted {
   return {id: what.id, title: what.title, words: what.about, paint, table};
 }
 
-const kAboutSeveral = "Crosses: the rigid contact points; y counts from that of patch 1, the largest pressure’s.";
+const kAboutSeveral = "Crosses: the places of the patches, the weighted middles of the overlaps; " +
+    "y counts from that of patch 1, the largest pressure’s.";
 
-/// All in one frame: y from the rigid contact point of the first.
+/// All in one frame: y from the place of the first patch.
 function patchesTogether(run: Run): Patch[] {
   return patchesOf(run).map((patch, k) => {
     const shift = contactY(run, k) - contactY(run);
@@ -114,7 +115,9 @@ function patchPictures(run: Run): Painted[] {
     scale: magnitudeScale(p),
     bar: "MPa",
     words: (v) => `p ${v.toFixed(1)} MPa`,
-    about: [patches.length > 1 ? kAboutSeveral : "The cross marks the rigid contact point."],
+    about:
+        [patches.length > 1 ? kAboutSeveral
+                            : "The cross marks the place of the patch, the weighted middle of the overlap."],
   });
   if (!hasTraction([run])) return [pressure];
   const traction = patchPicture(patches, {

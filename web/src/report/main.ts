@@ -110,7 +110,7 @@ function sections(runs: Run[], body: BodyName): HTMLElement[] {
   return [grid(figures), shear];
 }
 
-const kAxes = "x counts from the axle in the rolling direction, y from the rigid contact point to the field side, " +
+const kAxes = "x counts from the axle in the rolling direction, y from the place of the patch to the field side, " +
     "depth from the surface along its normal.";
 
 function geometryPart(run: Run): HTMLElement {
@@ -119,7 +119,7 @@ function geometryPart(run: Run): HTMLElement {
 }
 
 function patchPart(runs: Run[]): HTMLElement {
-  const words = note(`${kAxes} The cross marks the rigid contact point.`);
+  const words = note(`${kAxes} The cross marks the place of the patch, the weighted middle of the overlap.`);
   return part(
       "patch", "The patch", words, patchesTable(runs), grid(patchMaps(runs)), grid(centreLines(runs)),
       ...spaceParts(runs));

@@ -18,7 +18,7 @@ import {linesFigure, type Series} from "./lines";
 import {mapFigure, type Arrow, type MapSpec} from "./maps";
 import {quantityAt, runLabel, withoutRoundOff} from "./words";
 
-/// A patch of a run, y from the rigid contact point as in the tables; nothing outside the contact.
+/// A patch of a run, y from its place as in the tables; nothing outside the contact.
 export interface Patch {
   run: Run;
   number: number;  // of several from 1 on, else 0
@@ -32,7 +32,7 @@ export interface Patch {
   state: Values[];
 }
 
-/// Of the rigid contact point of the k-th patch [mm].
+/// Of the place of the k-th patch [mm].
 export function contactY(run: Run, k = 0): number {
   return 1e3 * (run.summary.patches?.[k]?.y_m ?? run.geometry?.contact.y_m ?? 0);
 }
@@ -227,7 +227,7 @@ export function patchMaps(runs: Run[]): Figure[] {
     windowX,
     windowY,
     arrows: kind.arrows ? tractionArrows(patch, [windowX, windowY], top) : undefined,
-    marker: {x: 0, y: 0, text: "rigid contact point"},
+    marker: {x: 0, y: 0, text: "place of the patch"},
   });
   return kKinds.slice(0, hasTraction(runs) ? kKinds.length : 1).flatMap((kind) => patches.map((patch, n) => {
     const own = kindOf(kind, patch.run);
@@ -297,7 +297,7 @@ export function centreLines(runs: Run[]): Figure[] {
   const window: Span = [Math.min(...touching) - 2, Math.max(...touching) + 2];
   const placesOf = (r: Run) => linesOf(r).map((line, k) => `${fixedText(line.y[0] - contactY(r, k), 2)} mm`);
   const at = runs.flatMap(placesOf).join(" and ");
-  const line = `Along the rolling direction through the largest pressure, at y = ${at} from the rigid contact point; ` +
+  const line = `Along the rolling direction through the largest pressure, at y = ${at} from the place of the patch; ` +
       "the leading edge is on the right.";
   const pressureFigure = linesFigure({
     id: "centre-p",

@@ -209,7 +209,7 @@ class Player {
       ...look,
       windowX: span(whole),
       windowY: span(y),
-      marker: {x: 0, y: 0, text: "rigid contact point"},
+      marker: {x: 0, y: 0, text: "place of the patch"},
     });
     return {...now(), chart: (theme: Theme, width: number) => now().chart(theme, width), table: () => now().table()};
   }
