@@ -207,10 +207,14 @@ HertzContact line_estimate(const CaseSpec& spec, const RigidContact& c, double m
 
 }  // namespace
 
+double modulus_of(const CaseSpec& spec) {
+  return contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
+                         {spec.rail_material.young, spec.rail_material.poisson});
+}
+
 HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
   const double lateral = c.curvature_wheel_lateral + c.curvature_rail_lateral;
-  const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
-                                         {spec.rail_material.young, spec.rail_material.poisson});
+  const double modulus = modulus_of(spec);
   if (spec.geometry.in_line()) return line_estimate(spec, c, modulus);
   const auto under = [&](double load) {
     return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, load);

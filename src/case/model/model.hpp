@@ -30,6 +30,9 @@ ThirdBody third_body(const CaseSpec& spec);
 /// Friction across rolling over friction along it; 1 without friction.
 double lateral_friction_share(const CaseSpec& spec);
 
+/// E* [Pa] of wheel and rail together, below their layers.
+double modulus_of(const CaseSpec& spec);
+
 /// Hertz with the curvatures at the rigid contact point: an estimate for search distances and checks, not a result. A
 /// line contact's b is half the line, its approach NaN.
 HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& contact);

@@ -167,9 +167,7 @@ PatchSurroundings patch_surroundings(const CaseSpec& spec, const Placement& p, c
 }
 
 std::optional<SecondContact> second_contact(const CaseSpec& spec, const Placement& p, const SolvedPatch& patch) {
-  const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
-                                         {spec.rail_material.young, spec.rail_material.poisson});
-  const double depression = patch.normal_force / (std::numbers::pi * modulus),
+  const double depression = patch.normal_force / (std::numbers::pi * modulus_of(spec)),
                descent = patch.approach / std::cos(p.contact.angle);
   const double begin = p.rail.s_at_y(p.rail.y_min()), end = p.rail.s_at_y(p.rail.y_max());
   std::vector<OverlapSample> samples;

@@ -26,11 +26,6 @@ constexpr int kMostIterations = 60;
 
 }  // namespace
 
-double modulus_of(const CaseSpec& spec) {
-  return contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
-                         {spec.rail_material.young, spec.rail_material.poisson});
-}
-
 bool WheelOnPatches::Member::loaded() const { return approach > kLeastApproach; }
 
 double WheelOnPatches::Member::vertical() const {

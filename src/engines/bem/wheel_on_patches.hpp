@@ -15,9 +15,6 @@
 
 namespace railstrata {
 
-/// E* [Pa] of wheel and rail together, below their layers.
-double modulus_of(const CaseSpec& spec);
-
 class WheelOnPatches {
  public:
   /// descent: of a given approach, m. Case and placement are kept by reference.
