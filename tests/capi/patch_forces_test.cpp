@@ -129,6 +129,32 @@ TEST(CProfiles, FromAnArrayAreThoseOfAFile) {
   std::remove(file.c_str());
 }
 
+// A height that is given counts from the profile's point at y = 0: 94 um are most of an approach.
+TEST(CProfiles, ThatAreMovedToZeroHaveARemarkWithTheirName) {
+  std::vector<double> head = round_head(0.2);
+  for (std::size_t k = 1; k < head.size(); k += 2) head[k] += 94e-6;
+  const std::string file = testing::TempDir() + "high_head.csv";
+  {
+    std::ofstream out(file);
+    out.precision(17);
+    for (std::size_t k = 0; k < head.size(); k += 2) out << head[k] << ' ' << head[k + 1] << '\n';
+  }
+  const std::string from_file = "geometry.rail_profile=" + file;
+  Handle contact({from_file.c_str()});
+  ASSERT_EQ(contact.solve(pulling(0)), RS_OK) << contact.error.message;
+  const std::string moved = "z was shifted by -94.0 um";
+  EXPECT_NE(std::string(rs_remarks(contact.handle)).find("high_head.csv: " + moved), std::string::npos);
+  for (int times : {1, 2}) {
+    ASSERT_EQ(rs_set_profile(contact.handle, RS_RAIL, head.data(), head.size() / 2, &contact.error), RS_OK);
+    ASSERT_EQ(contact.solve(pulling(0)), RS_OK) << contact.error.message;
+    const std::string remarks = rs_remarks(contact.handle);
+    EXPECT_EQ(remarks.find("high_head.csv"), std::string::npos) << times;
+    EXPECT_NE(remarks.find("rail: " + moved), std::string::npos) << times;
+    EXPECT_EQ(remarks.find(moved), remarks.rfind(moved)) << times;
+  }
+  std::remove(file.c_str());
+}
+
 TEST(CProfiles, RefuseAnArrayThatIsNone) {
   Handle contact;
   const double points[] = {0, 0, 1e-3, 0};

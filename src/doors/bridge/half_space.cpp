@@ -40,7 +40,9 @@ void answer_half_space(Call& call) {
   run->answer = with_places(*loaded, [&] { return ask(loaded->spec, run->placement, wanted, how); });
   if (run->answer.stopped) throw Interrupted("stopped");
   call.answer["summary"] = summary_json(run->answer.summary);
-  call.answer["notes"] = run->answer.result.notes;
+  std::vector<std::string> notes = run->placement.notes;
+  notes.insert(notes.end(), run->answer.result.notes.begin(), run->answer.result.notes.end());
+  call.answer["notes"] = notes;
   call.answer["patches"] = Json::array({patch_of(run->patch(0).field)});
   for (const BemPatch& patch : run->answer.result.further) call.answer["patches"].push_back(patch_of(patch.field));
   call.make(run);

@@ -177,8 +177,8 @@ RS_API int rs_jacobian(rs_contact* contact, const unsigned* inputs, int count, r
  * digit. Discards it: the next solution has the bits of a new contact's first. */
 RS_API void rs_forget(rs_contact* contact);
 
-/* The checks that fail and the notes of the last solution, one a line; "" if there are none. Belongs to the contact,
- * until its next call. */
+/* The checks that fail and the notes of the last solution and of profiles that were read (a z that was shifted), one a
+ * line; "" if there are none. Belongs to the contact, until its next call. */
 RS_API const char* rs_remarks(rs_contact* contact);
 
 /* Points of the last solution: along x and across, point (i, j) at index j + ny i. Of patch 0, 1, ... */

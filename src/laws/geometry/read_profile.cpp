@@ -213,7 +213,9 @@ class Reading {
              "list the points in order along the curve, only for the running surface");
     }
     if (std::abs(height) > 1e-6)
-      note(fmt::format("z was shifted by {:.3f} mm so that it is zero at y = 0.", -1e3 * height));
+      note(fmt::format(
+          "z was shifted by {} so that it is zero at y = 0; heights count from there.",
+          std::abs(height) < 1e-3 ? fmt::format("{:.1f} um", -1e6 * height) : fmt::format("{:.3f} mm", -1e3 * height)));
     if (kind_ == ProfileKind::rail && asymmetric(out))
       note("The head is not symmetric; its gauge side was taken at y < 0.");
     tell_smoothing();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -52,7 +53,7 @@ std::vector<Warning> climbed(const BemResult& result) {
   return out;
 }
 
-std::string remarks_of(const BemResult& result, const Summary& summary) {
+std::string remarks_of(const BemResult& result, const Summary& summary, const std::vector<std::string>& of_profiles) {
   std::string out;
   const auto fails = [&](const auto& check) {
     out += fmt::format("check {} fails: {:g}, limit {:g}\n", check.name, check.value, check.limit);
@@ -60,7 +61,8 @@ std::string remarks_of(const BemResult& result, const Summary& summary) {
   for (const Check& check : summary.checks)
     if (!check.ok) fails(check);
   for (const Warning& warning : climbed(result)) fails(warning);
-  for (const std::string& note : result.notes) out += note + "\n";
+  for (const std::vector<std::string>& notes : {of_profiles, result.notes})
+    for (const std::string& note : notes) out += note + "\n";
   if (!out.empty()) out.pop_back();
   return out;
 }
@@ -257,7 +259,7 @@ Forces Contact::pressed(const State& state) {
   start.add(here_.spec, std::move(neighbour));
   const Summary summary = bem_contact_summary(here_.spec, *last_);
   state_ = state;
-  remarks_ = remarks_of(*last_, summary);
+  remarks_ = remarks_of(*last_, summary, placement_.notes);
   return forces_of(*last_, summary);
 }
 
@@ -325,6 +327,10 @@ std::vector<Sym3> Contact::stress(BodyId body, const std::vector<Vec3>& points) 
 void Contact::set_profile(BodyId body, std::vector<Vec2> points) {
   const bool wheel = body == BodyId::wheel;
   Placement changed = placement_;
+  const GeometrySpec& geometry = spec_.geometry;
+  const std::filesystem::path file(wheel ? geometry.wheel_profile : geometry.rail_profile);
+  for (const std::string& source : {file.filename().string(), std::string(body_word(body))})
+    std::erase_if(changed.notes, [&](const std::string& note) { return note.starts_with(source + ": "); });
   (wheel ? changed.wheel : changed.rail) = profile_of_points(wheel ? ProfileKind::wheel : ProfileKind::rail,
                                                              std::move(points), body_word(body), &changed.notes);
   changed.contact = place_wheel(changed.wheel, changed.rail, changed.track);

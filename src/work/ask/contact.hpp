@@ -124,7 +124,7 @@ class Contact {
   double load_tolerance() const { return options_.balance; }
   /// Null: none, or the wheel is lifted.
   const BemResult* last() const { return last_ ? &*last_ : nullptr; }
-  /// Checks that fail and notes of the last solution, one a line.
+  /// Checks that fail and notes of the last solution and of its profiles, one a line.
   const std::string& remarks() const { return remarks_; }
   NextStart start;           ///< of the next solution
   bool of_wheelset = false;  ///< a part of a wheelset, which ends with it

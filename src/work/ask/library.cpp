@@ -7,8 +7,11 @@ namespace railstrata {
 CaseResult solve_by_half_spaces(const LoadedCase& loaded, const HalfSpaceSettings& settings) {
   AskOptions how{.threads = settings.threads};
   how.bem.cell = settings.cell;
-  Answer answer = ask(loaded.spec, place(loaded.spec, loaded.folder()), {}, how);
-  return {std::move(answer.summary), std::move(answer.result.field), std::move(answer.result.notes)};
+  Placement placement = place(loaded.spec, loaded.folder());
+  Answer answer = ask(loaded.spec, placement, {}, how);
+  std::vector<std::string> notes = std::move(placement.notes);
+  notes.insert(notes.end(), answer.result.notes.begin(), answer.result.notes.end());
+  return {std::move(answer.summary), std::move(answer.result.field), std::move(notes)};
 }
 
 }  // namespace railstrata
