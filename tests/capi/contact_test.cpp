@@ -338,5 +338,29 @@ TEST(CInterface, EightContactsOnFourThreadsHaveTheBitsOfOne) {
   EXPECT_NE(alone[0], alone[1]);
 }
 
+// The line through the descents of the first two ends below zero: a plane where the wheel is lifted must not stay.
+TEST(CContact, AStateFarFromThoseBeforeHasTheForcesOfANewContact) {
+  Handle contact({"geometry.wheel_profile=\"S1002\"", "geometry.rail_profile=\"UIC60\""}),
+      other({"geometry.wheel_profile=\"S1002\"", "geometry.rail_profile=\"UIC60\""});
+  rs_state state = state_of(RS_LOAD | RS_LATERAL_SHIFT | RS_YAW | RS_CREEPAGE_X | RS_CREEPAGE_Y | RS_FRICTION);
+  const double states[][6] = {{98.8e3, 1.2e-3, -0.954e-3, 0.511e-3, 0.728e-3, 0.255},
+                              {52.7e3, 0.48e-3, -1.796e-3, -0.271e-3, 0.573e-3, 0.266},
+                              {96e3, -3.154e-3, -2.463e-3, -0.028e-3, -0.737e-3, 0.377}};
+  for (Handle* one : {&contact, &other}) rs_set_cell(one->handle, 1e-3, nullptr);
+  for (const auto& [load, shift, yaw, creepage_x, creepage_y, friction] : states) {
+    state.load = load;
+    state.lateral_shift = shift;
+    state.yaw = yaw;
+    state.creepage_x = creepage_x;
+    state.creepage_y = creepage_y;
+    state.friction = friction;
+    rs_forget(other.handle);
+    ASSERT_EQ(contact.solve(state), RS_OK) << contact.error.message;
+    ASSERT_EQ(other.solve(state), RS_OK) << other.error.message;
+    EXPECT_NEAR(contact.forces.force_x, other.forces.force_x, 2e-5 * load);
+    EXPECT_NEAR(contact.forces.contact_angle, other.forces.contact_angle, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace railstrata

@@ -50,7 +50,8 @@ bool same_grids(const BemNeighbour& a, const BemNeighbour& b) {
 void continue_patches(double share, const BemNeighbour& before, BemNeighbour& last) {
   for (std::size_t k = 0; k < last.patches.size(); ++k)
     continue_solution(share, before.patches[k].solution, last.patches[k].solution);
-  last.descent = continued(last.descent, before.descent, share);
+  constexpr double kMost = 2;  // a plane far from that descent, or none, would be kept
+  last.descent = std::clamp(continued(last.descent, before.descent, share), last.descent / kMost, kMost * last.descent);
 }
 
 }  // namespace
