@@ -161,6 +161,10 @@ std::vector<Option> fatigue_options() {
              "c of the strain-life curve", kNumber, {-1.5, -0.1}),
       option("wear_coefficient", Place::template slot<&S::wear_coefficient>,
              "Archard's k: worn volume = k * force * distance / hardness", kNumber, above(0, 1)),
+      option("wear_factor", Place::template slot<&S::wear_factor>,
+             "Wear of this steel over that of 900A (R260), on wheels of R8T (ER8), in the same contact; for wear_law "
+             "usfd and, if given, kth. Not given: that of the grade, else an estimate from the hardness, else 1",
+             kNumber, above(0, 100)),
       option("conductivity", Place::template slot<&S::heat, &HeatSpec::conductivity>, "Thermal conductivity",
              kConductivity, {0.01, 5000}),
       option("heat_capacity", Place::template slot<&S::heat, &HeatSpec::capacity>, "Specific heat capacity",

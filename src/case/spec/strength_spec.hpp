@@ -79,6 +79,7 @@ struct StrengthSpec {
   std::optional<double> fracture_toughness;       ///< Pa √m, K_Ic
   FatigueSpec fatigue;
   std::optional<double> wear_coefficient;          ///< Archard's k, volume = k force distance / hardness
+  std::optional<double> wear_factor;               ///< over the steel of the wear law's tests (fatigue/steel_wear.hpp)
   std::optional<double> bond_tension, bond_shear;  ///< Pa, of a layer's lower interface
   HeatSpec heat;
 };

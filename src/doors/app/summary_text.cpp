@@ -164,6 +164,12 @@ std::string lasts_text(const Summary& s) {
                      printable(answer->reason));
 }
 
+/// Of the rail's steel, whose USFD depth stands above.
+std::string steel_text(const Summary& s) {
+  const SteelWear& steel = s.damage.rail_steel;
+  return steel.text.empty() ? "" : fmt::format("  {}{}\n", padded("wear of the rail", 24), printable(steel.text));
+}
+
 std::string life_text(const Summary& s) {
   return s.life.text.empty() ? "" : fmt::format("  {}{}\n", padded("life, of such wheels", 24), printable(s.life.text));
 }
@@ -197,7 +203,7 @@ std::string checks_text(const Summary& s) {
 std::string summary_text(const Summary& s) {
   const std::string place = std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "";
   return fmt::format("\n{}{}\n", printable(s.title), s.state.empty() ? place : ", " + s.state) + numbers_text(s) +
-         patches_text(s) + stresses_text(s) + shakedown_text(s) + fatigue_text(s) + lasts_text(s) + life_text(s) +
+         patches_text(s) + stresses_text(s) + shakedown_text(s) + fatigue_text(s) + steel_text(s) + lasts_text(s) + life_text(s) +
          steps_text(s.run) + checks_text(s);
 }
 

@@ -31,6 +31,9 @@ constexpr std::string_view kWheel = "EN 13262, minimum of the rim";
 constexpr std::string_view kWheelTensile = "EN 13262, range of the rim";
 constexpr std::string_view kHadfield = "usual values, cast, not hardened";
 constexpr std::string_view kBainitic = "usual values";
+constexpr std::string_view kReference = "the steel of the tests of the USFD function, Lewis 2004";
+constexpr std::string_view kSofterWear = "a country's network measured twice, Vernaillen 2024";
+constexpr std::string_view kHarderWear = "trials in tracks, a third of 900A, Girsch and Heyder, Railway Gazette";
 constexpr std::string_view kEstimate = "FKM estimate of the cyclic curve from tensile strength (Wächter 2016)";
 constexpr std::string_view kRollover =
     "example settings of a public rollover simulation (KnutAM/AbaqusRolloverSimulation), not a named grade";
@@ -50,23 +53,31 @@ Steel hardening(Steel steel) {
   return steel;
 }
 
-/// Usual yield strengths, least tensile strength, range of hardness.
+/// Usual yield strengths (0: not known), least tensile strength, range of hardness.
 Steel rail(std::string_view name, double yield_low, double yield_high, double tensile, double soft, double hard) {
-  return hardening({name,
-                    "rail",
-                    estimated(yield_low, yield_high, kMega, kRailYield),
-                    standard(tensile, tensile, kMega, kRail),
-                    standard(soft, hard, 1, kRailHardness),
-                    {}});
+  Steel out = hardening({name,
+                         "rail",
+                         yield_low > 0 ? estimated(yield_low, yield_high, kMega, kRailYield) : SteelNumber{},
+                         standard(tensile, tensile, kMega, kRail),
+                         standard(soft, hard, 1, kRailHardness),
+                         {}});
+  out.pearlite = true;
+  return out;
 }
 /// Least yield strength, range of tensile strength, least hardness.
 Steel wheel(std::string_view name, double yield, double tensile_low, double tensile_high, double hardness) {
-  return hardening({name,
-                    "wheel",
-                    standard(yield, yield, kMega, kWheel),
-                    standard(tensile_low, tensile_high, kMega, kWheelTensile),
-                    standard(hardness, hardness, 1, kWheel),
-                    {}});
+  Steel out = hardening({name,
+                         "wheel",
+                         standard(yield, yield, kMega, kWheel),
+                         standard(tensile_low, tensile_high, kMega, kWheelTensile),
+                         standard(hardness, hardness, 1, kWheel),
+                         {}});
+  out.pearlite = true;
+  return out;
+}
+Steel wearing(Steel steel, double over_reference, std::string_view source) {
+  steel.wear = {over_reference, over_reference, Certainty::published, source};
+  return steel;
 }
 
 PlasticParameters<double> law(double yield, double saturation, double rate, std::initializer_list<Term> terms) {
@@ -120,13 +131,14 @@ constexpr Shelf kSets{[](const Steel& s) { return s.hardening.known(); }, "harde
 
 const std::vector<Steel>& steels() {
   static const std::vector<Steel> all{
+      wearing(rail("R200", 0, 0, 680, 200, 240), 1.34, kSofterWear),
       rail("R220", 430, 460, 770, 220, 260),
-      rail("R260", 470, 500, 880, 260, 300),
-      rail("R350HT", 760, 820, 1175, 350, 390),
+      wearing(rail("R260", 470, 500, 880, 260, 300), 1, kReference),
+      wearing(rail("R350HT", 760, 820, 1175, 350, 390), 1.0 / 3, kHarderWear),
       rail("R400HT", 850, 950, 1280, 400, 440),
       hardening({"B320", "rail", {}, estimated(1100, 1100, kMega, kBainitic), estimated(320, 360, 1, kBainitic), {}}),
       wheel("ER7", 520, 820, 940, 235),
-      wheel("ER8", 540, 860, 980, 245),
+      wearing(wheel("ER8", 540, 860, 980, 245), 1, kReference),
       wheel("ER9", 580, 900, 1050, 255),
       {"Hadfield",
        "crossing",

@@ -45,6 +45,9 @@ struct Steel {
   SteelNumber tensile;   ///< Pa, Rm
   SteelNumber hardness;  ///< HBW, of the running surface (rail) or the rim (wheel)
   HardeningSet hardening;
+  SteelNumber wear = {};  ///< rate over that of 900A (R260) on rails, of R8T (ER8) on wheels, the steels of the tests
+                          ///< that damage/wear.hpp rests on
+  bool pearlite = false;  ///< what wears by its hardness (damage/pearlite_wear.hpp)
 };
 
 /// Each has strengths (a grade), hardening, or both.

@@ -8,6 +8,7 @@
 #include "damage/hardness.hpp"
 #include "damage/wear.hpp"
 #include "fatigue/row_strength.hpp"
+#include "fatigue/steel_wear.hpp"
 #include "material/steels.hpp"
 #include "model/thermal_body.hpp"
 #include "model/zone.hpp"
@@ -71,6 +72,7 @@ double surface_shear_strength(const CaseSpec& spec) {
 struct WearData {
   double density = 0, hardness = kNotApplicable;
   std::optional<double> coefficient;
+  double usfd_factor = 1, kth_factor = 1;  ///< of the steel; KTH's has its hardness, so only one that is given
 };
 
 /// The data of a case that every streamline needs.
@@ -82,7 +84,8 @@ struct SurfaceData {
 
 WearData wear_data(const CaseSpec& spec, BodyId body) {
   const MaterialSpec& m = surface_material(spec, body);
-  return {m.density, hardness_of(m.strength), m.strength.wear_coefficient};
+  return {m.density, hardness_of(m.strength), m.strength.wear_coefficient, steel_wear(spec, body).factor,
+          m.strength.wear_factor.value_or(1)};
 }
 
 SurfaceData surface_data(const CaseSpec& spec) {
@@ -97,9 +100,9 @@ struct WearDepths {
 /// Wear of a surface point in one passage of the patch; Archard's law needs a hardness.
 WearDepths wear_depths(const Streamline& line, const WearData& data) {
   WearDepths out;
-  out.usfd = usfd_depth(line, data.density);
+  out.usfd = data.usfd_factor * usfd_depth(line, data.density);
   if (!std::isfinite(data.hardness)) return out;
-  out.kth = archard_depth(line, laboratory_dry_archard(), data.hardness);
+  out.kth = archard_depth(line, laboratory_dry_archard(), data.hardness, data.kth_factor);
   if (const auto k = data.coefficient) out.archard = archard_depth(line, {*k, *k, *k, *k}, data.hardness);
   return out;
 }
@@ -192,6 +195,8 @@ DamageSummary damage_summary(const CaseSpec& spec, const Summary& summary, const
   out.friction_energy = 0;
   for (const StreamlineRow& r : rows) out.friction_energy += r.friction_energy * r.width;
   out.usfd_depth = largest(rows, &StreamlineRow::usfd_depth);
+  out.rail_steel = steel_wear(spec, BodyId::rail);
+  out.wheel_steel = steel_wear(spec, BodyId::wheel);
   out.archard_depth = largest(rows, &StreamlineRow::archard_depth);
   out.kth_depth = largest(rows, &StreamlineRow::kth_depth);
   out.temperature_rise = largest(rows, &StreamlineRow::temperature_rise);

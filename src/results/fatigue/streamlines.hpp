@@ -16,7 +16,7 @@ struct StreamlineRow {
   double y = 0, z = 0;                    ///< m, model frame, on the rail's surface
   double width = 0;                       ///< m, across, of the surface
   double friction_energy = 0;             ///< J/m² per passage
-  double usfd_depth = kNotApplicable;     ///< m per passage [LewisDwyerJoyce2004]
+  double usfd_depth = kNotApplicable;     ///< m per passage [LewisDwyerJoyce2004], times the steel's factor
   double archard_depth = kNotApplicable;  ///< m per passage, with the rail's wear_coefficient over its hardness
   double kth_depth = kNotApplicable;      ///< m per passage, Jendel's map, dry laboratory surfaces
   double wheel_usfd_depth = kNotApplicable, wheel_archard_depth = kNotApplicable,

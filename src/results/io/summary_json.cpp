@@ -64,6 +64,16 @@ Json plastic(const Summary& s) {
 
 }  // namespace
 
+Json steels_json(const DamageSummary& d) {
+  Json out = Json::object();
+  for (const auto& [body, steel] : {std::pair{"rail", &d.rail_steel}, std::pair{"wheel", &d.wheel_steel}})
+    if (!steel->text.empty())
+      out[body] = {{"factor", json_number(steel->factor)},
+                   {"source", wear_source_text(steel->source)},
+                   {"text", steel->text}};
+  return out;
+}
+
 Json summary_json(const Summary& s) {
   Json out;
   out["title"] = s.title;
@@ -73,6 +83,7 @@ Json summary_json(const Summary& s) {
   if (!s.patches.empty()) out["patches"] = patches(s);
   out["stress"] = stress(s);
   add_numbers("damage", s, out["damage"]);
+  if (!s.damage.rail_steel.text.empty()) out["damage"]["wear_of_steels"] = steels_json(s.damage);
   if (!s.shakedown.bodies.empty()) out["shakedown"] = shakedown_json(s);
   if (!s.fatigue.empty()) {
     out["fatigue"] = fatigue_json(s);

@@ -9,6 +9,8 @@
 
 namespace railstrata {
 
+/// Whose wear the depths are: factor, source and words of rail and wheel.
+nlohmann::ordered_json steels_json(const DamageSummary& damage);
 nlohmann::ordered_json summary_json(const Summary& summary);
 void write_summary(const std::filesystem::path& file, const Summary& summary);
 

@@ -2,10 +2,12 @@
 // The numbers of a result, the same for both engines: what summary.json holds. SI units; a number that does not apply
 // is NaN (null in the file). result/result_table.hpp has a row for each: its key, unit, words and where it is shown.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/engine.hpp"
@@ -174,6 +176,27 @@ struct BodyFatigue {
   std::vector<double> dang_van_used;  ///< of its limit at every point of the section, row by row; empty: no limit
 };
 
+/// Where a steel's wear is known from, the surest first.
+enum class WearSource {
+  given,      ///< wear_factor of the case
+  grade,      ///< measured of the grade
+  estimated,  ///< from the hardness
+  unknown     ///< factor 1
+};
+/// For files and people.
+constexpr std::string_view wear_source_text(WearSource source) {
+  constexpr std::array<std::string_view, 4> words{"given", "measured of the grade", "estimated from hardness",
+                                                  "unknown"};
+  return words[static_cast<std::size_t>(source)];
+}
+
+/// Wear of a surface's steel over that of the steel of the law's tests (fatigue/steel_wear.hpp).
+struct SteelWear {
+  double factor = kNotApplicable;
+  WearSource source = WearSource::unknown;
+  std::string text;  ///< in words, with the source and how sure it is
+};
+
 /// Wear and damage of the rail's surface in one passage (fatigue/streamlines.hpp); NaN where friction or data are
 /// missing.
 struct DamageSummary {
@@ -184,6 +207,7 @@ struct DamageSummary {
   double brr_wear = kNotApplicable;       ///< m² per m rolled
   double usfd_depth = kNotApplicable, archard_depth = kNotApplicable,
          kth_depth = kNotApplicable;         ///< m per passage, the deepest
+  SteelWear rail_steel, wheel_steel;         ///< whose factors the depths have
   double temperature_rise = kNotApplicable;  ///< K
   /// K, bounds of the rise that every order and thickness of the layers keeps (damage/flash_temperature.hpp)
   double temperature_rise_lower = kNotApplicable, temperature_rise_upper = kNotApplicable;
