@@ -51,6 +51,19 @@ TEST(Archard, DepthOfAPassage) {
   EXPECT_NEAR(archard_depth(u.line(), laboratory_dry_archard(), 2.7e9, 0.05), 0.05 * 0.7407e-9, 1e-14);
 }
 
+// 800 MPa on metal of 0.9 GPa seizes; at 1.5 m/s on harder metal the map's chart has ended; else all is inside.
+TEST(Archard, TellsWhatItsMapHardlyReaches) {
+  const ArchardMap map = laboratory_dry_archard();
+  const Uniform slow(8, 800e6, 200e6, 0.1), fast(8, 800e6, 200e6, 1.5);
+  const OutsideMap seized = archard_outside(slow.line(), map, 0.9e9), quick = archard_outside(fast.line(), map, 2.7e9),
+                   inside = archard_outside(slow.line(), map, 2.7e9);
+  EXPECT_DOUBLE_EQ(seized.seized, archard_depth(slow.line(), map, 0.9e9));
+  EXPECT_EQ(seized.fast, 0);
+  EXPECT_DOUBLE_EQ(quick.fast, archard_depth(fast.line(), map, 2.7e9));
+  EXPECT_EQ(quick.seized, 0);
+  EXPECT_EQ(inside.seized + inside.fast, 0);
+}
+
 // Slip that comes and goes while q does: the mean of their product, not the product of their means.
 TEST(Wear, TakesTheMeansOfProductsWhereTheyAreKnown) {
   const Uniform u(16, 800e6, 250e6, 0.4);

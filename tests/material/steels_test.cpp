@@ -25,7 +25,7 @@ TEST(Grades, StandardMinimaAreThoseOfTheStandards) {
 TEST(Grades, EveryNumberSaysHowSureItIsAndWhereItComesFrom) {
   for (const Steel& g : steels()) {
     if (!g.tensile.known()) continue;
-    for (const SteelNumber& n : {g.yield, g.tensile, g.hardness}) {
+    for (const SteelNumber& n : {g.yield, g.tensile, g.hardness, g.wear}) {
       EXPECT_EQ(n.known(), !n.source.empty()) << g.name;
       EXPECT_EQ(n.known(), !certainty_text(n.certainty).empty()) << g.name;
       EXPECT_LE(n.low, n.high) << g.name;
@@ -36,6 +36,17 @@ TEST(Grades, EveryNumberSaysHowSureItIsAndWhereItComesFrom) {
   EXPECT_EQ(grade("R260").yield.certainty, Certainty::estimated) << "no standard asks for a rail's yield strength";
   EXPECT_EQ(grade("ER7").yield.certainty, Certainty::standard_minimum);
   EXPECT_FALSE(grade("B320").yield.known()) << "not invented";
+}
+
+TEST(Grades, HaveTheWearThatIsMeasuredOrNone) {
+  EXPECT_EQ(grade("R200").wear.low, 1.34);
+  EXPECT_EQ(grade("R260").wear.low, 1);
+  EXPECT_NEAR(grade("R350HT").wear.low, 1.0 / 3, 1e-15);
+  EXPECT_EQ(grade("ER8").wear.low, 1);
+  EXPECT_FALSE(grade("R400HT").wear.known()) << "not invented";
+  EXPECT_TRUE(grade("R400HT").pearlite);
+  EXPECT_FALSE(grade("B320").pearlite);
+  EXPECT_FALSE(grade("Hadfield").pearlite);
 }
 
 TEST(Grades, AnUnknownNameIsRefusedWithTheNearestOne) {

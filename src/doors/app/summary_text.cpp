@@ -203,8 +203,8 @@ std::string checks_text(const Summary& s) {
 std::string summary_text(const Summary& s) {
   const std::string place = std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "";
   return fmt::format("\n{}{}\n", printable(s.title), s.state.empty() ? place : ", " + s.state) + numbers_text(s) +
-         patches_text(s) + stresses_text(s) + shakedown_text(s) + fatigue_text(s) + steel_text(s) + lasts_text(s) + life_text(s) +
-         steps_text(s.run) + checks_text(s);
+         patches_text(s) + stresses_text(s) + shakedown_text(s) + fatigue_text(s) + steel_text(s) + lasts_text(s) +
+         life_text(s) + steps_text(s.run) + checks_text(s);
 }
 
 void print_summary(const Summary& s, bool json) {

@@ -3,8 +3,8 @@
 
 namespace railstrata {
 
-/// Wear rate over that of R260, between the rails with a measured one (R200, R260, R350HT; material/steels.hpp), each at
-/// the middle of its range of hardness: straight lines in the logarithms of both. Softer than the softest and harder
+/// Wear rate over that of R260, between the rails with a measured one (R200, R260, R350HT; material/steels.hpp), each
+/// at the middle of its range of hardness: straight lines in the logarithms of both. Softer than the softest and harder
 /// than the hardest of them the value there is held, never extrapolated. Vickers.
 ///
 /// Of pearlite alone: bainite and austenite wear otherwise at the same hardness. That of a harder metal is a guess on

@@ -29,6 +29,18 @@ double pressed_slip(const Streamline& line, std::size_t i) {
   return line.p[i] > 0 ? line.p[i] * slip(line, i) : 0;
 }
 
+/// Calls with every cell that wears and k p |s| dx/V of it.
+template <class Use>
+void for_worn(const Streamline& line, const ArchardMap& map, double hardness, const Use& use) {
+  check(line);
+  positive(hardness, "hardness");
+  for (std::size_t i = 0; i < line.p.size(); ++i) {
+    const double work = pressed_slip(line, i);
+    if (!(work > 0)) continue;
+    use(i, archard_coefficient(map, line.p[i], slip(line, i), hardness) * work * line.dx / line.speed);
+  }
+}
+
 }  // namespace
 
 std::vector<double> friction_power(const Streamline& line) {
@@ -63,22 +75,27 @@ double usfd_depth(const Streamline& line, double density) {
 ArchardMap laboratory_dry_archard() { return {.slow = 5e-4, .middle = 35e-4, .fast = 5e-4, .seizure = 350e-4}; }
 
 double archard_coefficient(const ArchardMap& map, double p, double slip_velocity, double hardness) {
-  constexpr double kSeizurePressure = 0.8, kMiddleFrom = 0.2, kFastFrom = 0.7;  // share of H; m/s
+  constexpr double kMiddleFrom = 0.2, kFastFrom = 0.7;  // m/s
   if (p > kSeizurePressure * hardness) return map.seizure;
   if (slip_velocity < kMiddleFrom) return map.slow;
   return slip_velocity <= kFastFrom ? map.middle : map.fast;
 }
 
 double archard_depth(const Streamline& line, const ArchardMap& map, double hardness, double scale) {
-  check(line);
-  positive(hardness, "hardness");
   double depth = 0;
-  for (std::size_t i = 0; i < line.p.size(); ++i) {
-    const double work = pressed_slip(line, i);
-    if (!(work > 0)) continue;
-    depth += archard_coefficient(map, line.p[i], slip(line, i), hardness) * work * line.dx / line.speed;
-  }
+  for_worn(line, map, hardness, [&](std::size_t, double worn) { depth += worn; });
   return scale * depth / hardness;
+}
+
+OutsideMap archard_outside(const Streamline& line, const ArchardMap& map, double hardness, double scale) {
+  OutsideMap out;
+  for_worn(line, map, hardness, [&](std::size_t i, double worn) {
+    if (line.p[i] > kSeizurePressure * hardness)
+      out.seized += scale * worn / hardness;
+    else if (slip(line, i) > kFastestOfMap)
+      out.fast += scale * worn / hardness;
+  });
+  return out;
 }
 
 std::optional<double> local_fatigue(const Streamline& line, double cyclic_shear_yield) {

@@ -50,11 +50,20 @@ struct ArchardMap {
 /// 5e-4, 35e-4, 5e-4 and 350e-4, the middle of the published ranges (1 to 10, 30 to 40, 1 to 10 and 300 to 400e-4): dry
 /// laboratory surfaces. Natural lubrication of a track divides them by some 5; the factor is uncertain: scale.
 ArchardMap laboratory_dry_archard();
+/// Where a map of dry steel turns to seizure, as a share of H; m/s, up to which slip its chart is drawn (some).
+inline constexpr double kSeizurePressure = 0.8, kFastestOfMap = 1.0;
 double archard_coefficient(const ArchardMap& map, double p, double slip_velocity, double hardness);
 
 /// m worn off per passage, the sum of k p |s| (dx/V)/H; H [Pa] the hardness of what wears, as a pressure (HV 9.80665
 /// MPa; 2.6 to 3 GPa of rails). `scale` multiplies every coefficient: lubrication, a layer's share of its rail's.
 double archard_depth(const Streamline& line, const ArchardMap& map, double hardness, double scale = 1);
+
+/// Parts of archard_depth that a map of coefficients has little behind: cells that seize, and others that slip faster
+/// than its chart.
+struct OutsideMap {
+  double seized = 0, fast = 0;  ///< m
+};
+OutsideMap archard_outside(const Streamline& line, const ArchardMap& map, double hardness, double scale = 1);
 
 // -- Local fatigue index ------------------------------------------------------------------------------------------
 

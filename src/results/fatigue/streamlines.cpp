@@ -95,6 +95,7 @@ SurfaceData surface_data(const CaseSpec& spec) {
 
 struct WearDepths {
   double usfd = kNotApplicable, archard = kNotApplicable, kth = kNotApplicable;  ///< m
+  OutsideMap outside;                                                            ///< of kth
 };
 
 /// Wear of a surface point in one passage of the patch; Archard's law needs a hardness.
@@ -103,6 +104,7 @@ WearDepths wear_depths(const Streamline& line, const WearData& data) {
   out.usfd = data.usfd_factor * usfd_depth(line, data.density);
   if (!std::isfinite(data.hardness)) return out;
   out.kth = archard_depth(line, laboratory_dry_archard(), data.hardness, data.kth_factor);
+  out.outside = archard_outside(line, laboratory_dry_archard(), data.hardness, data.kth_factor);
   if (const auto k = data.coefficient) out.archard = archard_depth(line, {*k, *k, *k, *k}, data.hardness);
   return out;
 }
@@ -131,6 +133,8 @@ StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double
   row.usfd_depth = rail.usfd;
   row.archard_depth = rail.archard;
   row.kth_depth = rail.kth;
+  row.kth_seized = rail.outside.seized;
+  row.kth_fast = rail.outside.fast;
   row.wheel_usfd_depth = wheel.usfd;
   row.wheel_archard_depth = wheel.archard;
   row.wheel_kth_depth = wheel.kth;
@@ -199,6 +203,7 @@ DamageSummary damage_summary(const CaseSpec& spec, const Summary& summary, const
   out.wheel_steel = steel_wear(spec, BodyId::wheel);
   out.archard_depth = largest(rows, &StreamlineRow::archard_depth);
   out.kth_depth = largest(rows, &StreamlineRow::kth_depth);
+  for (const StreamlineRow& r : rows) out.kth_of_map.add(r.width, r.kth_depth, r.kth_seized, r.kth_fast);
   out.temperature_rise = largest(rows, &StreamlineRow::temperature_rise);
   out.temperature_rise_lower = largest(rows, &StreamlineRow::rise_lower);
   out.temperature_rise_upper = largest(rows, &StreamlineRow::rise_upper);

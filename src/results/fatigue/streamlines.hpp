@@ -19,6 +19,7 @@ struct StreamlineRow {
   double usfd_depth = kNotApplicable;     ///< m per passage [LewisDwyerJoyce2004], times the steel's factor
   double archard_depth = kNotApplicable;  ///< m per passage, with the rail's wear_coefficient over its hardness
   double kth_depth = kNotApplicable;      ///< m per passage, Jendel's map, dry laboratory surfaces
+  double kth_seized = 0, kth_fast = 0;    ///< m of it outside the map (damage/wear.hpp)
   double wheel_usfd_depth = kNotApplicable, wheel_archard_depth = kNotApplicable,
          wheel_kth_depth = kNotApplicable;  ///< m per turn of the wheel, with the wheel's own data
   double temperature_rise = 0;              ///< K

@@ -68,9 +68,8 @@ Json steels_json(const DamageSummary& d) {
   Json out = Json::object();
   for (const auto& [body, steel] : {std::pair{"rail", &d.rail_steel}, std::pair{"wheel", &d.wheel_steel}})
     if (!steel->text.empty())
-      out[body] = {{"factor", json_number(steel->factor)},
-                   {"source", wear_source_text(steel->source)},
-                   {"text", steel->text}};
+      out[body] = {
+          {"factor", json_number(steel->factor)}, {"source", wear_source_text(steel->source)}, {"text", steel->text}};
   return out;
 }
 

@@ -82,6 +82,8 @@ inline constexpr double kLargestBending = 0.02;
 inline constexpr double kLargestFilmShear = 0.05, kFilmShearsAway = 0.5;
 /// m, below its crest a flange has its working face. [EN15313]
 inline constexpr double kFlangeTip = 2e-3;
+/// Share of the wear by Jendel's map from outside it.
+inline constexpr double kLargestOutsideMap = 0.05;
 /// Share of p_max: a tension maximum at the edge of the searched region is reported only above it.
 inline constexpr double kReportedTension = 0.01;
 
@@ -185,6 +187,11 @@ inline constexpr std::array kCheckRows{
                       "the material would have yielded or cracked before the first wheel; give the stress that is left "
                       "after that",
                       {.fem = 1, .bem = 1}, unit::kShare, kOwnText | kTakesBack),
+    CheckRow::warning("kth_outside_map", "KTH wear outside its map",
+                      "share of the rail's wear by Jendel's map that comes from seizure or from slip beyond its chart",
+                      "the map has few tests there, and seizure some 70 times the wear of mild slip: take usfd, or a "
+                      "measured wear_factor, or a pressure that the metal bears",
+                      {.bem = kLargestOutsideMap}, unit::kShare, kOwnText),
     CheckRow::warning("measured_within_torque_ramp", "Measured while the torque rises",
                       "the measuring window begins before the torque has its full value",
                       "the wanted traction cannot be reached there",

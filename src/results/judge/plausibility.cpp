@@ -99,6 +99,11 @@ void warn_of_stress(const Summary& s, const CaseSpec& spec, Warnings& out) {
   out.above("stress_maximum_at_rim", rising / s.contact.patch.p_max);
 }
 
+void warn_of_wear_map(const DamageSummary& damage, Warnings& out) {
+  if (!(damage.kth_of_map.worn > 0)) return;
+  out.above("kth_outside_map", damage.kth_of_map.outside(), fmt::format("; {}", outside_words(damage.kth_of_map)));
+}
+
 constexpr const char* kWithinRamp = "measured_within_torque_ramp";
 constexpr double kMuchAddedMass = check_row("mass_scaling_adds_much").fem_limit,
                  kShortFrictionMemory = check_row("short_friction_memory").fem_limit;
@@ -135,6 +140,11 @@ void warn_of_added_mass(const StepLimits& limits, std::vector<Warning>& out) {
 
 }  // namespace
 
+std::string outside_words(const MapShares& kth) {
+  return fmt::format("{:.0f} % of it where the surfaces seize (p > 0.8 H), {:.0f} % where they slip faster than 1 m/s",
+                     100 * kth.seized / kth.worn, 100 * kth.fast / kth.worn);
+}
+
 double film_shear(const CaseSpec& spec, const PatchMeasures& patch) {
   return patch.q_max_point * third_body(spec).flexibility() / (0.5 * shorter_axis(patch));
 }
@@ -164,6 +174,7 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const P
   warn_of_flange(around, out);
   warn_of_process_stress(spec, out);
   warn_of_stress(s, spec, out);
+  warn_of_wear_map(s.damage, out);
   return out.take();
 }
 

@@ -2,6 +2,7 @@
 // Warnings of results that are computed correctly but lie outside the range of the model, and of runs before they
 // start.
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fem/step_plan.hpp"
@@ -11,6 +12,9 @@
 
 namespace railstrata {
 
+/// What of the wear by Jendel's map comes from outside it.
+std::string outside_words(const MapShares& kth);
+
 /// Largest elastic displacement in the third-body layer, q h/G, of half the patch's shorter axis; 0 without one.
 double film_shear(const CaseSpec& spec, const PatchMeasures& patch);
 
@@ -19,7 +23,8 @@ double film_shear(const CaseSpec& spec, const PatchMeasures& patch);
 /// process_stress_beyond_yield,
 /// von_mises_above_common_rail_yield; of finite elements patch_near_border_of_fine_zone (nearer than an element on each
 /// side) and second_contact; of half-spaces patches_near_each_other, patch_spans_angle, patch_large_against_radius,
-/// patch_near_edge, soft_film, stress_maximum_at_rim. Limits and words: check_limits.hpp; reasons: docs/checks.md.
+/// patch_near_edge, soft_film, stress_maximum_at_rim, kth_outside_map. Limits and words: check_limits.hpp; reasons:
+/// docs/checks.md.
 std::vector<Warning> implausible(const Summary& summary, const CaseSpec& spec, const PatchSurroundings& around,
                                  double element);
 

@@ -321,6 +321,8 @@ std::vector<ResultNumber> layer_numbers() {
 template <auto Member>
 constexpr auto damage = &at<&Summary::damage, Member>;
 
+double kth_outside(const Summary& s) { return s.damage.kth_of_map.outside(); }
+
 std::vector<ResultNumber> damage_numbers() {
   using D = DamageSummary;
   return {
@@ -345,10 +347,13 @@ std::vector<ResultNumber> damage_numbers() {
       row("usfd_depth", kNanometres, damage<&D::usfd_depth>, "USFD wear", "Wear of a passage, USFD",
           "Largest depth, R8T wheel on 900A rail, dry laboratory surfaces, times the wear factor of the rail's steel",
           kMain),
-      row("wear_factor", kNone, &at<&Summary::damage, &D::rail_steel, &SteelWear::factor>, "wear factor", "Wear of the rail's steel",
-          "Over that of R260, the factor of the USFD depth; wear_of_steels says where it is from", kCompared),
+      row("wear_factor", kNone, &at<&Summary::damage, &D::rail_steel, &SteelWear::factor>, "wear factor",
+          "Wear of the rail's steel",
+          "Over that of R260, the factor of the USFD depth; wear_of_steels names its source", kCompared),
       row("kth_depth", kNanometres, damage<&D::kth_depth>, "KTH wear", "Wear of a passage, KTH map",
           "Largest depth, Jendel's map for dry laboratory surfaces with the rail's hardness", kCompared),
+      row("kth_outside", kNone, &kth_outside, "KTH, outside", "Share of the KTH wear outside its map",
+          "From cells that seize (p > 0.8 H) or slip faster than 1 m/s, over the worn area of the patch", kCompared),
       row("archard_depth", kNanometres, damage<&D::archard_depth>, "Archard wear", "Wear of a passage, Archard",
           "Largest depth, from the rail's wear_coefficient and hardness", kCompared),
       row("temperature_rise", kKelvins, damage<&D::temperature_rise>, "flash temperature", "Flash temperature",

@@ -197,6 +197,18 @@ struct SteelWear {
   std::string text;  ///< in words, with the source and how sure it is
 };
 
+/// Worn area by Jendel's map, and what of it its tests hardly reach.
+struct MapShares {
+  double worn = 0, seized = 0, fast = 0;  ///< of any unit
+  void add(double weight, double depth, double seized_part, double fast_part) {
+    if (!std::isfinite(depth)) return;
+    worn += weight * depth;
+    seized += weight * seized_part;
+    fast += weight * fast_part;
+  }
+  double outside() const { return worn > 0 ? (seized + fast) / worn : kNotApplicable; }
+};
+
 /// Wear and damage of the rail's surface in one passage (fatigue/streamlines.hpp); NaN where friction or data are
 /// missing.
 struct DamageSummary {
@@ -207,6 +219,7 @@ struct DamageSummary {
   double brr_wear = kNotApplicable;       ///< m² per m rolled
   double usfd_depth = kNotApplicable, archard_depth = kNotApplicable,
          kth_depth = kNotApplicable;         ///< m per passage, the deepest
+  MapShares kth_of_map;                      ///< of all streamlines
   SteelWear rail_steel, wheel_steel;         ///< whose factors the depths have
   double temperature_rise = kNotApplicable;  ///< K
   /// K, bounds of the rise that every order and thickness of the layers keeps (damage/flash_temperature.hpp)

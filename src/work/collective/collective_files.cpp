@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "collective/life_files.hpp"
-#include "io/summary_json.hpp"
+#include "collective/wear_words.hpp"
 #include "judge/judgement.hpp"
 #include "many/result_columns.hpp"
 #include "record/csv.hpp"
@@ -109,19 +109,6 @@ double passages_of(const std::vector<CollectiveRow>& rows) {
 
 double mgt_of(const Lives& lives) { return lives.tonnes / 1e6; }
 
-/// Of a solved row; null: there is none.
-const DamageSummary* damage_of_any(const std::vector<CollectiveRow>& rows) {
-  const auto any = std::find_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return r.sound(); });
-  return any == rows.end() ? nullptr : &any->summary.damage;
-}
-
-/// Whose wear the depths by a law are; empty where the law asks for a hardness instead.
-std::string steel_words(const std::vector<CollectiveRow>& rows, WearLaw law) {
-  const DamageSummary* damage = damage_of_any(rows);
-  if (!damage || (law != WearLaw::usfd && damage->rail_steel.source != WearSource::given)) return {};
-  return law == WearLaw::archard ? "" : "wear of the rail " + damage->rail_steel.text;
-}
-
 /// The depth of a thousand passages, and how far the sum over all of them can be trusted.
 ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
   const RailDamage& d = both.rail;
@@ -140,6 +127,10 @@ ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const Collectiv
                    fmt::format("{:.3g} µm per 1000 passages{} at y = {:.1f} mm of the rail ({})",
                                1000 / passages * micro, per_traffic, as_shown(unit::kMillimetres, y), asked->words)};
   if (const std::string steel = steel_words(rows, wanted); !steel.empty()) out.text += "; " + steel;
+  if (const std::string map = map_words(rows, wanted); !map.empty()) {
+    out.tone = "open";
+    out.text += "; " + map;
+  }
   if (*deepest <= kMostWearOfOneProfile) return out;
   out.tone = "open";
   out.text += fmt::format(
@@ -253,6 +244,9 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
     const auto at = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
     t.rows.push_back({what, units, total, shown(values[at]), as_shown(unit::kMillimetres, damage.y[at])});
   };
+  for (const KnownWear& wear : known_wear(damage))
+    for (const std::string& words : {steel_words(rows, wear.law), map_words(rows, wear.law)})
+      if (!words.empty()) t.note += fmt::format(" {}: {}.", wear.words, words);
   const auto plain = [](double v) { return v; };
   const double passages = passages_of(rows);
   add("passages; over one place", "", passages, damage.passages, plain);
@@ -444,7 +438,7 @@ Json collective_json(const std::string& title, const std::vector<CollectiveRow>&
   }
   totals["rcf_damage_largest"] = extreme(damage, damage.rcf_damage, "damage");
   totals["wheel"] = wheel_json(both.wheel);
-  if (const DamageSummary* any = damage_of_any(rows)) totals["wear_of_steels"] = steels_json(*any);
+  totals["wear_of_steels"] = wear_of_steels(rows);
   const CollectiveRow* worst = worst_row(rows);
   Json all = Json::array();
   for (const CollectiveRow& row : rows) all.push_back(row_json(row));
