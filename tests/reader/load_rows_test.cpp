@@ -105,7 +105,8 @@ TEST(LoadRows, ATableOfASpreadsheetInWindows1252IsReadAndThatIsSaid) {
   const TemporaryFolder temporary;
   const std::filesystem::path folder = temporary.path();
   std::ofstream(folder / "loads.csv") << "name;passages\r\nG\xFCterwagen;4\r\n";
-  const LoadedCase loaded = parse_case("[collective]\nfile = \"loads.csv\"\n", folder / "a.toml");
+  const LoadedCase loaded =
+      parse_case("[drive]\ntraction_coefficient = 0\n[collective]\nfile = \"loads.csv\"\n", folder / "a.toml");
   EXPECT_EQ(loaded.spec.loads.at(0).name, "Güterwagen");
   ASSERT_EQ(loaded.notes.size(), 1u);
   expect_says(loaded.notes[0], "loads.csv is not in UTF-8: it was read as Windows-1252");
@@ -227,6 +228,92 @@ TEST(LoadRows, NamesPartTheSamplesOfASeriesAndBinsHaveAScale) {
   EXPECT_EQ(names(1),
             (std::vector<std::string>{"wagon: 80.5 kN, 2.05 mm", "coach: 78 kN, 1.8 mm", "wagon: 81 kN, 2.6 mm"}));
   EXPECT_EQ(names(6), (std::vector<std::string>{"wagon: 80.7 kN, 2.23 mm", "coach: 78 kN, 1.8 mm"}));
+}
+
+namespace {
+
+/// A folder with two wheels, one of them twice as often.
+void write_wheels(const std::filesystem::path& folder, const std::string& list) {
+  std::filesystem::create_directories(folder / "wheels");
+  for (const char* name : {"new.prw", "hollow.prw"}) std::ofstream(folder / "wheels" / name) << "0 0\n";
+  if (!list.empty()) std::ofstream(folder / "wheels" / "shares.csv") << list;
+}
+
+constexpr const char* kMeasured =
+    "[[load]]\nname = \"wagon\"\npassages = 900\nwheel_profile = \"wheels\"\nwheel_radius = \"420 mm\"\n"
+    "[[load]]\nwheel_profile = \"S1002\"\n";
+
+}  // namespace
+
+TEST(LoadRows, AFolderOfMeasuredWheelsBecomesARowForEach) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
+  write_wheels(folder, "");
+  const LoadedCase loaded = parse_case(kMeasured, folder / "a.toml");
+  ASSERT_EQ(loaded.spec.loads.size(), 3u);
+  EXPECT_EQ(load_name(loaded.spec, 0), "wagon, hollow");
+  EXPECT_EQ(load_name(loaded.spec, 1), "wagon, new");
+  EXPECT_DOUBLE_EQ(loaded.spec.loads[0].passages, 450);
+  EXPECT_EQ(loaded.spec.loads[2].wheel_profile, "S1002");
+  EXPECT_EQ(load_name(loaded.spec, 2), "load 2") << "of the case, not of the rows made of it";
+  const CaseSpec one = with_load(loaded.spec, loaded.spec.loads[1]);
+  EXPECT_EQ(one.geometry.wheel_profile, (folder / "wheels" / "new.prw").string());
+  EXPECT_EQ(one.geometry.wheel_radius, 0.42);
+  EXPECT_EQ(loaded.inputs.size(), 2u);
+  EXPECT_EQ(parse_case(loaded.resolved_toml, "b.toml").resolved_toml, loaded.resolved_toml);
+}
+
+TEST(LoadRows, AListGivesTheSharesOfMeasuredWheels) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
+  write_wheels(folder, "file; share [%]\nnew.prw; 66,5\nhollow.prw; 33,5\n");
+  for (const char* value : {"wheels", "wheels/shares.csv"}) {
+    const std::string text = std::string("[[load]]\npassages = 1000\nwheel_profile = \"") + value + "\"\n";
+    const CaseSpec spec = parse_case(text, folder / "a.toml").spec;
+    ASSERT_EQ(spec.loads.size(), 2u) << value;
+    EXPECT_NEAR(spec.loads[0].passages, 665, 1e-9);
+    EXPECT_EQ(load_name(spec, 1), "load 1, hollow");
+  }
+}
+
+TEST(LoadRows, AWheelThatIsNotThereIsToldWithItsPlace) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
+  const auto said = [&](const std::string& text) {
+    try {
+      parse_case(text, folder / "a.toml");
+    } catch (const CaseError& e) {
+      return std::string(e.what());
+    }
+    return std::string("taken");
+  };
+  expect_says(said("[[load]]\nwheel_profile = \"nowhere.prw\"\n"), "a.toml:2:");
+  expect_says(said("[[load]]\nwheel_profile = \"nowhere.prw\"\n"), "load.0.wheel_profile = \"nowhere.prw\": neither");
+  std::ofstream(folder / "loads.csv") << "passages; wheel_profile\n5; S1002\n6; nowhere.prw\n";
+  expect_says(said("[collective]\nfile = \"loads.csv\"\n"), "loads.csv:3");
+  write_wheels(folder, "file; share [%]\nnew.prw; 60\nhollow.prw; 33\n");
+  expect_says(said(kMeasured), "the shares add up to 93 %");
+  write_wheels(folder, "file; share [%]\nnew.prw; 60\nlost.prw; 40\n");
+  expect_says(said(kMeasured), "shares.csv:3");
+  write_wheels(folder, "file; share [%]\nnew.prw; many\n");
+  expect_says(said(kMeasured), "share \"many\"");
+}
+
+TEST(LoadRows, AWheelThatIsToldNothingOfTractionRollsFree) {
+  const auto first = [](const std::string& drive, const std::string& row) {
+    const LoadedCase loaded = parse_case(drive + "[[load]]\n" + row, "a.toml");
+    return with_load(loaded.spec, loaded.spec.loads.at(0)).drive;
+  };
+  EXPECT_EQ(first("", "").traction(), 0);
+  EXPECT_EQ(first("", "traction_coefficient = 0.1\n").traction(), 0.1);
+  EXPECT_EQ(first("", "creepage = 0.001\n").creepage, 0.001);
+  EXPECT_EQ(first("[drive]\ntraction_coefficient = 0.2\n", "").traction(), 0.2) << "as the case gives it";
+  EXPECT_EQ(first("[drive]\ncreepage = 0.001\n", "").creepage, 0.001);
+  EXPECT_NE(first("[drive]\ntractive_force = \"5 kN\"\n", "").traction(), 0);
+  EXPECT_EQ(first("[drive]\nfriction_coefficient = 0.1\n", "").traction(), 0) << "less friction than the default asks";
+  const LoadedCase loaded = parse_case("[[load]]\n[[load]]\ncreepage = 0.001\n", "a.toml");
+  ASSERT_FALSE(loaded.notes.empty());
+  expect_says(loaded.notes.back(), "1 of 2 loads roll free");
 }
 
 }  // namespace railstrata

@@ -1,4 +1,5 @@
 #include "options/option_slots.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 namespace {
@@ -10,6 +11,7 @@ template <auto Member>
 constexpr auto load = entry<&CaseSpec::loads, Member>;
 
 bool has_loads(const CaseSpec& spec, std::size_t) { return !spec.loads.empty(); }
+bool has_wheel(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(index).wheel_profile.empty(); }
 bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(index).name.empty(); }
 
 /// Each axle has this wheel and another like it: N = MGT / (2 wheel loads).
@@ -25,7 +27,9 @@ bool grinds(const CaseSpec& spec, std::size_t) { return spec.life.grinding.every
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
 
 std::vector<Option> force_options() {
-  return {option("traction_coefficient", load<&LoadSpec::traction_coefficient>, "Wanted F_T / G; positive drives",
+  return {option("traction_coefficient", load<&LoadSpec::traction_coefficient>,
+                 "Wanted F_T / G; positive drives. A wheel whose row and [drive] give no traction, creepage or force "
+                 "rolls free",
                  kNumber, {-1, 1}),
           option("creepage", load<&LoadSpec::creepage>,
                  "Longitudinal creepage, instead of the traction; negative drives. Measured at the contact or the "
@@ -62,6 +66,13 @@ OptionTable load_table() {
               "row's load, one of them on this rail: passages = mgt / (2 wheel_load)",
               kNumber, above(0, 1e6))
            .derived({passages_of, "choose a smaller value, or give passages instead"}),
+       option("wheel_profile", load<&LoadSpec::wheel_profile>,
+              "Profile of this wheel, as geometry.wheel_profile. A folder of measured profiles, or a CSV list with the "
+              "columns file and share [%], makes one row of each, with its share of the passages; equal shares without "
+              "a list")
+           .where(has_wheel),
+       option("wheel_radius", load<&LoadSpec::wheel_radius>, "Radius of this wheel, as geometry.wheel_radius", kLength,
+              {5 * kMilli, 2.0}),
        option("lateral_shift", load<&LoadSpec::lateral_shift>, "Lateral shift of the wheel, positive to the field side",
               kLength, {-0.05, 0.05}),
        option("yaw", load<&LoadSpec::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}),

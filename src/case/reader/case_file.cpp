@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 #include <utility>
 
 #include "core/nearest_word.hpp"
+#include "core/text.hpp"
 #include "geometry/profile_names.hpp"
 #include "options/option_table.hpp"
 #include "reader/case_tree.hpp"
+#include "reader/wheel_files.hpp"
 #include "rules/case_rules.hpp"
 #include "rules/irregularity_rules.hpp"
 #include "rules/support.hpp"
@@ -121,8 +125,33 @@ void read_height_files(LoadedCase& loaded, CaseSource& source) {
                       });
 }
 
-/// The rows of a collective stand in the case or in a file.
+/// Whether the case itself gives how wheels are driven along.
+bool gives_traction(const CaseSource& source) {
+  constexpr std::array kKeys{"drive.traction_coefficient", "drive.tractive_force", "drive.creepage",
+                             "drive.wheel_rotation"};
+  return std::any_of(kKeys.begin(), kKeys.end(), [&](const char* key) { return source.has(key); });
+}
+
+void read_load_rows(LoadedCase& loaded, CaseSource& source);
+
+/// The rows of a collective stand in the case or in a file. Where [drive] gives no traction its wheels roll free: the
+/// default of [drive] is that of one driven wheel, not of the traffic's.
 void read_loads(LoadedCase& loaded, CaseSource& source) {
+  if (gives_traction(source)) return read_load_rows(loaded, source);
+  CaseSpec& spec = loaded.spec;
+  const double one_wheel = std::exchange(spec.drive.traction_coefficient, 0);
+  read_load_rows(loaded, source);
+  if (spec.loads.empty()) spec.drive.traction_coefficient = one_wheel;
+  const auto free = std::count_if(spec.loads.begin(), spec.loads.end(),
+                                  [](const LoadSpec& load) { return !load.traction_coefficient && !load.creepage; });
+  if (free > 0)
+    loaded.notes.push_back(
+        fmt::format("{} of {} loads roll free (traction_coefficient = 0): neither they nor [drive] give a traction, a "
+                    "creepage or a force",
+                    free, spec.loads.size()));
+}
+
+void read_load_rows(LoadedCase& loaded, CaseSource& source) {
   CaseSpec& spec = loaded.spec;
   if (!spec.loads.empty() && source.has(kLoadFile)) {
     source.complain(kLoadFile, "the case has rows of [[load]] and collective.file",
@@ -131,8 +160,70 @@ void read_loads(LoadedCase& loaded, CaseSource& source) {
     return;
   }
   read_table_file(
-      kLoadFile, spec.collective.file, loaded, source,
-      [&](const std::string& text, const std::filesystem::path& file) { return read_load_table(text, file, spec); });
+      kLoadFile, spec.collective.file, loaded, source, [&](const std::string& text, const std::filesystem::path& file) {
+        std::vector<int> lines;
+        std::string note = read_load_table(text, file, spec, &lines);
+        for (std::size_t i = 0; i < spec.loads.size(); ++i)
+          source.remember_origin(
+              fmt::format("load.{}.wheel_profile", i),
+              i < lines.size() ? fmt::format("{}:{}", file.filename().string(), lines[i]) : file.filename().string());
+        return note;
+      });
+}
+
+/// The wheels of every load that names profiles: built-in ones and files stay one, folders and lists become many.
+std::vector<std::vector<WheelShare>> find_load_wheels(LoadedCase& loaded, CaseSource& source) {
+  std::vector<std::vector<WheelShare>> out(loaded.spec.loads.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    std::string& name = loaded.spec.loads[i].wheel_profile;
+    if (name.empty() || is_builtin(ProfileKind::wheel, name)) continue;
+    const std::string key = fmt::format("load.{}.wheel_profile", i);
+    std::error_code error;
+    const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
+    const bool nameable = name.find('\0') == std::string::npos;
+    const auto refuse = [&](const std::string& what, const std::string& remedy) {
+      source.complain(key, fmt::format("{} = {}: {}", key, toml_quoted(name), what), remedy);
+    };
+    try {
+      if (nameable && std::filesystem::is_directory(file, error))
+        out[i] = measured_wheels(file);
+      else if (nameable && std::filesystem::is_regular_file(file, error))
+        out[i] = file.extension() == ".csv" && lists_wheels(file_text(file)) ? measured_wheels(file)
+                                                                             : std::vector<WheelShare>{{file, 1}};
+      else
+        refuse(fmt::format("neither a built-in profile nor a file nor a folder{}",
+                           nameable ? fmt::format(" (looked for {})", file.string()) : ""),
+               fmt::format("name a file relative to the folder of the case, or one of {}",
+                           fmt::join(builtin_profile_names(ProfileKind::wheel), ", ")));
+    } catch (const CaseError& e) {
+      for (const Diagnostic& d : e.diagnostics)
+        refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
+    }
+  }
+  return out;
+}
+
+/// A row for each of a load's wheels, with its share of the passages.
+void spread_over_wheels(const std::vector<std::vector<WheelShare>>& wheels, LoadedCase& loaded) {
+  const bool many = std::any_of(wheels.begin(), wheels.end(), [](const auto& w) { return w.size() > 1; });
+  std::vector<LoadSpec> all;
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    LoadSpec load = loaded.spec.loads[i];
+    if (many) load.name = load_name(loaded.spec, i);
+    if (wheels[i].empty()) all.push_back(load);
+    for (const WheelShare& wheel : wheels[i]) {
+      LoadSpec& row = all.emplace_back(load);
+      row.wheel_profile = wheel.file.string();
+      row.passages *= wheel.share;
+      if (wheels[i].size() > 1) row.name = fmt::format("{}, {}", load_name(loaded.spec, i), wheel.file.stem().string());
+      if (std::find(loaded.inputs.begin(), loaded.inputs.end(), wheel.file) == loaded.inputs.end())
+        loaded.inputs.push_back(wheel.file);
+    }
+    if (wheels[i].size() > 1)
+      loaded.notes.push_back(
+          fmt::format("{}: {} wheel profiles make as many loads", load_name(loaded.spec, i), wheels[i].size()));
+  }
+  loaded.spec.loads = std::move(all);
 }
 
 /// The message with its key, if it does not name it itself.
@@ -164,8 +255,10 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   read_history(loaded, source);
   read_loads(loaded, source);
   read_height_files(loaded, source);
+  const std::vector<std::vector<WheelShare>> wheels = find_load_wheels(loaded, source);
   check_case_rules(loaded.spec, source);
   source.finish();
+  spread_over_wheels(wheels, loaded);
   loaded.resolved_toml = resolved_case(loaded.spec);
   if (says_nothing(text))
     loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),

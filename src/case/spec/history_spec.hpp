@@ -47,8 +47,10 @@ inline double gross_tonnes(double wheel_force) { return 2e-3 * wheel_force / kGr
 
 /// A row of a load collective: what it does not give is the case's (tables/load_rows.hpp).
 struct LoadSpec {
-  std::string name;     ///< empty: "load 1", "load 2", … by its place
-  double passages = 1;  ///< of such a wheel
+  std::string name;           ///< empty: "load 1", "load 2", … by its place
+  double passages = 1;        ///< of such a wheel
+  std::string wheel_profile;  ///< as of the geometry; empty: the case's
+  std::optional<double> wheel_radius;
   std::optional<double> wheel_load, lateral_shift, yaw, roll, curve_radius, speed;
   std::optional<double> traction_coefficient, creepage;                  ///< at most one
   std::optional<double> lateral_traction_coefficient, lateral_creepage;  ///< at most one

@@ -29,6 +29,8 @@ const ColumnWords& column_words() {
       {"mgt", {"MGT", "Mio. t", "总重"}},
       {"wheel_load", {"Q", "Radlast", "Charge par roue", "Hjullast", "轮重"}},
       {"axle_load", {"Radsatzlast", "Achslast", "Charge par essieu", "Axellast", "轴重"}},
+      {"wheel_profile", {"Radprofil", "Profil de roue", "Hjulprofil", "车轮踏面"}},
+      {"wheel_radius", {"Radradius", "Laufkreisradius", "Rayon de roue", "Hjulradie"}},
       {"lateral_shift", {"y", "Querverschiebung", "Déplacement latéral", "Sidoförskjutning", "横移量"}},
       {"yaw", {"psi", "Anlaufwinkel", "Gierwinkel", "Angle d'attaque", "Anloppsvinkel", "冲角"}},
       {"roll", {"phi", "Wankwinkel"}},
@@ -104,6 +106,8 @@ CaseSpec with_load(const CaseSpec& spec, const LoadSpec& load) {
   CaseSpec out = spec;
   out.loads.clear();
   if (load.wheel_load) out.vehicle.set_load(*load.wheel_load);
+  if (!load.wheel_profile.empty()) out.geometry.wheel_profile = load.wheel_profile;
+  take(load.wheel_radius, out.geometry.wheel_radius);
   take(load.lateral_shift, out.geometry.lateral_shift);
   take(load.yaw, out.geometry.yaw);
   take(load.roll, out.geometry.roll);
@@ -134,6 +138,7 @@ struct Axis {
   bool inverse = false;  ///< bins of 1/value
 };
 const std::array kAxes{Axis{&LoadSpec::wheel_load, 10e3},
+                       Axis{&LoadSpec::wheel_radius, 5e-3},
                        Axis{&LoadSpec::lateral_shift, 1e-3},
                        Axis{&LoadSpec::yaw, 1e-3},
                        Axis{&LoadSpec::curve_radius, 1e-3, true},
@@ -145,12 +150,13 @@ const std::array kAxes{Axis{&LoadSpec::wheel_load, 10e3},
                        Axis{&LoadSpec::lateral_creepage, 5e-4}};
 /// Means alone, which part no samples.
 const std::array kMeans{&LoadSpec::roll, &LoadSpec::guiding_force, &LoadSpec::t_gamma, &LoadSpec::friction_energy};
-using Bin = std::pair<std::string, std::array<std::optional<long>, kAxes.size()>>;
+/// Name and profile of the wheel, and where it lies on the axes.
+using Bin = std::pair<std::array<std::string, 2>, std::array<std::optional<long>, kAxes.size()>>;
 
 double on_axis(const Axis& axis, double value) { return axis.inverse ? 1 / value : value; }
 
 Bin bin_of(const LoadSpec& load, double scale, bool by_name) {
-  Bin out{by_name ? load.name : "", {}};
+  Bin out{{by_name ? load.name : "", load.wheel_profile}, {}};
   for (std::size_t k = 0; k < kAxes.size(); ++k)
     if (const auto& value = load.*kAxes[k].member)
       out.second[k] = std::lround(on_axis(kAxes[k], *value) / (scale * kAxes[k].width));
@@ -231,7 +237,8 @@ std::vector<LoadSpec> binned(const std::vector<LoadSpec>& samples, double scale)
   for (const LoadSpec& sample : samples) {
     const Bin bin = bin_of(sample, scale, by_name);
     LoadSpec empty;
-    empty.name = bin.first;
+    empty.name = bin.first[0];
+    empty.wheel_profile = bin.first[1];
     empty.passages = 0;
     add(sample, bins.try_emplace(bin, empty).first->second);
   }
@@ -268,7 +275,8 @@ std::string lacking_of(const UnitTable& table, const std::vector<LoadSpec>& samp
 
 }  // namespace
 
-std::string read_load_table(const std::string& text, const std::filesystem::path& path, CaseSpec& spec) {
+std::string read_load_table(const std::string& text, const std::filesystem::path& path, CaseSpec& spec,
+                            std::vector<int>* lines) {
   const std::filesystem::path file = path.filename();
   const OptionTable& options = *find_table("load");
   UnitTableForm form{{}, options.rivals, "a load", "wheel_load [kN], lateral_shift [mm], passages"};
@@ -282,6 +290,7 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
   const UnitTable table = read_unit_table(text, file, form);
   for (const UnitTable::Row& row : table.rows) {
     spec.loads.emplace_back();
+    if (lines && !series) lines->push_back(row.line);
     for (const Option& option : options.options)  // in the table's order: mgt counts over the load
       for (std::size_t k = 0; k < row.cells.size(); ++k)
         if (table.columns[k] == &option) put(row.cells[k], option, spec, spec.loads.size() - 1);

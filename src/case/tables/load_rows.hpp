@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "spec/case_fwd.hpp"
 #include "text/case_source.hpp"
@@ -20,8 +21,10 @@ CaseSpec with_load(const CaseSpec& spec, const LoadSpec& load);
 std::string load_name(const CaseSpec& spec, std::size_t index);
 
 /// Fills spec.loads from a table; one with a column of time or distance is a series of one wheel, in bins.
-/// Returns a note about it; empty: nothing. Throws CaseError with line and remedy; `file` names it.
-std::string read_load_table(const std::string& text, const std::filesystem::path& file, CaseSpec& spec);
+/// Returns a note about it; empty: nothing. `lines`: where the loads stand, none of bins. Throws CaseError with line
+/// and remedy; `file` names it.
+std::string read_load_table(const std::string& text, const std::filesystem::path& file, CaseSpec& spec,
+                            std::vector<int>* lines = nullptr);
 
 /// Records every broken rule of the rows of [[load]].
 void check_loads(const CaseSpec& spec, CaseSource& source);

@@ -55,9 +55,10 @@ std::string bytes_of(const fs::path& file) {
 
 /// Profile files of the case, each once.
 std::vector<fs::path> profile_files(const LoadedCase& loaded) {
+  std::vector<std::string> names{loaded.spec.geometry.rail_profile, loaded.spec.geometry.wheel_profile};
+  for (const LoadSpec& load : loaded.spec.loads) names.push_back(load.wheel_profile);
   std::vector<fs::path> out;
-  for (const std::string& name : {loaded.spec.geometry.rail_profile, loaded.spec.geometry.wheel_profile}) {
-    const fs::path file = name;
+  for (const fs::path file : names) {
     const bool given = std::find(loaded.inputs.begin(), loaded.inputs.end(), file) != loaded.inputs.end();
     if (given && std::find(out.begin(), out.end(), file) == out.end()) out.push_back(file);
   }
@@ -74,8 +75,10 @@ std::string numbered(const fs::path& file, int n) {
 template <class Name>
 std::string renamed_case(const LoadedCase& loaded, Name&& name_of) {
   CaseSpec spec = loaded.spec;
+  std::vector<std::string*> profiles{&spec.geometry.rail_profile, &spec.geometry.wheel_profile};
+  for (LoadSpec& load : spec.loads) profiles.push_back(&load.wheel_profile);
   for (const fs::path& file : profile_files(loaded))
-    for (std::string* profile : {&spec.geometry.rail_profile, &spec.geometry.wheel_profile})
+    for (std::string* profile : profiles)
       if (*profile == file.string()) *profile = name_of(file);
   return resolved_case(spec);
 }

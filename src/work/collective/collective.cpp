@@ -52,6 +52,9 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
   row.passed = std::move(answer.passed);
   row.not_followed = std::move(answer.not_followed);
   row.patches = std::move(answer.wear);
+  if (!row.given.wheel_profile.empty())
+    for (const PatchDamage& patch : row.patches)
+      row.wheel_y.push_back(placement.wheel.at(patch.contact.wheel_s).position.y);
   row.summary = std::move(answer.summary);
   row.summary_json = summary_json(row.summary);
   row.fault = failed_check(row.summary_json);
@@ -62,6 +65,14 @@ std::vector<WheelKind> kinds_of(const std::vector<CollectiveRow>& rows) {
   std::vector<WheelKind> out;
   for (const CollectiveRow& row : rows)
     if (row.sound()) out.push_back({row.passages, row.patches});
+  return out;
+}
+
+/// A row's patches; on a wheel of another profile at the same distance from the tape circle of this one.
+std::vector<PatchDamage> on_wheel(const CollectiveRow& row, const Profile& wheel) {
+  std::vector<PatchDamage> out = row.patches;
+  for (std::size_t k = 0; k < row.wheel_y.size(); ++k)
+    out[k].contact.wheel_s = wheel.s_at_y(std::clamp(row.wheel_y[k], wheel.y_min(), wheel.y_max()));
   return out;
 }
 
@@ -102,7 +113,12 @@ RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& 
 }
 
 WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell) {
-  return wheel_damage(rows.front().spec, kinds_of(rows), placement, cell);
+  std::vector<std::vector<PatchDamage>> patches;
+  std::vector<WheelKind> kinds;
+  patches.reserve(rows.size());
+  for (const CollectiveRow& row : rows)
+    if (row.sound()) kinds.push_back({row.passages, patches.emplace_back(on_wheel(row, placement.wheel))});
+  return wheel_damage(rows.front().spec, kinds, placement, cell);
 }
 
 Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& rows, const RailDamage& rail,

@@ -30,6 +30,7 @@ struct CollectiveRow {
   Summary summary;                      ///< where it is solved
   nlohmann::ordered_json summary_json;  ///< the same; null: there is none
   std::vector<PatchDamage> patches;
+  std::vector<double> wheel_y;  ///< m, of the patches on a wheel with a profile of its own; empty: the case's
   std::vector<SectionShakedown> sections;  ///< of the bodies with strengths
   LoadSpec given;                          ///< of the case
   PassedSections passed;                   ///< by life.passes, of its patches
