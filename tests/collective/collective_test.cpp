@@ -7,13 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <utility>
 
 #include "ask/answer.hpp"
 #include "collective/collective_files.hpp"
+#include "collective/measured_wear.hpp"
 #include "core/faults.hpp"
+#include "geometry/profile_names.hpp"
 #include "reader/case_file.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -330,7 +334,9 @@ TEST(Collective, AWheelLosesOverADistanceWhatTheRailLosesBelowIt) {
   ASSERT_EQ(faults(rows), 0);
   const WheelDamage wheel = wheel_damage(rows, place(spec, {}), 0.5e-3);
   const double turn = 2 * std::numbers::pi * spec.geometry.wheel_radius;
-  EXPECT_NEAR(turn * worn_area(wheel, wheel.usfd) / (streamline_area(rows, WearLaw::usfd) / 4), 1, 2e-3);
+  const DamageSummary& damage = rows[0].summary.damage;
+  EXPECT_NEAR(turn * worn_area(wheel, wheel.usfd) / (streamline_area(rows, WearLaw::usfd) / 4),
+              damage.wheel_steel.factor / damage.rail_steel.factor, 1e-3);
   EXPECT_NEAR(turn * worn_area(wheel, wheel.kth) / (0.5 * streamline_area(rows, WearLaw::kth) / 4), 1, 2e-3);
   EXPECT_TRUE(std::isnan(worn_area(wheel, wheel.archard)));
 }
@@ -352,6 +358,68 @@ TEST(Collective, WheelsShiftedAlikeToEitherSideWearSymmetrically) {
 TEST(Collective, NeedsRowsAndRolling) {
   EXPECT_THROW(plan_collective(parse_case("", "a.toml").spec), CaseError);
   EXPECT_THROW(plan_collective(parse_case("[run]\nrolling = false\n[[load]]\n", "a.toml").spec), CaseError);
+}
+
+// A row's own wheel wears the rail as that wheel does, and the wheel where it touches, by its distance from the tape
+// circle.
+TEST(Collective, AWheelOfARowIsThatOfACaseWithIt) {
+  const auto with = [](const char* wheel, const char* row) {
+    return parse_case(std::string("[geometry]\nrail_profile = \"UIC60\"\ncant = \"1:40\"\nwheel_profile = \"") + wheel +
+                          "\"\nwheel_radius = \"460 mm\"\nback_to_back = \"1360 mm\"\ngauge = \"1435 mm\"\n"
+                          "gauge_depth = \"14 mm\"\n[[load]]\npassages = 4\nyaw = \"2 mrad\"\n" +
+                          row,
+                      "a.toml")
+        .spec;
+  };
+  const CaseSpec own = with("LMA", "wheel_profile = \"S1002\"\n"), plain = with("S1002", "");
+  const std::vector<CollectiveRow> rows = solved(own), same = solved(plain);
+  ASSERT_EQ(rows[0].fault, "");
+  ASSERT_EQ(same[0].fault, "");
+  EXPECT_DOUBLE_EQ(streamline_area(rows, WearLaw::usfd), streamline_area(same, WearLaw::usfd));
+  const WheelDamage of_row = wheel_damage(rows, place(own, {}), 0.5e-3),
+                    of_case = wheel_damage(same, place(plain, {}), 0.5e-3);
+  EXPECT_NEAR(worn_area(of_row, of_row.usfd) / worn_area(of_case, of_case.usfd), 1, 1e-9);
+  const auto deepest = [](const WheelDamage& d) {
+    return d.y[static_cast<std::size_t>(std::max_element(d.usfd.begin(), d.usfd.end()) - d.usfd.begin())];
+  };
+  EXPECT_NEAR(deepest(of_row), deepest(of_case), 0.6e-3);
+}
+
+// Half the computed wear taken off the rail, which was turned and moved before it was measured again.
+TEST(Collective, TheMeasuredFactorIsThatOfTheMetalThatIsGone) {
+  constexpr double kHalf = 0.5, kTurn = 2e-3, kShift = 0.3e-3;
+  const CaseSpec spec = parse_case(
+                            "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\n"
+                            "wheel_radius = \"460 mm\"\n[collective]\nwear_factor = 0.2\nlateral_deviation = \"1 mm\"\n"
+                            "[[load]]\npassages = 4e6\nyaw = \"2 mrad\"\nlateral_shift = \"2 mm\"\n",
+                            "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(rows[0].fault, "");
+  const RailDamage damage = rail_damage(rows, place(spec, {}), 0.5e-3);
+  const Profile rail = builtin_profile(ProfileKind::rail, "UIC60");
+  const TemporaryFolder folder;
+  std::ofstream before(folder.path() / "before.csv"), after(folder.path() / "after.csv");
+  for (std::size_t i = 0; i < damage.s.size(); ++i) {
+    const ProfilePoint p = rail.at(damage.s[i]);
+    const Vec2 at = p.position - kHalf * damage.usfd[i] * p.outward;
+    before << fmt::format("{:.7f} {:.7f}\n", 1e3 * p.position.y, 1e3 * p.position.z);
+    after << fmt::format("{:.7f} {:.7f}\n", 1e3 * (at.y - kTurn * at.z + kShift), 1e3 * (at.z + kTurn * at.y));
+  }
+  before.close();
+  after.close();
+  const double tonnes = 4e6 * gross_tonnes(rows[0].summary.contact.F_z);
+  const auto measured = [&](double of) {
+    return measured_wear(rows, damage, folder.path() / "before.csv", folder.path() / "after.csv", of);
+  };
+  const MeasuredWear found = measured(tonnes);
+  EXPECT_NEAR(found.factor(), kHalf, 0.02);
+  EXPECT_NEAR(found.factor(), kHalf, 4 * found.factor_error() + 1e-3);
+  EXPECT_NEAR(measured(2 * tonnes).factor(), kHalf / 2, 0.01) << "the same metal by twice the traffic";
+  EXPECT_NE(measured_text(found).find("write wear_factor = 0.1 into [collective]"), std::string::npos)
+      << measured_text(found);
+  EXPECT_THROW(measured_wear(rows, damage, folder.path() / "after.csv", folder.path() / "before.csv", tonnes),
+               CaseError);
 }
 
 }  // namespace railstrata

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +17,7 @@
 #include "collective/collective.hpp"
 #include "collective/collective_files.hpp"
 #include "collective/life_files.hpp"
+#include "collective/measured_wear.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "fatigue/row_strength.hpp"
@@ -23,6 +26,7 @@
 #include "record/output_file.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "runs/write_report.hpp"
+#include "text/units.hpp"
 #include "wear/wear_loop_job.hpp"
 
 namespace railstrata {
@@ -73,12 +77,14 @@ const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_
                                         {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
                                         {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};
 
-void print_collective(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage) {
+void print_collective(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
+                      const std::optional<MeasuredWear>& measured) {
   const CaseTable table = collective_table(rows);
   print_rows(joined(std::vector<CaseColumn>{{"load", [](const CaseRow& row) { return row.name; }}},
                     answer_columns(table.rows)),
              kListed, table.rows);
   for (const ReportAnswer& a : collective_answers(rows, damage)) fmt::print("{}: {}\n", a.title, printable(a.text));
+  if (measured) fmt::print("Measured wear: {}\n", measured_text(*measured));
 }
 
 /// Returns whether the page's verdict holds, true without a page.
@@ -102,7 +108,25 @@ void warn_of_passes(const std::vector<CollectiveRow>& rows) {
                std::count_if(first, rows.end(), lacks), rows.size(), first->name, first->not_followed);
 }
 
-ExitCode command_collective(const CommandOptions& options) {
+/// `collective --measured-before --measured-after --tonnes`.
+struct MeasuredOptions {
+  std::string before, after;  ///< files
+  std::string tonnes;         ///< a mass
+};
+
+double gross_mass(const std::string& text) {
+  constexpr double kKilograms = 1e3;
+  try {
+    if (const double mass = parse_quantity(text, dimension::kMass); mass > 0 && std::isfinite(mass))
+      return mass / kKilograms;
+  } catch (const UnitError& e) {
+    throw CaseError(fmt::format("--tonnes \"{}\": {}", text, e.what()), e.remedy);
+  }
+  throw CaseError(fmt::format("--tonnes \"{}\": must be above 0", text), "write e.g. \"20 Mt\"");
+}
+
+ExitCode command_collective(const CommandOptions& options, const MeasuredOptions& wanted) {
+  const double tonnes = wanted.before.empty() ? 0 : gross_mass(wanted.tonnes);
   const LoadedCase loaded = load_case_of(options, uses::kCollective);
   std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
   const double cell = cell_size(options.cell);
@@ -123,12 +147,15 @@ ExitCode command_collective(const CommandOptions& options) {
   write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage.rail);
   write_wheel_damage(out / "wheel_damage.csv", table_origin(loaded), damage.wheel);
   write_lives(out / "life.csv", table_origin(loaded), damage.lives);
-  const nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
+  nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
+  std::optional<MeasuredWear> measured;
+  if (tonnes > 0) measured = measured_wear(rows, damage.rail, wanted.before, wanted.after, tonnes);
+  if (measured) json["measured_wear"] = measured_json(*measured);
   write_whole_file(out / "collective.json", json_text(json, 2) + "\n");
   if (options.json)
     fmt::print("{}\n", json_text(json, 2));
   else
-    print_collective(rows, damage);
+    print_collective(rows, damage, measured);
   const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage);
   warn_of_passes(rows);
   const auto failed = faults(rows);
@@ -178,13 +205,23 @@ CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
   auto* most = sub.add_option("--max-wear", wear->max_wear, "Of wear: depth at the deepest place in one step")
                    ->capture_default_str();
   auto* resume = sub.add_flag("--resume", wear->resume, "Of wear: go on with the steps of the folder");
+  const auto measured = std::make_shared<MeasuredOptions>();
+  auto* before = sub.add_option("--measured-before", measured->before,
+                                "A measured profile of the rail: with the next two the wear factor of the line");
+  auto* after = sub.add_option("--measured-after", measured->after, "The same place later");
+  auto* tonnes = sub.add_option("--tonnes", measured->tonnes, "Gross traffic between them, e.g. \"20 Mt\"");
+  for (auto* option : {before, after, tonnes})
+    for (auto* other : {before, after, tonnes})
+      if (option != other) option->needs(other);
   add_no_report(sub, options);
   return [=, &options] {
+    if (*before && (*steps || *passages))
+      throw CaseError("measured profiles belong to a collective without --steps", "leave --steps and --passages out");
     if (*steps || *passages) return collective_wear(*wear, options);
     if (*most || *resume)
       throw CaseError(fmt::format("{} belongs to wear, step by step", *most ? "--max-wear" : "--resume"),
                       "give --steps 10, or --passages 2e6, or both with it");
-    return command_collective(options);
+    return command_collective(options, *measured);
   };
 }
 
