@@ -247,6 +247,7 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
   for (const KnownWear& wear : known_wear(damage))
     for (const std::string& words : {steel_words(rows, wear.law), map_words(rows, wear.law)})
       if (!words.empty()) t.note += fmt::format(" {}: {}.", wear.words, words);
+  if (const std::string words = free_words(rows); !words.empty()) t.note += fmt::format(" {}.", words);
   const auto plain = [](double v) { return v; };
   const double passages = passages_of(rows);
   add("passages; over one place", "", passages, damage.passages, plain);

@@ -36,6 +36,15 @@ std::string map_words(const std::vector<CollectiveRow>& rows, WearLaw law) {
                      100 * all.outside(), outside_words(all));
 }
 
+std::string free_words(const std::vector<CollectiveRow>& rows) {
+  const auto free = std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& row) {
+    return !row.given.traction_coefficient && !row.given.creepage && row.spec.drive.traction() == 0.0;
+  });
+  if (free == 0) return {};
+  return fmt::format("{} of {} loads give no traction and roll free (drive.traction_coefficient = 0)", free,
+                     rows.size());
+}
+
 nlohmann::ordered_json wear_of_steels(const std::vector<CollectiveRow>& rows) {
   const DamageSummary* any = damage_of_any(rows);
   return any ? steels_json(*any) : nlohmann::ordered_json::object();
