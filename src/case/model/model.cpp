@@ -161,11 +161,12 @@ StripMiddle strip_middle(const Placement& p, double closeness) {
 
 }  // namespace
 
-Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
+Placement place(const CaseSpec& spec, const std::filesystem::path& folder, const Profile* worn) {
   const GeometrySpec& g = spec.geometry;
   std::vector<std::string> notes;
   Profile wheel = find_profile(ProfileKind::wheel, g.wheel_profile, folder, {g.wheel_mirror, g.wheel_offset}, notes);
-  Profile rail = find_profile(ProfileKind::rail, g.rail_profile, folder, {g.rail_mirror, g.rail_offset}, notes);
+  Profile rail =
+      worn ? *worn : find_profile(ProfileKind::rail, g.rail_profile, folder, {g.rail_mirror, g.rail_offset}, notes);
   TrackGeometry track{g.gauge,        g.gauge_depth,
                       g.back_to_back, g.flange_back_to_tape,
                       g.cant,         g.lateral_shift,

@@ -21,8 +21,9 @@ struct Placement {
   std::vector<std::string> notes;  ///< what the profile readers detected and flipped
 };
 
-/// Built-in names are tried first, then files relative to `folder`. Throws CaseError.
-Placement place(const CaseSpec& spec, const std::filesystem::path& folder);
+/// Built-in names are tried first, then files relative to `folder`. rail: instead of the case's, if not null. Throws
+/// CaseError.
+Placement place(const CaseSpec& spec, const std::filesystem::path& folder, const Profile* rail = nullptr);
 
 /// The laws of friction that a case asks for.
 FallingFriction falling_friction(const CaseSpec& spec);

@@ -241,6 +241,14 @@ Subsurface interior(const LayeredHalfSpace& body, const BemPatch& patch, double 
 
 }  // namespace
 
+BemResult alone(const BemResult& result, const BemPatch& patch) {
+  BemResult out;
+  static_cast<BemPatch&>(out) = patch;
+  out.wheel = result.wheel;
+  out.rail = result.rail;
+  return out;
+}
+
 std::vector<const BemPatch*> patches_of(const BemResult& r) {
   std::vector<const BemPatch*> out{&r};
   for (const BemPatch& p : r.further) out.push_back(&p);

@@ -91,6 +91,8 @@ struct BemResult : BemPatch {
 
 /// Its own patch first, then the further ones.
 std::vector<const BemPatch*> patches_of(const BemResult& result);
+/// One of its patches as a result of its own.
+BemResult alone(const BemResult& result, const BemPatch& patch);
 /// The mean over the solutions of a sum, which `sum_of` makes of their patches.
 template <class SumOf>
 auto mean_of_solutions(const BemResult& result, SumOf&& sum_of) {

@@ -20,15 +20,6 @@ double trend_between(double net, double later_net, double ratio) {
   return net > 0 && later_net > 0 ? -std::log(later_net / net) / std::log(ratio) : 0;
 }
 
-/// The patch as a result of its own.
-BemResult alone(const BemResult& result, const BemPatch& patch) {
-  BemResult out;
-  static_cast<BemPatch&>(out) = patch;
-  out.wheel = result.wheel;
-  out.rail = result.rail;
-  return out;
-}
-
 PassedSection passed_section(int wanted, PassRunner& passes) {
   PassedSection out;
   PassState state = passes.body().virgin();
