@@ -192,19 +192,16 @@ double SteadyBody::compare(Work& work) const {
   return error;
 }
 
-PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits) const {
+void SteadyBody::iterate(const Field& contact_strain, PassState& state, const PassLimits& limits, Work& work,
+                         PassResult& out) const {
   assert(contact_strain.size() == grid().size() && state.residual_strain.size() == grid().size());
   const SteadyGrid& g = grid();
-  Work work;
-  Field surface_before;
-  work.before = uniform_strain(state.history, &surface_before);
   work.field.resize(g.size());
   work.guess = state.residual_strain;
   work.residual.resize(work.guess.size());
   work.after.resize(state.history.size());
   work.late.resize(g.points());
   Anderson anderson;
-  PassResult out;
   for (;;) {
     if (asked_to_stop(limits.control)) throw Interrupted("stopped in a pass");
     follow(contact_strain, state, work);
@@ -218,14 +215,31 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
     anderson.step(work.guess, work.residual);
   }
   state.rise = out.surface;
-  add_section(surface_before, out.surface);
   out.before = std::move(state.history);
   state.history = std::move(work.after);
   state.residual_strain = std::move(work.guess);
   ++state.passes;
+}
+
+PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits) const {
+  Work work;
+  Field surface_before;
+  work.before = uniform_strain(state.history, &surface_before);
+  PassResult out;
+  iterate(contact_strain, state, limits, work, out);
+  add_section(surface_before, out.surface);
   conclude(out.before, uniform_strain(state.history), state, out);
   const double most = *std::max_element(out.accumulated.begin(), out.accumulated.end());
   if (most > 0) out.late_flow = *std::max_element(work.late.begin(), work.late.end()) / most;
+  return out;
+}
+
+PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact_strain, PassState& state,
+                                       const PassLimits& limits) const {
+  Work work;
+  work.before = before;
+  PassResult out;
+  iterate(contact_strain, state, limits, work, out);
   return out;
 }
 

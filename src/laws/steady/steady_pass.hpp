@@ -92,6 +92,10 @@ class SteadyBody {
   /// pass has not converged too, as the result states. Throws NumericalError at a strain that is no number;
   /// Interrupted when it is given up, the state is then as it was.
   PassResult run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits = {}) const;
+  /// The same within a wider body that is uniform along x: `before` (six components by point of the section) is the
+  /// strain there by what earlier passes have left. What the result has beyond histories and strains is empty.
+  PassResult run_pass_within(const Field& before, const Field& contact_strain, PassState& state,
+                             const PassLimits& limits = {}) const;
   /// The way of points of the section through the pass that `result` and `state` are of, at the active stations in
   /// their order.
   std::vector<std::vector<StationState>> streamlines(const Field& contact_strain, const PassResult& result,
@@ -108,6 +112,8 @@ class SteadyBody {
   double compare(Work& work) const;
   void add_section(const Field& section, Field& surface) const;
   Field uniform_strain(const std::vector<double>& history, Field* surface = nullptr) const;
+  void iterate(const Field& contact_strain, PassState& state, const PassLimits& limits, Work& work,
+               PassResult& out) const;
   void conclude(const std::vector<double>& before, const Field& strain, const PassState& state, PassResult& out) const;
 
   PlasticStrainResponse response_;
