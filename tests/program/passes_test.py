@@ -116,8 +116,8 @@ class Passes(FromOutside):
         keys = ("patch_cells=4", 'first_row="0.05 mm"', "window=6")
         grid = [word for key in keys for word in ("--set", f"passes.{key}")]
         fine = json.loads((self.passes("fine", *few, *grid) / "passes.json").read_text())["grid"]
-        self.assertEqual(usual["stations"], 18 * 6)
-        self.assertEqual(fine["stations"], 20 * 4)
+        self.assertEqual(usual["stations"], 12 * 6)
+        self.assertEqual(fine["stations"], 14 * 4)
         self.assertLessEqual(fine["row_m"], 0.05e-3 * (1 + 1e-9))
         self.assertGreater(fine["rows"], usual["rows"])
         self.refused(2, ["passes", BASE, *few, "--engine", "fem", "--set", "passes.window=6", "--out",

@@ -98,8 +98,8 @@ SteadyGrid plan_grid(const Footprint& f, const PassesSpec& passes, double window
   const double a = f.x.half();
   SteadyGrid g;
   g.dx = a / passes.patch_cells;
-  g.nx = static_cast<int>(std::lround(((f.line ? 42 : 14) + window) * passes.patch_cells));
-  g.front = (f.line ? 10 : 4) * a;
+  g.nx = static_cast<int>(std::lround(((f.line ? 42 : 8) + window) * passes.patch_cells));
+  g.front = (f.line ? 10 : 3) * a;
   g.active = window * a;
   g.hold = (f.line ? 6 : 2) * a;
   if (f.line) return g;
@@ -107,6 +107,29 @@ SteadyGrid plan_grid(const Footprint& f, const PassesSpec& passes, double window
   g.ny = 12 * passes.patch_cells + 2 * static_cast<int>(std::ceil(farthest_pass(passes) / g.dy));
   g.y0 = f.y.middle() - 0.5 * (g.ny - 1) * g.dy;
   return g;
+}
+
+/// The columns nearest around the patch, so many that a Fourier transform likes them.
+void take_columns(const PassLattice& lattice, const Footprint& f, SteadyGrid& g) {
+  constexpr double kHalfAxes = 8;
+  constexpr int kFewest = 16, kMultiple = 8;
+  g.dy = lattice.apart;
+  const int wanted = static_cast<int>(std::ceil(kHalfAxes * f.y.half() / g.dy));
+  g.ny = std::max(kFewest, kMultiple * ((wanted + kMultiple - 1) / kMultiple));
+  const double first = f.y.middle() - 0.5 * (g.ny - 1) * g.dy;
+  g.y0 = lattice.line + g.dy * std::round((first - lattice.line) / g.dy);
+}
+
+/// As many of the rows as reach so deep.
+std::vector<double> rows_to(const std::vector<double>& thickness, double deepest) {
+  std::vector<double> out;
+  double top = 0;
+  for (const double row : thickness) {
+    if (top >= deepest) break;
+    out.push_back(row);
+    top += row;
+  }
+  return out;
 }
 
 int zone_at(const LayeredHalfSpace& body, double depth) {
@@ -271,7 +294,8 @@ double sinking_at(const SteadyGrid& grid, const PassResult& last, double y) {
 
 }  // namespace
 
-RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, double strength) {
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, double strength,
+                       const PassLattice* lattice) {
   const BemResult& result = solutions.front();
   const Rows rows(spec, result.rail, strength);
   const Footprint f = footprint_of(result);
@@ -281,8 +305,11 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
   out.middle_x = f.x.middle();
   out.window = spec.passes.window.value_or(usual_window(f.line));
   out.grid = plan_grid(f, spec.passes, out.window);
-  const std::vector<double> all = thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / spec.passes.patch_rows,
-                                              spec.passes.first_row.value_or(0));
+  if (lattice) take_columns(*lattice, f, out.grid);
+  const std::vector<double> all =
+      lattice ? rows_to(lattice->thickness, kDeepest * f.shorter())
+              : thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / spec.passes.patch_rows,
+                            spec.passes.first_row.value_or(0));
   std::vector<ContactStress> contacts;
   for (const BemResult& one : solutions) contacts.emplace_back(one, out.middle_x, out.grid);
   std::vector<std::vector<std::vector<Sym3>>> stresses(solutions.size());  // row by row

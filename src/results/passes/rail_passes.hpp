@@ -29,10 +29,18 @@ struct RailPasses {
   std::vector<Field> contact_stress;                  ///< Pa, SteadyGrid::size() each: of each solution
 };
 
+/// Columns and rows that passes of several wheels share.
+struct PassLattice {
+  double apart = 0, line = 0;  ///< m, of columns; y of one of them in the contact frame, from RailPasses' origin
+  std::vector<double> thickness = {};  ///< m, of rows
+};
+
 /// solutions: of cases_of_tractions (passes/pass_plan.hpp), the grid is that of the first one's patch, as wide as the
-/// wheels wander. strength: factor of all strengths (scaled in material/plastic.hpp). Throws CaseError: no strength of
-/// rail or layers, several patches, wheels that wander too far.
-RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, double strength = 1);
+/// wheels wander. strength: factor of all strengths (scaled in material/plastic.hpp). lattice: of the columns and rows;
+/// null: those of the patch. Throws CaseError: no strength of rail or layers, several patches, wheels that wander too
+/// far.
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, double strength = 1,
+                       const PassLattice* lattice = nullptr);
 
 /// Of the largest flow of a pass: what may come in the last quarter of the window.
 inline constexpr double kLateFlow = 1e-3;
