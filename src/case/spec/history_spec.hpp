@@ -57,6 +57,7 @@ struct LoadSpec {
   std::optional<double> friction_coefficient;
   std::optional<double> guiding_force, t_gamma,
       friction_energy;  ///< N, of the vehicle code, to compare with what comes out
+  bool operator==(const LoadSpec&) const = default;
 };
 
 struct CollectiveSpec {

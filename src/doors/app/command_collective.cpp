@@ -14,6 +14,8 @@
 #include "app/common_options.hpp"
 #include "app/control.hpp"
 #include "bem/bem_options.hpp"
+#include "clock/clock.hpp"
+#include "clock/clock_files.hpp"
 #include "collective/collective.hpp"
 #include "collective/collective_files.hpp"
 #include "collective/life_files.hpp"
@@ -77,6 +79,33 @@ const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_
                                         {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
                                         {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};
 
+/// Rail and metal through the traffic of --until; the rail's lives become those of it.
+std::optional<ClockResult> follow_traffic(const CommandOptions& options, const LoadedCase& loaded,
+                                          const std::string& until, CollectiveDamage& damage) {
+  if (until.empty()) return {};
+  InfluenceCache cache;
+  ClockOptions how;
+  how.bem.cell = cell_size(options.cell);
+  how.bem.cache = &cache;
+  how.control = &control_by_signals();
+  how.horizon = mass_of("--until", until);
+  if (!(how.horizon > 0))
+    throw CaseError(fmt::format("--until \"{}\": must be above 0", until), "write e.g. \"50 Mt\"");
+  ClockResult out = run_clock(loaded.spec, loaded.folder(), how);
+  how.control->progress("");
+  std::vector<LifeRow>& rows = damage.lives.rows;
+  rows.erase(std::remove_if(rows.begin(), rows.end(),
+                            [&](const LifeRow& row) {
+                              return std::any_of(out.lives.begin(), out.lives.end(), [&](const LifeRow& other) {
+                                return other.body == row.body && other.mechanism == row.mechanism;
+                              });
+                            }),
+             rows.end());
+  rows.insert(rows.begin(), out.lives.begin(), out.lives.end());
+  damage.lives.curve = {};
+  return out;
+}
+
 void print_collective(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
                       const std::optional<MeasuredWear>& measured) {
   const CaseTable table = collective_table(rows);
@@ -89,13 +118,15 @@ void print_collective(const std::vector<CollectiveRow>& rows, const CollectiveDa
 
 /// Returns whether the page's verdict holds, true without a page.
 bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& out,
-                         const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage) {
+                         const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
+                         const std::vector<ReportChart>& history) {
   const CollectiveRow* shown = shown_row(rows);
   if (!shown) return true;
   const std::filesystem::path page = out / "report.html";
   return write_page_or_warn(page, control(), [&] {
     write_row(options, loaded, out / kRowFolder, *shown);
-    return WrittenPage{write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name), {}};
+    return WrittenPage{
+        write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name, history), {}};
   });
 }
 
@@ -116,16 +147,11 @@ struct MeasuredOptions {
 
 double gross_mass(const std::string& text) {
   constexpr double kKilograms = 1e3;
-  try {
-    if (const double mass = parse_quantity(text, dimension::kMass); mass > 0 && std::isfinite(mass))
-      return mass / kKilograms;
-  } catch (const UnitError& e) {
-    throw CaseError(fmt::format("--tonnes \"{}\": {}", text, e.what()), e.remedy);
-  }
+  if (const double mass = mass_of("--tonnes", text); mass > 0 && std::isfinite(mass)) return mass / kKilograms;
   throw CaseError(fmt::format("--tonnes \"{}\": must be above 0", text), "write e.g. \"20 Mt\"");
 }
 
-ExitCode command_collective(const CommandOptions& options, const MeasuredOptions& wanted) {
+ExitCode command_collective(const CommandOptions& options, const std::string& until, const MeasuredOptions& wanted) {
   const double tonnes = wanted.before.empty() ? 0 : gross_mass(wanted.tonnes);
   const LoadedCase loaded = load_case_of(options, uses::kCollective);
   std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
@@ -144,10 +170,16 @@ ExitCode command_collective(const CommandOptions& options, const MeasuredOptions
   }
   CollectiveDamage damage{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
   damage.lives = collective_lives(loaded.spec, rows, damage.rail, damage.wheel);
+  const std::optional<ClockResult> history = follow_traffic(options, loaded, until, damage);
+  if (history) {
+    write_history(out / "history.csv", table_origin(loaded), *history);
+    write_worn_rail(out / "worn_rail.csv", table_origin(loaded), *history);
+  }
   write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage.rail);
   write_wheel_damage(out / "wheel_damage.csv", table_origin(loaded), damage.wheel);
   write_lives(out / "life.csv", table_origin(loaded), damage.lives);
   nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
+  if (history) json["traffic"] = history_json(*history);
   std::optional<MeasuredWear> measured;
   if (tonnes > 0) measured = measured_wear(rows, damage.rail, wanted.before, wanted.after, tonnes);
   if (measured) json["measured_wear"] = measured_json(*measured);
@@ -156,8 +188,13 @@ ExitCode command_collective(const CommandOptions& options, const MeasuredOptions
     fmt::print("{}\n", json_text(json, 2));
   else
     print_collective(rows, damage, measured);
-  const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage);
-  warn_of_passes(rows);
+  const bool page_holds =
+      !options.page || add_collective_page(options, loaded, out, rows, damage,
+                                           history ? history_charts(*history) : std::vector<ReportChart>{});
+  if (history)
+    for (const std::string& note : history->notes) spdlog::warn("{}", note);
+  else
+    warn_of_passes(rows);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
   return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;
@@ -193,6 +230,7 @@ ExitCode collective_wear(const WearOptions& wanted, const CommandOptions& option
 
 CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
   const auto wear = std::make_shared<WearOptions>();
+  const auto until = std::make_shared<std::string>();
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-collective, or -wear-loop");
   add_cell(sub, options);
@@ -213,6 +251,11 @@ CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
   for (auto* option : {before, after, tonnes})
     for (auto* other : {before, after, tonnes})
       if (option != other) option->needs(other);
+  auto* traffic = sub.add_option("--until", *until,
+                                 "Follow the rail through so much gross traffic: wear, grinding, strain and damage "
+                                 "of the same metal on the profile of the day, e.g. \"50 Mt\"");
+  for (auto* other : std::initializer_list<CLI::Option*>{steps, passages, most, resume, before})
+    traffic->excludes(other);
   add_no_report(sub, options);
   return [=, &options] {
     if (*before && (*steps || *passages))
@@ -221,7 +264,7 @@ CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
     if (*most || *resume)
       throw CaseError(fmt::format("{} belongs to wear, step by step", *most ? "--max-wear" : "--resume"),
                       "give --steps 10, or --passages 2e6, or both with it");
-    return command_collective(options, *measured);
+    return command_collective(options, *until, *measured);
   };
 }
 

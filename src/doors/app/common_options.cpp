@@ -53,12 +53,24 @@ CLI::Validator finite() {
           "FINITE"};
 }
 
-double length_of(const std::string& option, const std::string& text) {
+namespace {
+
+double quantity_of(const std::string& option, const std::string& text, const Dimension& dimension) {
   try {
-    return parse_quantity(text, dimension::kLength);
+    return parse_quantity(text, dimension);
   } catch (const UnitError& e) {
     throw CaseError(fmt::format("{} \"{}\": {}", option, text, e.what()), e.remedy);
   }
+}
+
+}  // namespace
+
+double length_of(const std::string& option, const std::string& text) {
+  return quantity_of(option, text, dimension::kLength);
+}
+
+double mass_of(const std::string& option, const std::string& text) {
+  return quantity_of(option, text, dimension::kMass);
 }
 
 double cell_size(const std::string& text) {

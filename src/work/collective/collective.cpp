@@ -25,7 +25,7 @@ void match_guiding_force(CollectiveRow& row, const std::filesystem::path& folder
     row.moved = moved;
     row.spec.geometry.lateral_shift = shift + moved;
     const AskOptions how{.bem = options.bem, .control = options.control};
-    const ContactSummary c = solve_contact(row.spec, place(row.spec, folder), how).summary.contact;
+    const ContactSummary c = solve_contact(row.spec, place(row.spec, folder, options.rail), how).summary.contact;
     close = std::max(close, kOfLoad * c.F_z);
     return -c.F_y - wanted;
   };
@@ -45,7 +45,7 @@ void match_guiding_force(CollectiveRow& row, const std::filesystem::path& folder
 
 void solve(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
   if (row.spec.collective.match_guiding_force && row.given.guiding_force) match_guiding_force(row, folder, options);
-  const Placement placement = place(row.spec, folder);
+  const Placement placement = place(row.spec, folder, options.rail);
   row.track = placement.track;
   Answer answer = ask(row.spec, placement, options.wanted, {.bem = options.bem, .control = options.control});
   row.sections = std::move(answer.shakedown);
@@ -56,6 +56,7 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
     for (const PatchDamage& patch : row.patches)
       row.wheel_y.push_back(placement.wheel.at(patch.contact.wheel_s).position.y);
   row.summary = std::move(answer.summary);
+  if (options.keep_results) row.result = std::move(answer.result);
   row.summary_json = summary_json(row.summary);
   row.fault = failed_check(row.summary_json);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // A load collective: half-space solutions of the case's rows of [[load]], and what all their passages do to the rail.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct CollectiveRow {
   TrackGeometry track;                  ///< where it is solved
   Summary summary;                      ///< where it is solved
   nlohmann::ordered_json summary_json;  ///< the same; null: there is none
+  std::optional<BemResult> result;      ///< where CollectiveOptions::keep_results asks for it
   std::vector<PatchDamage> patches;
   std::vector<double> wheel_y;  ///< m, of the patches on a wheel with a profile of its own; empty: the case's
   std::vector<SectionShakedown> sections;  ///< of the bodies with strengths
@@ -48,6 +50,8 @@ std::vector<CollectiveRow> plan_collective(const CaseSpec& spec);
 struct CollectiveOptions {
   BemOptions bem;
   Wanted wanted{.rail = false, .wheel = false, .life = false};  ///< of each row; the life is that of all rows
+  const Profile* rail = nullptr;                                ///< instead of the case's
+  bool keep_results = false;                                    ///< CollectiveRow::result
   const Control* control = nullptr;  ///< asked to stop, rows that have not begun are left out; progress: "loads"
 };
 

@@ -473,7 +473,8 @@ std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& r
 
 ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
                                     const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
-                                    const std::filesystem::path& looked_at, const std::string& shown) {
+                                    const std::filesystem::path& looked_at, const std::string& shown,
+                                    const std::vector<ReportChart>& history) {
   Report report;
   report.title = title;
   report.runs.push_back(read_report_run(looked_at));
@@ -488,6 +489,7 @@ ReportVerdict write_collective_page(const std::filesystem::path& page, const std
   if (const std::optional<ReportChart> life = life_chart(damage.lives))
     report.charts.insert(report.charts.begin(), *life);
   report.charts.push_back(wheel_chart(damage.wheel));
+  report.charts.insert(report.charts.begin(), history.begin(), history.end());
   write_whole_file(page, report_page(report));
   return verdict_of(report);
 }

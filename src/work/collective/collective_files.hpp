@@ -47,10 +47,12 @@ nlohmann::ordered_json collective_json(const std::string& title, const std::vect
 /// What the passages do, the worst first: whether and how long the rail lasts, rolling contact fatigue, wear.
 std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage);
 
-/// A page over all rows; `looked_at` is the result folder of the row that it shows whole, by the name `shown`.
+/// A page over all rows; `looked_at` is the result folder of the row that it shows whole, by the name `shown`;
+/// `history` comes first of the charts.
 ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
                                     const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
-                                    const std::filesystem::path& looked_at, const std::string& shown);
+                                    const std::filesystem::path& looked_at, const std::string& shown,
+                                    const std::vector<ReportChart>& history = {});
 
 /// A depth of the cells that is known everywhere.
 struct KnownWear {

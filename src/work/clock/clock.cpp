@@ -1,0 +1,498 @@
+#include "clock/clock.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "bem/contact_places.hpp"
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+#include "lives/life_section.hpp"
+#include "model/zone.hpp"
+#include "spec/case_spec.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kDeepest = 12e-3;     // m, of the metal that is followed
+constexpr double kThinnest = 0.05e-3;  // m, of a layer that still is one
+constexpr double kBeside = 15e-3;      // m, of metal beside the outermost contacts
+constexpr int kSteps = 3;              // of the metal through a stretch
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Rows that differ in their names and numbers alone are one.
+CaseSpec merged(CaseSpec spec) {
+  std::vector<LoadSpec> out;
+  for (const LoadSpec& load : spec.loads) {
+    const auto same = std::find_if(out.begin(), out.end(), [&](LoadSpec other) {
+      other.name = load.name;
+      other.passages = load.passages;
+      return other == load;
+    });
+    if (same == out.end())
+      out.push_back(load);
+    else
+      same->passages += load.passages;
+  }
+  spec.loads = std::move(out);
+  return spec;
+}
+
+/// A row for each of three places of a normal distribution about the row's, by Gauss and Hermite: exact for what is a
+/// polynomial of fifth degree in the shift.
+CaseSpec spread(CaseSpec spec) {
+  const double deviation = spec.collective.lateral_deviation;
+  if (!(deviation > 0)) return spec;
+  std::vector<LoadSpec> out;
+  for (const LoadSpec& load : spec.loads)
+    for (const auto& [aside, share] : {std::pair{-1.0, 1.0 / 6}, std::pair{0.0, 2.0 / 3}, std::pair{1.0, 1.0 / 6}}) {
+      out.push_back(load);
+      out.back().passages *= share;
+      out.back().lateral_shift =
+          load.lateral_shift.value_or(spec.geometry.lateral_shift) + aside * std::sqrt(3.0) * deviation;
+    }
+  spec.loads = std::move(out);
+  spec.collective.lateral_deviation = 0;
+  return spec;
+}
+
+/// What a load's contact was, to see whether it has changed.
+struct ContactMark {
+  double p_max = 0;
+  std::vector<double> at;  ///< m, of its patches on the unworn profile
+};
+
+/// A step of wear, or a grinding: m, of the metal's columns. Traffic in wheels since the stretch's beginning.
+struct Sinking {
+  double from = 0, to = 0;
+  std::vector<double> before, after;
+};
+
+class Clock {
+ public:
+  Clock(const CaseSpec& spec, const std::filesystem::path& folder, const ClockOptions& options)
+      : spec_(merged(spread(spec))),
+        folder_(folder),
+        options_(options),
+        unworn_(place(spec_, folder)),
+        surface_(unworn_, options.bem.cell) {
+    for (const std::size_t layer : layers_on(spec_, BodyId::rail))
+      feet_.push_back((feet_.empty() ? 0 : feet_.back()) + spec_.layers[layer].thickness);
+    options_.settle.control = options.control;
+  }
+
+  ClockResult run() {
+    begin();
+    while (out_.reached < options_.horizon && out_.ended.empty()) stretch();
+    conclude();
+    return std::move(out_);
+  }
+
+ private:
+  void begin();
+  void stretch();
+  void solve(bool with_stresses);
+  CaseSpec case_of_day() const;
+  void put_wheels();
+  std::vector<ContactMark> marks() const;
+  bool changed(const std::vector<ContactMark>& from) const;
+  void wear_until_changed();
+  double wear_step(double most);
+  void roll_metal();
+  void gather(double from, double wheels);
+  std::vector<RailDamages::ZoneRates> rates_of(int column) const;
+  DamageRates rates_at(int column, std::size_t row) const;
+  int zone_at(int column, double depth) const;
+  std::vector<double> removed_of_columns() const;
+  std::vector<double> day_feet() const;
+  void note(const ClockMoment& stretch);
+  void conclude();
+  std::string lacks(int zone, std::size_t mechanism) const;
+  LifeRow life_row(const RailDamages::Key& key) const;
+  double wheels_until(double kg) const { return (kg - out_.reached) / kilograms_; }
+
+  CaseSpec spec_;
+  std::filesystem::path folder_;
+  ClockOptions options_;
+  Placement unworn_;
+  WornProfile surface_;
+  std::vector<double> feet_;  ///< m, of the layers on the unworn rail
+  ClockResult out_;
+  double kilograms_ = 0;  ///< gross, by a wheel of the mixture
+  double wheels_ = 0;     ///< so far, of all loads
+  double next_grinding_ = kNever;
+  std::vector<CollectiveRow> rows_;
+  std::vector<std::size_t> load_of_;  ///< of the metal's wheels, the row
+  std::optional<Metal> metal_;
+  std::optional<RailDamages> damages_;
+  std::vector<double> metal_removed_;  ///< m, of columns, when the metal's rows were laid
+  std::vector<Sinking> sinkings_;
+  std::set<std::string> noted_;
+  bool followed_ = false;  ///< the metal, under any load
+};
+
+CaseSpec Clock::case_of_day() const {
+  CaseSpec out = spec_;
+  out.geometry.gauge += surface_.gauge_widening();
+  return out;
+}
+
+void Clock::solve(bool with_stresses) {
+  rows_ = plan_collective(case_of_day());
+  const std::vector<std::size_t> layers = layers_on(spec_, BodyId::rail);
+  if (!layers.empty())
+    for (CollectiveRow& row : rows_) {
+      const Placement there = place(row.spec, folder_, &surface_.profile());
+      row.spec.layers[layers.front()].thickness -= surface_.removed_at(surface_.unworn_s_of(there.contact.rail_s));
+    }
+  CollectiveOptions how;
+  how.bem = options_.bem;
+  how.rail = &surface_.profile();
+  how.keep_results = with_stresses;
+  how.wanted = {.rail = false, .wheel = false, .shakedown = with_stresses, .passes = false, .life = false};
+  how.control = nullptr;
+  solve_collective(rows_, folder_, how);
+  if (asked_to_stop(options_.control)) throw Interrupted("stopped between two profiles");
+  double wheels = 0, left_out = 0;
+  for (const CollectiveRow& row : rows_) {
+    wheels += row.passages;
+    if (row.sound()) continue;
+    left_out += row.passages;
+    if (noted_.insert(row.name).second)
+      out_.notes.push_back(fmt::format("{}: left out from {:.3g} MGT on for as long as it cannot be solved: {}",
+                                       row.name, 1e-9 * out_.reached, row.fault));
+  }
+  if (left_out == wheels) throw CaseError("no load of the collective can be solved", rows_.front().fault);
+}
+
+void Clock::begin() {
+  solve(true);
+  double kilograms = 0;
+  for (const CollectiveRow& row : rows_) {
+    out_.wheels += row.passages;
+    if (row.solved()) kilograms += row.passages * 1e3 * gross_tonnes(row.summary.contact.F_z);
+  }
+  kilograms_ = kilograms / out_.wheels;
+  out_.tonnes = 1e-3 * kilograms;
+  if (spec_.life.grinding.every) next_grinding_ = *spec_.life.grinding.every;
+  double from = kNever, to = -kNever;
+  for (const CollectiveRow& row : rows_)
+    for (const PatchDamage& patch : row.patches) {
+      from = std::min(from, patch.contact.rail_s - kBeside);
+      to = std::max(to, patch.contact.rail_s + kBeside);
+    }
+  from = std::max(from, unworn_.rail.s_min());
+  to = std::min(to, unworn_.rail.s_max());
+  const MetalGrid grid = metal_grid(from, to, options_.apart, options_.first_row, kDeepest);
+  metal_.emplace(grid, spec_.passes.ductility.value_or(0));
+  std::vector<double> s;
+  for (int c = 0; c < grid.columns; ++c) s.push_back(grid.s(c));
+  damages_.emplace(std::move(s), feet_, kDeepest);
+  metal_removed_.assign(static_cast<std::size_t>(grid.columns), 0.0);
+}
+
+std::vector<double> Clock::removed_of_columns() const {
+  std::vector<double> out;
+  for (int c = 0; c < metal_->grid().columns; ++c) out.push_back(surface_.removed_at(metal_->grid().s(c)));
+  return out;
+}
+
+std::vector<double> Clock::day_feet() const {
+  const double most = *std::max_element(surface_.removed().begin(), surface_.removed().end());
+  std::vector<double> out;
+  for (const double foot : feet_) out.push_back(foot - most);
+  return out;
+}
+
+std::vector<ContactMark> Clock::marks() const {
+  std::vector<ContactMark> out;
+  for (const CollectiveRow& row : rows_) {
+    ContactMark& mark = out.emplace_back();
+    if (!row.sound()) continue;
+    mark.p_max = row.summary.contact.patch.p_max;
+    for (const PatchDamage& patch : row.patches) mark.at.push_back(surface_.unworn_s_of(patch.contact.rail_s));
+  }
+  return out;
+}
+
+bool Clock::changed(const std::vector<ContactMark>& from) const {
+  const std::vector<ContactMark> now = marks();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i].at.size() != from[i].at.size()) return true;
+    if (std::abs(now[i].p_max - from[i].p_max) > options_.change * from[i].p_max) return true;
+    for (std::size_t k = 0; k < now[i].at.size(); ++k)
+      if (std::abs(now[i].at[k] - from[i].at[k]) > options_.moved) return true;
+  }
+  return false;
+}
+
+void Clock::put_wheels() {
+  const std::vector<double> removed = removed_of_columns();
+  std::vector<double> since = removed;
+  for (std::size_t c = 0; c < since.size(); ++c) since[c] -= metal_removed_[c];
+  metal_->sink(since);
+  metal_removed_ = removed;
+  load_of_.clear();
+  const MetalGrid& g = metal_->grid();
+  std::vector<MetalWheel> wheels;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    CollectiveRow& row = rows_[i];
+    if (!row.sound() || !row.result) continue;
+    for (const BemPatch* patch : patches_of(*row.result)) {
+      // arc length of the unworn rail where the contact frame has y = 0
+      const double at = surface_.unworn_s_of(patch->place.rail_s) - along_plane(patch->contact, patch->place.point);
+      const double line = g.s(static_cast<int>(std::lround((at - g.from) / g.apart))) - at;
+      const PassLattice lattice{g.apart, line, g.thickness};
+      try {
+        MetalWheel wheel{.rail = rail_passes(row.spec, {alone(*row.result, *patch)}, 1, &lattice),
+                         .share = row.passages / out_.wheels};
+        wheel.column = static_cast<int>(std::lround((at + wheel.rail.grid.y0 - g.from) / g.apart));
+        wheels.push_back(std::move(wheel));
+        load_of_.push_back(i);
+      } catch (const CaseError& e) {
+        if (noted_.insert(row.name + "/flow").second)
+          out_.notes.push_back(fmt::format("{}: at {:.3g} MGT its metal is not followed: {}", row.name,
+                                           1e-9 * out_.reached, fault_line(e)));
+      }
+    }
+    row.result.reset();
+  }
+  followed_ = followed_ || !wheels.empty();
+  metal_->put(std::move(wheels));
+}
+
+/// Wears the profile by at most so many wheels; how many they were.
+double Clock::wear_step(double most) {
+  const Placement placement = place(case_of_day(), folder_, &surface_.profile());
+  const RailDamage cells = rail_damage(rows_, placement, options_.bem.cell);
+  const std::vector<double> depth = smoothed_wear(cells, spec_.collective.wear_law);
+  double deepest = 0;
+  for (const double d : depth) deepest = std::max(deepest, std::isfinite(d) ? d : 0);
+  double wheels = most;
+  if (deepest > 0) wheels = std::min(wheels, out_.wheels * options_.max_wear / deepest);
+  Sinking sinking{.from = wheels_, .to = wheels_ + wheels, .before = removed_of_columns(), .after = {}};
+  if (deepest > 0) {
+    std::vector<double> step;
+    for (const double d : depth) step.push_back(std::isfinite(d) ? d * wheels / out_.wheels : 0);
+    surface_.wear(cells, step);
+  }
+  sinking.after = removed_of_columns();
+  sinkings_.push_back(std::move(sinking));
+  wheels_ += wheels;
+  out_.reached += wheels * kilograms_;
+  return wheels;
+}
+
+/// Steps of wear and grindings until a contact has changed, the horizon is reached or a layer is through.
+void Clock::wear_until_changed() {
+  const std::vector<ContactMark> from = marks();
+  sinkings_.clear();
+  for (;;) {
+    const double end = std::min(options_.horizon, next_grinding_);
+    wear_step(wheels_until(end));
+    if (options_.control) options_.control->progress("traffic", out_.reached / options_.horizon);
+    if (out_.reached >= next_grinding_ * (1 - 1e-12)) {
+      Sinking grinding{.from = wheels_, .to = wheels_, .before = removed_of_columns(), .after = {}};
+      surface_.grind(spec_.life.grinding.depth);
+      grinding.after = removed_of_columns();
+      sinkings_.push_back(std::move(grinding));
+      next_grinding_ += *spec_.life.grinding.every;
+    }
+    if (out_.reached >= options_.horizon * (1 - 1e-12)) return;
+    if (!feet_.empty() && day_feet().front() < kThinnest) {
+      out_.ended = fmt::format("layer worn through after {:.3g} MGT", 1e-9 * out_.reached);
+      return;
+    }
+    solve(false);
+    if (changed(from)) return;
+  }
+}
+
+DamageRates Clock::rates_at(int column, std::size_t row) const {
+  const MetalGrid& g = metal_->grid();
+  const std::size_t n = row * static_cast<std::size_t>(g.columns) + static_cast<std::size_t>(column);
+  DamageRates out;
+  const MetalFlow& flow = metal_->flow();
+  if (!flow.net.empty() && spec_.passes.ductility) out.ductility = flow.net[n] / *spec_.passes.ductility;
+  if (!flow.cycles.empty()) out.cycles = flow.cycles[n];
+  const int zone = zone_at(column, g.depths()[row]);
+  const FatigueSpec& f = zone_material(spec_, BodyId::rail, zone).strength.fatigue;
+  if (!f.limit || !f.dang_van || !f.exponent) return out;
+  const SigmaN line{*f.exponent, f.cycles};
+  constexpr std::array kBelow{BelowLimit::as_above, BelowLimit::flatter, BelowLimit::endures};
+  constexpr std::array kSums{1.0 / 3, 1.0, 3.0};  // [Haibach2006]
+  const double at = surface_.day_s(g.s(column)), depth = g.depths()[row];
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!rows_[i].sound()) continue;
+    bool flows = false;
+    for (std::size_t k = 0; k < load_of_.size(); ++k)
+      flows = flows || (load_of_[k] == i && flow.flowed[k][n] >= kNoFlow);
+    if (flows) continue;
+    for (const SectionShakedown& found : rows_[i].sections) {
+      if (found.body != BodyId::rail || found.fatigue.dang_van_used.empty()) continue;
+      const PatchDamage& patch = rows_[i].patches[std::min(found.patch, rows_[i].patches.size() - 1)];
+      const LifeSection section{&found.y, &found.depth, &found.zone, patch.contact.rail_s};
+      const std::optional<RowsBeside> rows = rows_beside(section, zone, depth);
+      if (!rows || depth > found.depth.back()) continue;
+      const double used = value_at(section, found.fatigue.dang_van_used, *rows, at);
+      for (std::size_t v = 0; v < kSums.size(); ++v)
+        out.fatigue[v] += rows_[i].passages / out_.wheels / cycles_to_failure(used, line, kBelow[v]) / kSums[v];
+    }
+  }
+  return out;
+}
+
+/// Of the metal so deep below the surface of the day.
+int Clock::zone_at(int column, double depth) const {
+  for (std::size_t k = 0; k < feet_.size(); ++k)
+    if (depth < feet_[k] - metal_removed_[static_cast<std::size_t>(column)]) return static_cast<int>(k) + 1;
+  return 0;
+}
+
+std::vector<RailDamages::ZoneRates> Clock::rates_of(int column) const {
+  const MetalGrid& g = metal_->grid();
+  const std::vector<double> depths = g.depths();
+  std::vector<RailDamages::ZoneRates> out;
+  for (std::size_t r = 0; r < depths.size(); ++r) {
+    const int zone = zone_at(column, depths[r]);
+    if (out.empty() || out.back().zone != zone) out.push_back({.zone = zone, .depth = {}, .rates = {}});
+    out.back().depth.push_back(depths[r]);
+    out.back().rates.push_back(rates_at(column, r));
+    out.back().ends = r + 1 == depths.size();
+  }
+  return out;
+}
+
+/// The damage of so many wheels from `from` on, at the rates that the metal has now.
+void Clock::gather(double from, double wheels) {
+  const double to = from + wheels;
+  for (int c = 0; c < metal_->grid().columns; ++c) {
+    const std::vector<RailDamages::ZoneRates> rates = rates_of(c);
+    const auto column = static_cast<std::size_t>(c);
+    for (const Sinking& s : sinkings_) {
+      const double begin = std::max(from, s.from), end = std::min(to, s.to);
+      if (!(end > begin)) continue;
+      const double sunk = (s.after[column] - s.before[column]) / (s.to - s.from);
+      damages_->gather(
+          column, rates,
+          {end - begin, s.before[column] + sunk * (begin - s.from), s.before[column] + sunk * (end - s.from)}, begin);
+    }
+  }
+}
+
+/// Takes the metal through the stretch's traffic, in steps that grow.
+void Clock::roll_metal() {
+  const double begin = sinkings_.front().from, all = wheels_ - begin;
+  ClockMoment moment;
+  double step = all * (options_.growth - 1) / (std::pow(options_.growth, kSteps) - 1), from = begin;
+  while (from < wheels_) {
+    const double left = wheels_ - from;
+    const double wheels = left < 1.5 * step ? left : step;
+    const SettledState settled = metal_->roll(wheels, options_.settle);
+    moment.changes += settled.changes;
+    moment.unsettled = std::max(moment.unsettled, settled.unsettled);
+    gather(from, wheels);
+    from += wheels;
+    step *= options_.growth;
+  }
+  note(moment);
+}
+
+void Clock::stretch() {
+  if (!out_.history.empty()) solve(true);
+  const std::vector<CollectiveRow> before = [&] {
+    put_wheels();
+    return rows_;
+  }();
+  wear_until_changed();
+  rows_ = before;  // whose stresses the metal has
+  roll_metal();
+}
+
+void Clock::note(const ClockMoment& of_stretch) {
+  ClockMoment m = of_stretch;
+  m.kilograms = out_.reached;
+  const std::vector<double>& removed = surface_.removed();
+  const auto most = std::max_element(removed.begin(), removed.end());
+  m.removed = *most;
+  m.removed_y = unworn_.rail.at(surface_.unworn_s()[static_cast<std::size_t>(most - removed.begin())]).position.y;
+  for (const CollectiveRow& row : rows_)
+    if (row.sound()) m.p_max = std::max(m.p_max, row.summary.contact.patch.p_max);
+  if (!feet_.empty()) m.layer_left = std::max(0.0, day_feet().front());
+  const std::vector<double> gone = removed_of_columns();
+  const WorstPoint ductility = damages_->worst(0, gone), cycles = damages_->worst(2, gone),
+                   fatigue = damages_->worst(5, gone);
+  m.ductility = ductility.damage;
+  m.ductility_y = unworn_.rail.at(ductility.s).position.y;
+  m.ductility_depth = ductility.depth - surface_.removed_at(ductility.s);
+  m.cycles = cycles.damage;
+  m.fatigue = fatigue.damage;
+  if (!metal_->flow().net.empty()) m.net = *std::max_element(metal_->flow().net.begin(), metal_->flow().net.end());
+  out_.history.push_back(m);
+  if (options_.control)
+    options_.control->info(
+        "{:.3g} MGT: removed {:.0f} µm, p_max {:.0f} MPa, strain {:.2e} a wheel, ductility used {:.3g} (y {:.1f} mm, "
+        "{:.2f} mm deep), {} changes, {:.2f} unsettled",
+        1e-9 * m.kilograms, 1e6 * m.removed, 1e-6 * m.p_max, m.net, m.ductility, 1e3 * m.ductility_y,
+        1e3 * m.ductility_depth, m.changes, m.unsettled);
+}
+
+/// The key that a mechanism (0: ductility, 1: closed cycles, 2: fatigue) lacks in a zone; empty: none.
+std::string Clock::lacks(int zone, std::size_t mechanism) const {
+  if (mechanism < 2) return !spec_.passes.ductility ? "passes.ductility" : !followed_ ? "the strength of the rail" : "";
+  const FatigueSpec& f = zone_material(spec_, BodyId::rail, zone).strength.fatigue;
+  const char* key = !f.limit ? "fatigue_limit" : !f.dang_van ? "dang_van_coefficient" : "fatigue_exponent";
+  return f.limit && f.dang_van && f.exponent ? "" : fmt::format("{}.{}", zone_key(spec_, BodyId::rail, zone), key);
+}
+
+LifeRow Clock::life_row(const RailDamages::Key& key) const {
+  static constexpr std::array kMechanisms{"ductility exhausted", "low-cycle fatigue", "fatigue"};
+  const std::size_t mechanism = key.damage == 0 ? 0 : key.damage < 4 ? 1 : 2;
+  LifeRow row{.body = std::string(body_word(BodyId::rail)),
+              .zone = zone_name(spec_, BodyId::rail, key.zone),
+              .place = key.surface ? "at the surface" : "below",
+              .mechanism = kMechanisms[mechanism]};
+  if (std::string lacking = lacks(key.zone, mechanism); !lacking.empty()) {
+    row.place = "";
+    row.rests_on = std::move(lacking);
+    return row;
+  }
+  const std::size_t first = mechanism == 0 ? 0 : mechanism == 1 ? 1 : 4, count = mechanism == 0 ? 1 : 3;
+  constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
+  for (std::size_t v = 0; v < kVariants.size(); ++v) {
+    const auto at = damages_->failures().find({key.zone, key.surface, first + (count == 1 ? 0 : v)});
+    const bool fails = at != damages_->failures().end();
+    row.wheels.*kVariants[v] = fails ? at->second.traffic : kNever;
+    row.mgt.*kVariants[v] = fails ? 1e-9 * kilograms_ * at->second.traffic : kNever;
+    if (fails && (v == 1 || count == 1)) {
+      row.depth = at->second.depth;
+      row.y = unworn_.rail.at(at->second.s).position.y;
+    }
+  }
+  row.rests_on = fmt::format("followed to {:.3g} MGT", 1e-9 * out_.reached);
+  if (mechanism < 2) row.rests_on += fmt::format("; passes.ductility = {}", *spec_.passes.ductility);
+  return row;
+}
+
+void Clock::conclude() {
+  const std::size_t zones = feet_.size();
+  for (std::size_t zone = 0; zone <= zones; ++zone)
+    for (const bool surface : {true, false}) {
+      if (surface && zone != (zones > 0 ? 1u : 0u)) continue;
+      for (const std::size_t damage : {std::size_t{0}, std::size_t{1}, std::size_t{4}})
+        out_.lives.push_back(life_row({static_cast<int>(zone), surface, damage}));
+    }
+  out_.profile = surface_.points();
+}
+
+}  // namespace
+
+ClockResult run_clock(const CaseSpec& spec, const std::filesystem::path& folder, const ClockOptions& options) {
+  return Clock(spec, folder, options).run();
+}
+
+}  // namespace railstrata

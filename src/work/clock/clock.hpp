@@ -1,0 +1,65 @@
+#pragma once
+// A rail through its traffic: one state of the metal, one surface, one count of gross tonnes.
+//
+// Stretch after stretch of traffic: all loads are solved on the profile of the day; wear and grinding take the surface
+// down, and contacts are solved again (without stresses) step by step of wear, until a load's largest pressure or its
+// place has changed by more than is allowed. The metal then rolls through that traffic under the stresses of the
+// stretch's beginning (passes/metal.hpp), and its damage gathers at points that wear brings nearer to the surface
+// (rail_damages.hpp). Loads that are alike count as one.
+//
+// Assumptions: those of passes (one patch after the other, an endless rail, the pressure of elastic bodies) and of the
+// wear laws; wheels of all loads come in any order, thoroughly mixed.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bem/bem_options.hpp"
+#include "clock/rail_damages.hpp"
+#include "clock/worn_profile.hpp"
+#include "collective/collective.hpp"
+#include "passes/metal.hpp"
+
+namespace railstrata {
+
+struct ClockOptions {
+  BemOptions bem;
+  double horizon = 0;         ///< kg, gross traffic until which to go
+  double max_wear = 0.01e-3;  ///< m, at the deepest place between two solutions of the contacts
+  double change = 0.2;        ///< share of a load's pressure, by which a stretch ends
+  double moved = 1e-3;        ///< m, of a load's place, by which it ends
+  double apart = 0.5e-3;      ///< m, of the metal's columns
+  double first_row = 0.1e-3;  ///< m, thickness of the metal's first row
+  double growth = 4;          ///< of the implicit steps of a stretch, from each to the next
+  SettleLimits settle = {.tolerance = 0.05};
+  const Control* control = nullptr;
+};
+
+/// The rail at an instant.
+struct ClockMoment {
+  double kilograms = 0;                                        ///< gross traffic since the beginning
+  double removed = 0, removed_y = 0;                           ///< m, where most has gone
+  double p_max = 0;                                            ///< Pa, largest of all loads
+  double layer_left = kNotApplicable;                          ///< m, of the uppermost layer where least is left
+  double ductility = 0, ductility_y = 0, ductility_depth = 0;  ///< largest share used; where, m; depth below the
+                                                               ///< surface of that time
+  double cycles = 0, fatigue = 0;                              ///< largest Miner's sums
+  double net = 0;                                              ///< strain that stays, by a wheel, largest
+  double unsettled = 0;                                        ///< SettledState::unsettled of the stretch, the largest
+  int changes = 0;                                             ///< changes of the metal computed in the stretch
+  bool ground = false;                                         ///< at this instant
+};
+
+struct ClockResult {
+  std::vector<ClockMoment> history;
+  std::vector<LifeRow> lives;      ///< of the rail
+  double wheels = 0, tonnes = 0;   ///< of one collective
+  double reached = 0;              ///< kg, gross traffic that was followed
+  std::string ended;               ///< why before the horizon; empty: at it
+  std::vector<std::string> notes;  ///< loads that were left out or could not yield
+  std::vector<Vec2> profile;       ///< m, at the end, frame of the unworn one
+};
+
+/// Throws CaseError: no loads, nothing solved on the first profile; Interrupted.
+ClockResult run_clock(const CaseSpec& spec, const std::filesystem::path& folder, const ClockOptions& options);
+
+}  // namespace railstrata

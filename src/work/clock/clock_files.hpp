@@ -1,0 +1,25 @@
+#pragma once
+// The history of a rail through its traffic as a table and pictures.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "clock/clock.hpp"
+#include "report/report.hpp"
+
+namespace railstrata {
+
+/// history.csv: a row for each stretch of traffic, at its end.
+void write_history(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                   const ClockResult& result);
+/// worn_rail.csv: the profile at the end, in the frame of the unworn one.
+void write_worn_rail(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                     const ClockResult& result);
+nlohmann::ordered_json history_json(const ClockResult& result);
+
+/// Over gross tonnes: the largest damages of the metal that is left, and what has been removed.
+std::vector<ReportChart> history_charts(const ClockResult& result);
+
+}  // namespace railstrata

@@ -1,0 +1,82 @@
+#include "clock/clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/faults.hpp"
+#include "reader/case_file.hpp"
+
+namespace railstrata {
+namespace {
+
+/// A rail that does not yield and has a sigma-N line; nothing rubs.
+std::string fatigued(const std::string& loads) {
+  return "[geometry]\nrail_profile = \"arc:R=80 mm\"\nwheel_profile = \"arc:R=-400 mm\"\ncant = 0\n"
+         "[material.rail]\nyield_strength = \"3000 MPa\"\nfatigue_limit = \"100 MPa\"\ndang_van_coefficient = 0.23\n"
+         "fatigue_exponent = 8\n[drive]\ntraction_coefficient = 0\nfriction_coefficient = 0\nspin = \"0 1/m\"\n" +
+         loads;
+}
+
+ClockResult run(const std::string& text, double mgt) {
+  ClockOptions options;
+  options.bem.cell = 1e-3;
+  options.horizon = 1e9 * mgt;
+  return run_clock(parse_case(text, "a.toml").spec, {}, options);
+}
+
+const LifeRow& row_of(const ClockResult& result, const std::string& mechanism, const std::string& place) {
+  for (const LifeRow& row : result.lives)
+    if (row.mechanism == mechanism && row.place == place) return row;
+  throw CaseError("no such row: " + mechanism, place);
+}
+
+constexpr const char* kOne = "[[load]]\nname = \"a\"\npassages = 1000\nwheel_load = \"100 kN\"\n";
+constexpr const char* kCut =
+    "[[load]]\nname = \"a\"\npassages = 300\nwheel_load = \"100 kN\"\n"
+    "[[load]]\nname = \"b\"\npassages = 700\nwheel_load = \"100 kN\"\n";
+
+// Nothing wears and nothing flows: Miner's sum of one stress is one after the cycles of its sigma-N line.
+TEST(Clock, WithoutWearAndFlowALifeIsThatOfTheLine) {
+  const ClockResult one = run(fatigued(kOne), 1000);
+  const LifeRow& row = row_of(one, "fatigue", "below");
+  ASSERT_TRUE(std::isfinite(row.mgt.best));
+  EXPECT_NEAR(row.mgt.best / row.mgt.low, 3, 1e-6) << "Miner's sum of 1/3; both lines are the same above the limit";
+  // the same from the collective's own damage (lives/zone_life.hpp), between the depths of another table
+  const CaseSpec spec = parse_case(fatigued(kOne), "a.toml").spec;
+  std::vector<CollectiveRow> rows = plan_collective(spec);
+  CollectiveOptions how;
+  how.bem.cell = 1e-3;
+  solve_collective(rows, {}, how);
+  const Placement placement = place(spec, {});
+  const Lives lives =
+      collective_lives(spec, rows, rail_damage(rows, placement, 1e-3), wheel_damage(rows, placement, 1e-3));
+  for (const LifeRow& other : lives.rows) {
+    if (other.body != "rail" || other.mechanism != "fatigue" || other.place != "below") continue;
+    EXPECT_NEAR(row.mgt.best / other.mgt.best, 1, 0.1);
+  }
+}
+
+TEST(Clock, ARowThatIsCutGivesTheSameBits) {
+  const ClockResult one = run(fatigued(kOne), 1000), cut = run(fatigued(kCut), 1000);
+  EXPECT_EQ(row_of(one, "fatigue", "below").mgt.best, row_of(cut, "fatigue", "below").mgt.best);
+}
+
+TEST(Clock, GrindingTakesAwayWhatItReaches) {
+  const std::string grinding = "[grinding]\nevery = \"1 Mt\"\ndepth = \"0.5 mm\"\n";
+  const ClockResult out = run(fatigued(kOne) + grinding, 6);
+  ASSERT_FALSE(out.history.empty());
+  EXPECT_NEAR(out.history.back().removed, 6 * 0.5e-3, 1e-9);
+  EXPECT_NEAR(out.history.back().kilograms, 6e9, 1);
+}
+
+TEST(Clock, WithoutAHorizonNothingIsFollowed) {
+  const ClockResult out = run(fatigued(kOne), 0.001);
+  EXPECT_TRUE(std::isinf(row_of(out, "fatigue", "below").mgt.best));
+  EXPECT_NE(row_of(out, "fatigue", "below").rests_on.find("followed to 0.001 MGT"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace railstrata
