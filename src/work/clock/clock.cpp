@@ -21,6 +21,7 @@ namespace {
 constexpr double kDeepest = 12e-3;     // m, of the metal that is followed
 constexpr double kThinnest = 0.05e-3;  // m, of a layer that still is one
 constexpr double kBeside = 15e-3;      // m, of metal beside the outermost contacts
+constexpr double kAll = 1 - 1e-12;     // of a mass that has been reached but for rounding
 constexpr int kSteps = 3;              // of the metal through a stretch
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -87,7 +88,7 @@ class Clock {
 
   ClockResult run() {
     begin();
-    while (out_.reached < options_.horizon && out_.ended.empty()) stretch();
+    while (out_.reached < options_.horizon * kAll && out_.ended.empty()) stretch();
     conclude();
     return std::move(out_);
   }
@@ -295,14 +296,14 @@ void Clock::wear_until_changed() {
     const double end = std::min(options_.horizon, next_grinding_);
     wear_step(wheels_until(end));
     if (options_.control) options_.control->progress("traffic", out_.reached / options_.horizon);
-    if (out_.reached >= next_grinding_ * (1 - 1e-12)) {
+    if (out_.reached >= next_grinding_ * kAll) {
       Sinking grinding{.from = wheels_, .to = wheels_, .before = removed_of_columns(), .after = {}};
       surface_.grind(spec_.life.grinding.depth);
       grinding.after = removed_of_columns();
       sinkings_.push_back(std::move(grinding));
       next_grinding_ += *spec_.life.grinding.every;
     }
-    if (out_.reached >= options_.horizon * (1 - 1e-12)) return;
+    if (out_.reached >= options_.horizon * kAll) return;
     if (!feet_.empty() && day_feet().front() < kThinnest) {
       out_.ended = fmt::format("layer worn through after {:.3g} MGT", 1e-9 * out_.reached);
       return;
@@ -486,6 +487,17 @@ void Clock::conclude() {
       for (const std::size_t damage : {std::size_t{0}, std::size_t{1}, std::size_t{4}})
         out_.lives.push_back(life_row({static_cast<int>(zone), surface, damage}));
     }
+  if (zones > 0) {
+    const double when = out_.ended.empty() ? kNever : 1e-9 * out_.reached;
+    const double wheels = out_.ended.empty() ? kNever : wheels_;
+    out_.lives.push_back({.body = std::string(body_word(BodyId::rail)),
+                          .zone = zone_name(spec_, BodyId::rail, 1),
+                          .place = "layer",
+                          .mechanism = "worn through",
+                          .wheels = {wheels, wheels, wheels},
+                          .mgt = {when, when, when},
+                          .rests_on = fmt::format("followed to {:.3g} MGT", 1e-9 * out_.reached)});
+  }
   out_.profile = surface_.points();
 }
 
