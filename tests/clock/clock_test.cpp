@@ -75,6 +75,9 @@ TEST(Clock, GrindingTakesAwayWhatItReaches) {
 TEST(Clock, WithoutAHorizonNothingIsFollowed) {
   const ClockResult out = run(fatigued(kOne), 0.001);
   EXPECT_TRUE(std::isinf(row_of(out, "fatigue", "below").mgt.best));
+  const LifeRow& row = row_of(out, "fatigue", "below");
+  EXPECT_EQ(range_text(row.mgt, row.followed).rfind("> 0.001", 0), 0u) << range_text(row.mgt, row.followed);
+  EXPECT_NE(life_text(out.lives).find("no failure in the known modes within 0.001 MGT"), std::string::npos);
   EXPECT_NE(row_of(out, "fatigue", "below").rests_on.find("followed to 0.001 MGT"), std::string::npos);
 }
 

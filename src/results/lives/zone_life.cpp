@@ -395,8 +395,8 @@ void add_body(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const Li
   }
 }
 
-std::string number_text(double v) {
-  if (v == kNever) return "never";
+std::string number_text(double v, double followed) {
+  if (v == kNever) return followed == kNever ? "never" : fmt::format("> {:.3g}", followed);
   return v >= 1000 ? fmt::format("{:.0f}", v) : fmt::format("{:.3g}", v);
 }
 
@@ -426,10 +426,11 @@ const LifeRow* shortest(const std::vector<LifeRow>& rows) {
   return out;
 }
 
-std::string range_text(const LifeRange& r) {
+std::string range_text(const LifeRange& r, double followed) {
   if (!r.known()) return "not known";
-  if (r.low == r.best && r.best == r.high) return number_text(r.best);
-  return fmt::format("{} ({} to {})", number_text(r.best), number_text(r.low), number_text(r.high));
+  if (r.low == r.best && r.best == r.high) return number_text(r.best, followed);
+  return fmt::format("{} ({} to {})", number_text(r.best, followed), number_text(r.low, followed),
+                     number_text(r.high, followed));
 }
 
 std::string life_text(const std::vector<LifeRow>& rows) {
@@ -442,9 +443,12 @@ std::string life_text(const std::vector<LifeRow>& rows) {
   if (!row)
     out = "no failure mode is known";
   else if (row->mgt.best == kNever)
-    out = "no failure in the known modes";
+    out = row->followed == kNever
+              ? "no failure in the known modes"
+              : fmt::format("no failure in the known modes within {:.3g} MGT, the traffic that was followed",
+                            row->followed);
   else
-    out = fmt::format("lasts {} MGT: {}, {}, {}", range_text(row->mgt),
+    out = fmt::format("lasts {} MGT: {}, {}, {}", range_text(row->mgt, row->followed),
                       row->zone == row->body ? row->body : fmt::format("{} of the {}", row->zone, row->body),
                       row->place, row->mechanism);
   return unknown.empty() ? out : fmt::format("{}; not known: {}", out, fmt::join(unknown, "; "));

@@ -65,6 +65,8 @@ struct LifeRow {
   double depth = kNotApplicable;  ///< m, below the surface of that time
   double y = kNotApplicable;      ///< m, from the axis of rail or tape circle, field side positive
   std::string rests_on{};         ///< or what is missing
+  /// MGT, traffic that was followed: an infinite life is one beyond it. Infinite: lives were not followed but summed.
+  double followed = std::numeric_limits<double>::infinity();
   bool known() const { return wheels.known(); }
 };
 
@@ -92,7 +94,7 @@ const LifeRow* shortest(const std::vector<LifeRow>& rows);
 
 /// "lasts 42 MGT (25 to 70): rail, at the surface, ductility exhausted; not known: …".
 std::string life_text(const std::vector<LifeRow>& rows);
-/// "42 (25 to 70)", "never".
-std::string range_text(const LifeRange& range);
+/// "42 (25 to 70)", "never"; of what was followed so far "> 50" instead.
+std::string range_text(const LifeRange& range, double followed = std::numeric_limits<double>::infinity());
 
 }  // namespace railstrata

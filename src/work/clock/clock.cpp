@@ -439,7 +439,8 @@ LifeRow Clock::life_row(const RailDamages::Key& key) const {
       row.y = unworn_.rail.at(at->second.s).position.y;
     }
   }
-  row.rests_on = fmt::format("followed to {:.3g} MGT", 1e-9 * out_.reached);
+  row.followed = 1e-9 * out_.reached;
+  row.rests_on = fmt::format("followed to {:.3g} MGT", row.followed);
   if (mechanism < 2) row.rests_on += fmt::format("; passes.ductility = {}", *spec_.passes.ductility);
   return row;
 }
@@ -461,7 +462,8 @@ void Clock::conclude() {
                           .mechanism = "worn through",
                           .wheels = {wheels, wheels, wheels},
                           .mgt = {when, when, when},
-                          .rests_on = fmt::format("followed to {:.3g} MGT", 1e-9 * out_.reached)});
+                          .rests_on = fmt::format("followed to {:.3g} MGT", 1e-9 * out_.reached),
+                          .followed = 1e-9 * out_.reached});
   }
   out_.profile = surface_.points();
 }

@@ -15,10 +15,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json life_cell(double value) {
+/// followed: as of LifeRow, in the unit of the value.
+Json life_cell(double value, double followed) {
   if (std::isnan(value)) return nullptr;
-  return std::isinf(value) ? Json("never") : Json(value);
+  if (!std::isinf(value)) return value;
+  if (std::isinf(followed)) return "never";
+  return std::isnan(followed) ? Json(nullptr) : Json(fmt::format("> {:.3g}", followed));
 }
+
+/// Of lives in wheels or km: what was followed is known in MGT alone.
+double followed_otherwise(const LifeRow& r) { return std::isinf(r.followed) ? r.followed : kNotApplicable; }
 
 Json length_cell(double si) { return std::isfinite(si) ? Json(unit::kMillimetres.factor * si) : Json(nullptr); }
 
@@ -31,12 +37,15 @@ std::vector<TextColumn<LifeRow>> life_columns() {
   constexpr std::pair<const char*, double LifeRange::*> kVariants[] = {
       {"", &LifeRange::best}, {"_low", &LifeRange::low}, {"_high", &LifeRange::high}};
   for (const auto& [name, value] : kVariants)
-    out.push_back({fmt::format("life{}_MGT", name), [value = value](const R& r) { return life_cell(r.mgt.*value); }});
+    out.push_back(
+        {fmt::format("life{}_MGT", name), [value = value](const R& r) { return life_cell(r.mgt.*value, r.followed); }});
   for (const auto& [name, value] : kVariants)
-    out.push_back({fmt::format("wheels{}", name), [value = value](const R& r) { return life_cell(r.wheels.*value); }});
+    out.push_back({fmt::format("wheels{}", name),
+                   [value = value](const R& r) { return life_cell(r.wheels.*value, followed_otherwise(r)); }});
   for (const auto& [name, value] : kVariants)
-    out.push_back({fmt::format("distance{}_km", name),
-                   [value = value](const R& r) { return life_cell(1e-3 * (r.distance.*value)); }});
+    out.push_back({fmt::format("distance{}_km", name), [value = value](const R& r) {
+                     return life_cell(1e-3 * (r.distance.*value), followed_otherwise(r));
+                   }});
   out.push_back({"depth_mm", [](const R& r) { return length_cell(r.depth); }});
   out.push_back({"y_mm", [](const R& r) { return length_cell(r.y); }});
   out.push_back({"rests_on", [](const R& r) { return r.rests_on; }});
@@ -75,8 +84,12 @@ ReportTable lives_table(const Lives& lives) {
        {"zone", [](const R& r) { return r.zone; }},
        {"place", [](const R& r) { return r.place; }},
        {"ends by", [](const R& r) { return r.mechanism; }},
-       {"life [MGT]", [](const R& r) { return r.body == "rail" ? Json(range_text(r.mgt)) : Json(nullptr); }},
-       {"wheels", [](const R& r) { return range_text(r.wheels); }},
+       {"life [MGT]",
+        [](const R& r) { return r.body == "rail" ? Json(range_text(r.mgt, r.followed)) : Json(nullptr); }},
+       {"wheels",
+        [](const R& r) {
+          return std::isinf(r.followed) || std::isfinite(r.wheels.best) ? Json(range_text(r.wheels)) : Json(nullptr);
+        }},
        {"distance [1000 km]",
         [](const R& r) { return r.distance.known() ? Json(range_text(scaled(r.distance, 1e-6))) : Json(nullptr); }},
        {titled("depth", unit::kMillimetres.shown), [](const R& r) { return length_cell(r.depth); }},
