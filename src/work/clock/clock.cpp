@@ -75,6 +75,7 @@ class Clock {
   int zone_at(int column, double depth) const;
   std::vector<double> removed_of_columns() const;
   std::vector<double> day_feet() const;
+  double largest_pressure() const;
   void note(const ClockMoment& stretch);
   void conclude();
   std::string lacks(int zone, std::size_t mechanism) const;
@@ -159,6 +160,9 @@ void Clock::begin() {
   for (int c = 0; c < grid.columns; ++c) s.push_back(grid.s(c));
   damages_.emplace(std::move(s), feet_, kDeepest);
   metal_removed_.assign(static_cast<std::size_t>(grid.columns), 0.0);
+  ClockMoment& start = out_.history.emplace_back();
+  start.p_max = largest_pressure();
+  if (!feet_.empty()) start.layer_left = feet_.front();
 }
 
 std::vector<double> Clock::removed_of_columns() const {
@@ -369,7 +373,7 @@ void Clock::roll_metal() {
 }
 
 void Clock::stretch() {
-  if (!out_.history.empty()) solve(true);
+  if (wheels_ > 0) solve(true);
   const std::vector<CollectiveRow> before = [&] {
     put_wheels();
     return rows_;
@@ -379,6 +383,13 @@ void Clock::stretch() {
   roll_metal();
 }
 
+double Clock::largest_pressure() const {
+  double out = 0;
+  for (const CollectiveRow& row : rows_)
+    if (row.sound()) out = std::max(out, row.summary.contact.patch.p_max);
+  return out;
+}
+
 void Clock::note(const ClockMoment& of_stretch) {
   ClockMoment m = of_stretch;
   m.kilograms = out_.reached;
@@ -386,8 +397,7 @@ void Clock::note(const ClockMoment& of_stretch) {
   const auto most = std::max_element(removed.begin(), removed.end());
   m.removed = *most;
   m.removed_y = unworn_.rail.at(surface_.unworn_s()[static_cast<std::size_t>(most - removed.begin())]).position.y;
-  for (const CollectiveRow& row : rows_)
-    if (row.sound()) m.p_max = std::max(m.p_max, row.summary.contact.patch.p_max);
+  m.p_max = largest_pressure();
   if (!feet_.empty()) m.layer_left = std::max(0.0, day_feet().front());
   const std::vector<double> gone = removed_of_columns();
   const WorstPoint ductility = damages_->worst(0, gone), cycles = damages_->worst(2, gone),

@@ -50,13 +50,13 @@ struct ClockMoment {
 };
 
 struct ClockResult {
-  std::vector<ClockMoment> history;
-  std::vector<LifeRow> lives;      ///< of the rail
-  double wheels = 0, tonnes = 0;   ///< of one collective
-  double reached = 0;              ///< kg, gross traffic that was followed
-  std::string ended;               ///< why before the horizon; empty: at it
-  std::vector<std::string> notes;  ///< loads that were left out or could not yield
-  std::vector<Vec2> profile;       ///< m, at the end, frame of the unworn one
+  std::vector<ClockMoment> history;  ///< the beginning, then the end of each stretch
+  std::vector<LifeRow> lives;        ///< of the rail
+  double wheels = 0, tonnes = 0;     ///< of one collective
+  double reached = 0;                ///< kg, gross traffic that was followed
+  std::string ended;                 ///< why before the horizon; empty: at it
+  std::vector<std::string> notes;    ///< loads that were left out or could not yield
+  std::vector<Vec2> profile;         ///< m, at the end, frame of the unworn one
 };
 
 /// Throws CaseError: no loads, nothing solved on the first profile; Interrupted.

@@ -11,7 +11,7 @@
 
 namespace railstrata {
 
-/// history.csv: a row for each stretch of traffic, at its end.
+/// history.csv: a row for the beginning and one for each stretch of traffic, at its end.
 void write_history(const std::filesystem::path& file, const std::vector<std::string>& origin,
                    const ClockResult& result);
 /// worn_rail.csv: the profile at the end, in the frame of the unworn one.
