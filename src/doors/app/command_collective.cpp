@@ -28,7 +28,6 @@
 #include "record/output_file.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "runs/write_report.hpp"
-#include "text/units.hpp"
 #include "wear/wear_loop_job.hpp"
 
 namespace railstrata {
@@ -36,12 +35,14 @@ namespace {
 
 constexpr const char* kRowFolder = "shown_load";
 
-void solve(const LoadedCase& loaded, double cell, std::vector<CollectiveRow>& rows) {
+/// passes: those of life.passes, for lives that are not followed through the traffic.
+void solve(const LoadedCase& loaded, double cell, bool passes, std::vector<CollectiveRow>& rows) {
   InfluenceCache cache;
   CollectiveOptions how;
   how.bem.cell = cell;
   how.bem.cache = &cache;
   how.control = &control_by_signals();
+  how.wanted.passes = passes;
   solve_collective(rows, loaded.folder(), how);
   how.control->progress("");
 }
@@ -79,28 +80,24 @@ const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_
                                         {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
                                         {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};
 
-/// Rail and metal through the traffic of --until; the rail's lives become those of it.
-std::optional<ClockResult> follow_traffic(const CommandOptions& options, const LoadedCase& loaded,
-                                          const std::string& until, CollectiveDamage& damage) {
-  if (until.empty()) return {};
+/// Rail and metal through the traffic of --until [kg]; the rail's lives become those of it.
+std::optional<ClockResult> follow_traffic(const CommandOptions& options, const LoadedCase& loaded, double horizon,
+                                          CollectiveDamage& damage) {
+  if (!(horizon > 0)) return {};
   InfluenceCache cache;
   ClockOptions how;
   how.bem.cell = cell_size(options.cell);
   how.bem.cache = &cache;
   how.control = &control_by_signals();
-  how.horizon = mass_of("--until", until);
-  if (!(how.horizon > 0))
-    throw CaseError(fmt::format("--until \"{}\": must be above 0", until), "write e.g. \"50 Mt\"");
+  how.horizon = horizon;
   ClockResult out = run_clock(loaded.spec, loaded.folder(), how);
   how.control->progress("");
   std::vector<LifeRow>& rows = damage.lives.rows;
-  rows.erase(std::remove_if(rows.begin(), rows.end(),
-                            [&](const LifeRow& row) {
-                              return std::any_of(out.lives.begin(), out.lives.end(), [&](const LifeRow& other) {
-                                return other.body == row.body && other.mechanism == row.mechanism;
-                              });
-                            }),
-             rows.end());
+  std::erase_if(rows, [&](const LifeRow& row) {
+    return std::any_of(out.lives.begin(), out.lives.end(), [&](const LifeRow& other) {
+      return other.body == row.body && other.mechanism == row.mechanism;
+    });
+  });
   rows.insert(rows.begin(), out.lives.begin(), out.lives.end());
   damage.lives.curve = {};
   return out;
@@ -145,14 +142,9 @@ struct MeasuredOptions {
   std::string tonnes;         ///< a mass
 };
 
-double gross_mass(const std::string& text) {
-  constexpr double kKilograms = 1e3;
-  if (const double mass = mass_of("--tonnes", text); mass > 0 && std::isfinite(mass)) return mass / kKilograms;
-  throw CaseError(fmt::format("--tonnes \"{}\": must be above 0", text), "write e.g. \"20 Mt\"");
-}
-
 ExitCode command_collective(const CommandOptions& options, const std::string& until, const MeasuredOptions& wanted) {
-  const double tonnes = wanted.before.empty() ? 0 : gross_mass(wanted.tonnes);
+  const double tonnes = wanted.before.empty() ? 0 : 1e-3 * mass_of("--tonnes", wanted.tonnes);
+  const double horizon = until.empty() ? 0 : mass_of("--until", until);
   const LoadedCase loaded = load_case_of(options, uses::kCollective);
   std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
   const double cell = cell_size(options.cell);
@@ -162,7 +154,7 @@ ExitCode command_collective(const CommandOptions& options, const std::string& un
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   spdlog::info("{}: {} loads; results go to {}", loaded.spec.title, rows.size(), out.string());
-  solve(loaded, cell, rows);
+  solve(loaded, cell, until.empty(), rows);
   write_collective_table(out / "collective.csv", table_origin(loaded), rows);
   if (control().stop) {
     spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
@@ -170,7 +162,7 @@ ExitCode command_collective(const CommandOptions& options, const std::string& un
   }
   CollectiveDamage damage{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
   damage.lives = collective_lives(loaded.spec, rows, damage.rail, damage.wheel);
-  const std::optional<ClockResult> history = follow_traffic(options, loaded, until, damage);
+  const std::optional<ClockResult> history = follow_traffic(options, loaded, horizon, damage);
   if (history) {
     write_history(out / "history.csv", table_origin(loaded), *history);
     write_worn_rail(out / "worn_rail.csv", table_origin(loaded), *history);

@@ -70,7 +70,9 @@ double length_of(const std::string& option, const std::string& text) {
 }
 
 double mass_of(const std::string& option, const std::string& text) {
-  return quantity_of(option, text, dimension::kMass);
+  const double mass = quantity_of(option, text, dimension::kMass);
+  if (mass > 0 && std::isfinite(mass)) return mass;
+  throw CaseError(fmt::format("{} \"{}\": must be above 0", option, text), "write e.g. \"20 Mt\"");
 }
 
 double cell_size(const std::string& text) {

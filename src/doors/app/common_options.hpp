@@ -29,7 +29,7 @@ double cell_size(const std::string& text);
 
 /// A length in m. `option` names it in the CaseError of a text that is none.
 double length_of(const std::string& option, const std::string& text);
-/// "50 Mt" in kg, the same way.
+/// "50 Mt" in kg, the same way; above 0.
 double mass_of(const std::string& option, const std::string& text);
 
 /// "10 min", "90 s", "1.5 h" in s; "0" and "never" are 0. `option` names it in the CaseError of a text that is no time.

@@ -1,6 +1,7 @@
 #include "damage/life.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace railstrata {
@@ -108,6 +109,12 @@ double cycles_to_failure(double used, const SigmaN& line, BelowLimit below) {
                           : below == BelowLimit::flatter             ? 2 * line.exponent - 1
                                                                      : kNever;
   return exponent == kNever ? kNever : line.cycles * std::pow(used, -exponent);
+}
+
+double fatigue_rate(double used, const SigmaN& line, std::size_t variant) {
+  constexpr std::array kBelow{BelowLimit::as_above, BelowLimit::flatter, BelowLimit::endures};
+  constexpr std::array kSums{1.0 / 3, 1.0, 3.0};
+  return 1 / cycles_to_failure(used, line, kBelow[variant]) / kSums[variant];
 }
 
 double Removal::after(double t) const { return wear * t + (every > 0 ? depth * std::floor(t / every) : 0); }

@@ -10,6 +10,7 @@
 // gathers there what the table of depths says of z. So with rates that do not fade and wear w a unit
 //   D(z0, t) = 1/w integral of rate over z from z0 - w t to z0,
 // and nothing ever fails where w is above the integral of the rate over all depths: the magic wear rate.
+#include <cstddef>
 #include <limits>
 #include <map>
 #include <vector>
@@ -31,6 +32,9 @@ struct SigmaN {
 enum class BelowLimit { endures, flatter, as_above };
 /// used: stress over limit.
 double cycles_to_failure(double used, const SigmaN& line, BelowLimit below);
+/// Miner's sum of one cycle over the sum at failure, for short (0), middle (1) and long (2) lives: the line as above
+/// its limit, flatter or none, sums of 1/3, 1 and 3. [Haibach2006]
+double fatigue_rate(double used, const SigmaN& line, std::size_t variant);
 
 /// Damage of one kind of wheels at a place of the surface, by depth.
 struct KindDamage {

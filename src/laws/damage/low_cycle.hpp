@@ -3,9 +3,13 @@
 //
 // A closed cycle flows there and back, so its strain range De_p is half the equivalent plastic strain Dp that it
 // accumulates: N = (4 e_f/Dp)^(-1/c)/2. The exponent c of metals lies between -0.5 and -0.7. [Suresh1998]
+#include <array>
 #include <cmath>
 
 namespace railstrata {
+
+/// Exponents -c of short, middle and long lives. [Suresh1998; Manson1965]
+inline constexpr std::array kLowCycleExponents{0.7, 0.6, 0.5};
 
 /// Cycles, of an exponent -c; 0: the first cycle is too much. accumulated: Dp, above 0; ductility: e_f, the amplitude
 /// of plastic strain that one reversal bears.
@@ -20,7 +24,8 @@ struct LowCycleLife {
 };
 
 inline LowCycleLife low_cycle_life(double accumulated, double ductility) {
-  return {low_cycle_life(accumulated, ductility, 0.7), low_cycle_life(accumulated, ductility, 0.5)};
+  return {low_cycle_life(accumulated, ductility, kLowCycleExponents.front()),
+          low_cycle_life(accumulated, ductility, kLowCycleExponents.back())};
 }
 
 }  // namespace railstrata

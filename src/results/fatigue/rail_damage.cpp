@@ -100,19 +100,22 @@ double worn_area(const ProfileWear& damage, const std::vector<double>& depth) {
   return damage.cell * std::accumulate(depth.begin(), depth.end(), 0.0);
 }
 
-double nearest_on_rail(const Profile& rail, const TrackGeometry& track, Vec2 point, double guess) {
+double nearest_on(const Profile& profile, Vec2 point, double guess) {
   constexpr int kMostSteps = 30;
   constexpr double kClose = 1e-10;  // m
-  const Vec2 own = model_to_rail(track, point);
-  double s = std::clamp(guess, rail.s_min(), rail.s_max());
+  double s = std::clamp(guess, profile.s_min(), profile.s_max());
   for (int k = 0; k < kMostSteps; ++k) {
-    const ProfilePoint p = rail.at(s);
-    const double next = std::clamp(s + dot(own - p.position, p.tangent), rail.s_min(), rail.s_max());
+    const ProfilePoint p = profile.at(s);
+    const double next = std::clamp(s + dot(point - p.position, p.tangent), profile.s_min(), profile.s_max());
     const bool there = std::abs(next - s) < kClose;
     s = next;
     if (there) break;
   }
   return s;
+}
+
+double nearest_on_rail(const Profile& rail, const TrackGeometry& track, Vec2 point, double guess) {
+  return nearest_on(rail, model_to_rail(track, point), guess);
 }
 
 std::vector<double> smoothed_wear(const RailDamage& damage, WearLaw law) {

@@ -88,7 +88,9 @@ double worn_area(const ProfileWear& damage, const std::vector<double>& depth);
 /// difference, at least once, until a peak of one cell has a standard deviation of 1 mm; the area stays.
 std::vector<double> smoothed_wear(const RailDamage& damage, WearLaw law);
 
-/// Arc length of the profile's point nearest to a point of the model frame, from a guess near it.
+/// Arc length of the profile's point nearest to a point, both in the profile's own frame, from a guess near it.
+double nearest_on(const Profile& profile, Vec2 point, double guess);
+/// The same of a point of the model frame.
 double nearest_on_rail(const Profile& rail, const TrackGeometry& track, Vec2 point, double guess);
 
 }  // namespace railstrata

@@ -18,7 +18,6 @@ namespace railstrata {
 namespace {
 
 constexpr int kSettledPasses = 40;  // from 12 to 16 passes a life may change sixfold, from 40 to 200 by 1 %
-constexpr double kSkin = 0.2e-3;    // m, the upper part of a body that counts as its surface
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
 
@@ -170,8 +169,6 @@ double flow_at(const LifeZone& z, const LifeLoad& load, const PassedSection& p, 
 
 AddKind by_fatigue(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
-    constexpr std::array kBelow{BelowLimit::as_above, BelowLimit::flatter, BelowLimit::endures};
-    constexpr std::array kSums{1.0 / 3, 1.0, 3.0};
     const SectionShakedown* found = section_of(load, z.across.body);
     if (!found || found->fatigue.dang_van_used.empty()) return;
     const LifeSection section{&found->y, &found->depth, &found->zone, middle_of(load, z.across.body, found->patch)};
@@ -182,20 +179,21 @@ AddKind by_fatigue(const LifeZone& z) {
       const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
       const bool flows = passed && flow_at(z, load, *passed, passed->accumulated, s, depth) >= kNoFlow;
       const double used = rows && !flows ? value_at(section, found->fatigue.dang_van_used, *rows, s) : 0;
-      kind.rate.push_back(1 / cycles_to_failure(used / strength, line, kBelow[variant]) / kSums[variant]);
+      kind.rate.push_back(fatigue_rate(used / strength, line, variant));
     }
   };
 }
 
 AddKind by_closed_cycles(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
-    constexpr std::array kExponents{0.7, 0.6, 0.5};  // [Suresh1998]; 0.6: [Manson1965]
     if (!load.followed()) return;
     const PassedSection& passed = passed_at(load, s, variant);
     for (const double depth : z.depth) {
       const double flow = flow_at(z, load, passed, passed.accumulated, s, depth);
       kind.rate.push_back(
-          flow < kNoFlow ? 0 : 1 / std::max(low_cycle_life(flow, *z.spec.passes.ductility, kExponents[variant]), 1.0));
+          flow < kNoFlow
+              ? 0
+              : 1 / std::max(low_cycle_life(flow, *z.spec.passes.ductility, kLowCycleExponents[variant]), 1.0));
     }
   };
 }

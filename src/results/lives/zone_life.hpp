@@ -28,6 +28,9 @@
 
 namespace railstrata {
 
+/// m, the upper part of a body that counts as its surface.
+inline constexpr double kSkin = 0.2e-3;
+
 /// Plastic strain of a rail's section after so many passes of one load's patch. Rows by depth, columns by y from the
 /// patch's rigid contact point; point row * columns + column.
 struct PassedSection {

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "core/parallel.hpp"
-#include "damage/low_cycle.hpp"
 #include "material/strain_claim.hpp"
 
 namespace railstrata {

@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include "damage/low_cycle.hpp"
 #include "passes/rail_passes.hpp"
 #include "steady/settle.hpp"
 
@@ -24,9 +25,6 @@ struct MetalWheel {
   int column = 0;    ///< of the metal, where its own first one is; may be outside
   double share = 1;  ///< of all wheels
 };
-
-/// Of Coffin and Manson, for short, middle and long lives. [Suresh1998; Manson1965]
-inline constexpr std::array kLowCycleExponents{0.7, 0.6, 0.5};
 
 /// Per point of the metal (row * columns + column), by one wheel of the mixture.
 struct MetalFlow {

@@ -70,7 +70,7 @@ class Clock {
   double wear_step(double most);
   void roll_metal();
   void gather(double from, double wheels);
-  std::vector<RailDamages::ZoneRates> rates_of(int column) const;
+  std::vector<GatheredDamage::ZoneRates> rates_of(int column) const;
   DamageRates rates_at(int column, std::size_t row) const;
   int zone_at(int column, double depth) const;
   std::vector<double> removed_of_columns() const;
@@ -79,7 +79,7 @@ class Clock {
   void note(const ClockMoment& stretch);
   void conclude();
   std::string lacks(int zone, std::size_t mechanism) const;
-  LifeRow life_row(const RailDamages::Key& key) const;
+  LifeRow life_row(const GatheredDamage::Key& key) const;
   double wheels_until(double kg) const { return (kg - out_.reached) / kilograms_; }
 
   CaseSpec spec_;
@@ -95,7 +95,7 @@ class Clock {
   std::vector<CollectiveRow> rows_;
   std::vector<std::size_t> load_of_;  ///< of the metal's wheels, the row
   std::optional<Metal> metal_;
-  std::optional<RailDamages> damages_;
+  std::optional<GatheredDamage> damages_;
   std::vector<double> metal_removed_;  ///< m, of columns, when the metal's rows were laid
   std::vector<Sinking> sinkings_;
   std::set<std::string> noted_;
@@ -293,8 +293,6 @@ DamageRates Clock::rates_at(int column, std::size_t row) const {
   const FatigueSpec& f = zone_material(spec_, BodyId::rail, zone).strength.fatigue;
   if (!f.limit || !f.dang_van || !f.exponent) return out;
   const SigmaN line{*f.exponent, f.cycles};
-  constexpr std::array kBelow{BelowLimit::as_above, BelowLimit::flatter, BelowLimit::endures};
-  constexpr std::array kSums{1.0 / 3, 1.0, 3.0};  // [Haibach2006]
   const double at = surface_.day_s(g.s(column)), depth = g.depths()[row];
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!rows_[i].sound()) continue;
@@ -309,8 +307,8 @@ DamageRates Clock::rates_at(int column, std::size_t row) const {
       const std::optional<RowsBeside> rows = rows_beside(section, zone, depth);
       if (!rows || depth > found.depth.back()) continue;
       const double used = value_at(section, found.fatigue.dang_van_used, *rows, at);
-      for (std::size_t v = 0; v < kSums.size(); ++v)
-        out.fatigue[v] += rows_[i].passages / out_.wheels / cycles_to_failure(used, line, kBelow[v]) / kSums[v];
+      for (std::size_t v = 0; v < out.fatigue.size(); ++v)
+        out.fatigue[v] += rows_[i].passages / out_.wheels * fatigue_rate(used, line, v);
     }
   }
   return out;
@@ -323,10 +321,10 @@ int Clock::zone_at(int column, double depth) const {
   return 0;
 }
 
-std::vector<RailDamages::ZoneRates> Clock::rates_of(int column) const {
+std::vector<GatheredDamage::ZoneRates> Clock::rates_of(int column) const {
   const MetalGrid& g = metal_->grid();
   const std::vector<double> depths = g.depths();
-  std::vector<RailDamages::ZoneRates> out;
+  std::vector<GatheredDamage::ZoneRates> out;
   for (std::size_t r = 0; r < depths.size(); ++r) {
     const int zone = zone_at(column, depths[r]);
     if (out.empty() || out.back().zone != zone) out.push_back({.zone = zone, .depth = {}, .rates = {}});
@@ -341,7 +339,7 @@ std::vector<RailDamages::ZoneRates> Clock::rates_of(int column) const {
 void Clock::gather(double from, double wheels) {
   const double to = from + wheels;
   for (int c = 0; c < metal_->grid().columns; ++c) {
-    const std::vector<RailDamages::ZoneRates> rates = rates_of(c);
+    const std::vector<GatheredDamage::ZoneRates> rates = rates_of(c);
     const auto column = static_cast<std::size_t>(c);
     for (const Sinking& s : sinkings_) {
       const double begin = std::max(from, s.from), end = std::min(to, s.to);
@@ -425,7 +423,7 @@ std::string Clock::lacks(int zone, std::size_t mechanism) const {
   return f.limit && f.dang_van && f.exponent ? "" : fmt::format("{}.{}", zone_key(spec_, BodyId::rail, zone), key);
 }
 
-LifeRow Clock::life_row(const RailDamages::Key& key) const {
+LifeRow Clock::life_row(const GatheredDamage::Key& key) const {
   static constexpr std::array kMechanisms{"ductility exhausted", "low-cycle fatigue", "fatigue"};
   const std::size_t mechanism = key.damage == 0 ? 0 : key.damage < 4 ? 1 : 2;
   LifeRow row{.body = std::string(body_word(BodyId::rail)),

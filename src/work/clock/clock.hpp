@@ -5,7 +5,7 @@
 // down, and contacts are solved again (without stresses) step by step of wear, until a load's largest pressure or its
 // place has changed by more than is allowed. The metal then rolls through that traffic under the stresses of the
 // stretch's beginning (passes/metal.hpp), and its damage gathers at points that wear brings nearer to the surface
-// (rail_damages.hpp). Loads that are alike count as one.
+// (gathered_damage.hpp). Loads that are alike count as one.
 //
 // Assumptions: those of passes (one patch after the other, an endless rail, the pressure of elastic bodies) and of the
 // wear laws; wheels of all loads come in any order, thoroughly mixed.
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "bem/bem_options.hpp"
-#include "clock/rail_damages.hpp"
+#include "clock/gathered_damage.hpp"
 #include "clock/worn_profile.hpp"
 #include "collective/collective.hpp"
 #include "passes/metal.hpp"
@@ -46,7 +46,6 @@ struct ClockMoment {
   double net = 0;                                              ///< strain that stays, by a wheel, largest
   double unsettled = 0;                                        ///< SettledState::unsettled of the stretch, the largest
   int changes = 0;                                             ///< changes of the metal computed in the stretch
-  bool ground = false;                                         ///< at this instant
 };
 
 struct ClockResult {

@@ -15,21 +15,6 @@ double between(const std::vector<double>& x, const std::vector<double>& values, 
   return (1 - share) * values[i - 1] + share * values[i];
 }
 
-/// Arc length of the profile's point nearest to a point near it, from a guess.
-double nearest(const Profile& profile, Vec2 point, double guess) {
-  constexpr int kMostSteps = 20;
-  constexpr double kClose = 1e-10;  // m
-  double s = std::clamp(guess, profile.s_min(), profile.s_max());
-  for (int k = 0; k < kMostSteps; ++k) {
-    const ProfilePoint p = profile.at(s);
-    const double next = std::clamp(s + dot(point - p.position, p.tangent), profile.s_min(), profile.s_max());
-    const bool there = std::abs(next - s) < kClose;
-    s = next;
-    if (there) break;
-  }
-  return s;
-}
-
 }  // namespace
 
 WornProfile::WornProfile(const Placement& unworn, double cell)
@@ -71,7 +56,7 @@ void WornProfile::move(const std::vector<double>& depth) {
   std::vector<Vec2> own = points_;
   for (Vec2& p : own) p.z -= crown;
   profile_ = Profile::from_points(ProfileKind::rail, "worn", own);
-  for (std::size_t i = 0; i < own.size(); ++i) day_s_[i] = nearest(profile_, own[i], day_s_[i]);
+  for (std::size_t i = 0; i < own.size(); ++i) day_s_[i] = nearest_on(profile_, own[i], day_s_[i]);
   if (has_gauge_) widening_ = 2 * (gauge_face_y(profile_, track_) - gauge_face_y(unworn_, track_));
 }
 

@@ -1,12 +1,12 @@
-#include "clock/rail_damages.hpp"
+#include "clock/gathered_damage.hpp"
 
 #include <algorithm>
 #include <utility>
 
+#include "lives/zone_life.hpp"
+
 namespace railstrata {
 namespace {
-
-constexpr double kSkin = 0.2e-3;  // m, the upper part of a body that counts as its surface
 
 /// m, points of the metal: fine where wear brings them to the surface.
 std::vector<double> points_to(double deepest, const std::vector<double>& feet) {
@@ -25,7 +25,7 @@ std::array<double, kDamages> numbers_of(const DamageRates& r) {
   return {r.ductility, r.cycles[0], r.cycles[1], r.cycles[2], r.fatigue[0], r.fatigue[1], r.fatigue[2]};
 }
 
-RailDamages::RailDamages(std::vector<double> s, std::vector<double> feet, double deepest)
+GatheredDamage::GatheredDamage(std::vector<double> s, std::vector<double> feet, double deepest)
     : s_(std::move(s)), depth_(points_to(deepest, feet)) {
   for (const double z : depth_) {
     const auto above = std::upper_bound(feet.begin(), feet.end(), z) - feet.begin();
@@ -34,8 +34,8 @@ RailDamages::RailDamages(std::vector<double> s, std::vector<double> feet, double
   damage_.assign(s_.size() * depth_.size() * kDamages, 0.0);
 }
 
-void RailDamages::gather(std::size_t column, const std::vector<ZoneRates>& rates, const SinkingStep& step,
-                         double since) {
+void GatheredDamage::gather(std::size_t column, const std::vector<ZoneRates>& rates, const SinkingStep& step,
+                            double since) {
   for (const ZoneRates& zone : rates)
     for (std::size_t kind = 0; kind < kDamages; ++kind) {
       std::vector<double> values;
@@ -55,7 +55,7 @@ void RailDamages::gather(std::size_t column, const std::vector<ZoneRates>& rates
     }
 }
 
-WorstPoint RailDamages::worst(std::size_t kind, const std::vector<double>& removed) const {
+WorstPoint GatheredDamage::worst(std::size_t kind, const std::vector<double>& removed) const {
   WorstPoint out;
   for (std::size_t c = 0; c < s_.size(); ++c)
     for (std::size_t p = 0; p < depth_.size(); ++p) {

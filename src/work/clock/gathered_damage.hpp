@@ -25,10 +25,10 @@ struct WorstPoint {
   double damage = 0, s = 0, depth = 0;  ///< m, of the unworn rail
 };
 
-class RailDamages {
+class GatheredDamage {
  public:
   /// s: of columns; feet: of the layers, on the unworn rail; deepest: of the points. m.
-  RailDamages(std::vector<double> s, std::vector<double> feet, double deepest);
+  GatheredDamage(std::vector<double> s, std::vector<double> feet, double deepest);
 
   /// Rates by depth below the surface of the day, of a zone of a column.
   struct ZoneRates {
