@@ -13,7 +13,7 @@ namespace railstrata {
 namespace {
 
 constexpr std::size_t kHistory = kStreamlineHistory;
-constexpr int kIterations = 3;  // of a pass in each change: its guess goes on with the next one
+constexpr int kFirst = 4;  // iterations of a kind's first pass; then one each, whose guess goes on with the next change
 
 SteadyGrid section_grid(const MetalGrid& g) {
   SteadyGrid out;
@@ -35,6 +35,7 @@ struct Metal::Kind {
       : wheel(std::move(w)),
         body(wheel.rail.grid, wheel.rail.rows, wheel.rail.below, wheel.rail.initial_stress),
         strain(contact_strain(wheel.rail, body, wheel.rail.contact_stress.at(0))),
+        balls(body.balls_of(strain)),
         state(body.virgin()) {
     wheel.rail.contact_stress.clear();
   }
@@ -49,8 +50,9 @@ struct Metal::Kind {
   MetalWheel wheel;
   SteadyBody body;
   Field strain;
-  PassState state;              ///< its guess goes on from call to call
-  std::vector<double> changes;  ///< of the history, at its own points
+  std::vector<StrainBall> balls;  ///< of `strain`
+  PassState state;                ///< its guess goes on from call to call
+  std::vector<double> changes;    ///< of the history, at its own points
 };
 
 std::vector<double> MetalGrid::depths() const {
@@ -133,7 +135,8 @@ void Metal::pass(Kind& kind, const std::vector<double>& state, const std::vector
                 own.history.begin() + static_cast<std::ptrdiff_t>(n * kHistory));
     for (std::size_t c = 0; c < 6; ++c) before[c * points + n] = strain[c * grid_.points() + *at];
   }
-  const PassResult result = kind.body.run_pass_within(before, kind.strain, own, {.iterations = kIterations});
+  const PassResult result =
+      kind.body.run_pass_within(before, kind.strain, kind.balls, own, {.iterations = own.passes == 0 ? kFirst : 1});
   kind.changes.resize(own.history.size());
   for (std::size_t i = 0; i < own.history.size(); ++i) kind.changes[i] = own.history[i] - result.before[i];
 }
