@@ -207,6 +207,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
   const std::size_t line = static_cast<std::size_t>(active);
   std::vector<double> share(static_cast<std::size_t>(g.nx));
   for (int i = 0; i < g.nx; ++i) share[i] = g.share(i);
+  const bool with_field = !work.field.empty();
   const int late = std::max(0, active - static_cast<int>(std::lround(0.25 * g.active / g.dx)));
   for_each(
       static_cast<std::ptrdiff_t>(g.points()),
@@ -220,6 +221,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
         const auto point = static_cast<std::size_t>(n);
         const bool yields = std::isfinite(row.law.yield) &&
                             !(largest_excess(point, work.balls[point], work.before, work.guess, before) <= 0);
+        if (!yields && !with_field) return;
         for (int i = 0; i < g.nx; ++i) {
           if (i == late) work.late[n] = h[6];
           if (yields && i < active) {
@@ -229,7 +231,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
                      work.guess[(c * g.points() + n) * line + i];
             advance(row.law, terms_[r], e, h);
           }
-          for (int c = 0; c < 6; ++c) work.field[g.index(c, r, i, j)] = share[i] * (h[c] - before[c]);
+          for (int c = 0; with_field && c < 6; ++c) work.field[g.index(c, r, i, j)] = share[i] * (h[c] - before[c]);
         }
         work.late[n] = h[6] - work.late[n];
       },
@@ -264,15 +266,18 @@ void SteadyBody::iterate(const Field& contact_strain, PassState& state, const Pa
                          PassResult& out) const {
   assert(contact_strain.size() == grid().size() && state.residual_strain.size() == grid().size());
   const SteadyGrid& g = grid();
-  work.field.resize(g.size());
   work.guess = state.residual_strain;
-  work.residual.resize(work.guess.size());
+  if (limits.iterations > 0) {
+    work.field.resize(g.size());
+    work.residual.resize(work.guess.size());
+  }
   work.after.resize(state.history.size());
   work.late.resize(g.points());
   Anderson anderson;
   for (;;) {
     if (asked_to_stop(limits.control)) throw Interrupted("stopped in a pass");
     follow(contact_strain, state, work);
+    if (limits.iterations == 0) break;
     response_.apply(work.field, &out.surface, work.rows);
     out.error = compare(work);
     ++out.iterations;
