@@ -189,15 +189,21 @@ std::vector<ContactMark> Clock::marks() const {
   return out;
 }
 
+/// In the mean square of all wheels; a patch that has come or gone is the change that is allowed, and none counts for
+/// more than four of it, so that a few loads that go from tread to flange do not end every stretch.
 bool Clock::changed(const std::vector<ContactMark>& from) const {
+  constexpr double kMost = 4;
   const std::vector<ContactMark> now = marks();
+  double sum = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i].at.size() != from[i].at.size()) return true;
-    if (std::abs(now[i].p_max - from[i].p_max) > options_.change * from[i].p_max) return true;
-    for (std::size_t k = 0; k < now[i].at.size(); ++k)
-      if (std::abs(now[i].at[k] - from[i].at[k]) > options_.moved) return true;
+    double by = std::abs(now[i].p_max - from[i].p_max) / (options_.change * std::max(from[i].p_max, now[i].p_max));
+    if (now[i].at.size() != from[i].at.size()) by = std::max(by, 1.0);
+    for (std::size_t k = 0; k < std::min(now[i].at.size(), from[i].at.size()); ++k)
+      by = std::max(by, std::abs(now[i].at[k] - from[i].at[k]) / options_.moved);
+    by = std::min(by, kMost);
+    if (now[i].p_max > 0 || from[i].p_max > 0) sum += rows_[i].passages / out_.wheels * by * by;
   }
-  return false;
+  return sum > 1;
 }
 
 void Clock::put_wheels() {
