@@ -409,6 +409,7 @@ void Clock::note(const ClockMoment& of_stretch) {
   m.ductility = ductility.damage;
   m.ductility_y = unworn_.rail.at(ductility.s).position.y;
   m.ductility_depth = ductility.depth - surface_.removed_at(ductility.s);
+  m.exhausted = damages_->depth_reached(0, gone);
   m.cycles = cycles.damage;
   m.fatigue = fatigue.damage;
   if (!metal_->flow().net.empty()) m.net = *std::max_element(metal_->flow().net.begin(), metal_->flow().net.end());
@@ -416,9 +417,9 @@ void Clock::note(const ClockMoment& of_stretch) {
   if (options_.control)
     options_.control->info(
         "{:.3g} MGT: removed {:.0f} µm, p_max {:.0f} MPa, strain {:.2e} a wheel, ductility used {:.3g} (y {:.1f} mm, "
-        "{:.2f} mm deep), {} changes, {:.2f} unsettled",
+        "{:.2f} mm deep), used up to {:.2f} mm, {} changes, {:.2f} unsettled",
         1e-9 * m.kilograms, 1e6 * m.removed, 1e-6 * m.p_max, m.net, m.ductility, 1e3 * m.ductility_y,
-        1e3 * m.ductility_depth, m.changes, m.unsettled);
+        1e3 * m.ductility_depth, 1e3 * m.exhausted, m.changes, m.unsettled);
 }
 
 /// The key that a mechanism (0: ductility, 1: closed cycles, 2: fatigue) lacks in a zone; empty: none.
