@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "clock/wheel_life.hpp"
 #include "core/faults.hpp"
 #include "reader/case_file.hpp"
 
@@ -79,6 +80,22 @@ TEST(Clock, WithoutAHorizonNothingIsFollowed) {
   EXPECT_EQ(range_text(row.mgt, row.followed).rfind("> 0.001", 0), 0u) << range_text(row.mgt, row.followed);
   EXPECT_NE(life_text(out.lives).find("no failure in the known modes within 0.001 MGT"), std::string::npos);
   EXPECT_NE(row_of(out, "fatigue", "below").rests_on.find("followed to 0.001 MGT"), std::string::npos);
+}
+
+// bem, sweep and study give the life of their one load: that of a collective of it.
+TEST(Clock, TheLifeOfOneWheelIsThatOfItsCollective) {
+  const std::string horizon = "[life]\nuntil = \"1000 Mt\"\n";
+  const CaseSpec alone = parse_case(fatigued(horizon + "[vehicle]\nwheel_load = \"100 kN\"\n"), "a.toml").spec;
+  AskOptions how;
+  how.bem.cell = 1e-3;
+  how.life_of = life_of_wheels({});
+  const LifeSummary life = ask(alone, place(alone, {}), {}, how).summary.life;
+  const ClockResult collective = run(fatigued(kOne), 1000);
+  EXPECT_EQ(life.text, life_text(collective.lives));
+  EXPECT_DOUBLE_EQ(life.best, 1e9 * shortest(collective.lives)->mgt.best);
+  EXPECT_TRUE(std::isfinite(life.best));
+  how.life_of = {};
+  EXPECT_TRUE(ask(alone, place(alone, {}), {}, how).summary.life.text.empty()) << "nobody says how long it lasts";
 }
 
 }  // namespace

@@ -61,45 +61,6 @@ TEST(Collective, ARowThatCannotBeSolvedIsToldAndTheOthersGoOn) {
   EXPECT_EQ(json["loads"][1]["name"], "beside the rail");
 }
 
-// Tread and gauge corner of one wheel, each with passes of its own.
-TEST(Collective, PassesAreFollowedUnderEachOfTwoContacts) {
-  const CaseSpec spec =
-      parse_case(
-          "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\n"
-          "wheel_radius = \"460 mm\"\n[material.rail]\nyield_strength = \"1000 MPa\"\n[drive]\n"
-          "traction_coefficient = 0\nfriction_coefficient = 0.3\n[life]\npasses = 8\n[passes]\nductility = 5\n"
-          "[[load]]\npassages = 10\nlateral_shift = \"5.3 mm\"\nwheel_load = \"20 kN\"\n",
-          "a.toml")
-          .spec;
-  const std::vector<CollectiveRow> rows = solved(spec);
-  ASSERT_EQ(rows[0].fault, "");
-  ASSERT_EQ(rows[0].not_followed, "");
-  ASSERT_EQ(rows[0].patches.size(), 2u);
-  ASSERT_EQ(rows[0].passed[1].size(), 2u);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const PassedSection& p = rows[0].passed[1][k];
-    EXPECT_EQ(p.patch, k);
-    EXPECT_LT(p.y.front(), 0);
-    EXPECT_GT(p.y.back(), 0);
-  }
-  const std::vector<double>& reached = rows[0].passed[1].front().reached;
-  EXPECT_GT(*std::max_element(reached.begin(), reached.end()), 1e-4) << "the gauge corner, 1.9 GPa";
-}
-
-// Friction beyond the strength of the surface has no passes, but it wears.
-TEST(Collective, ALoadWhosePassesCannotBeFollowedKeepsItsWear) {
-  const CaseSpec spec = parse_case(std::string(kArcs) +
-                                       "[material.rail]\nyield_strength = \"100 MPa\"\n[life]\npasses = 8\n[passes]\n"
-                                       "ductility = 5\n[[load]]\npassages = 10\n",
-                                   "a.toml")
-                            .spec;
-  const std::vector<CollectiveRow> rows = solved(spec);
-  EXPECT_NE(rows[0].not_followed.find("friction on the surface"), std::string::npos) << rows[0].not_followed;
-  EXPECT_TRUE(rows[0].sound()) << rows[0].fault;
-  EXPECT_TRUE(rows[0].passed[1].empty());
-  EXPECT_GT(streamline_area(rows, WearLaw::usfd), 0);
-}
-
 // A layer of t lasts t over the depth that a collective wears, grinding of t at once ends it, in MGT of 2 F/g a wheel.
 TEST(Collective, ALayerWornThroughHasItsLifeInGrossTonnes) {
   const auto life = [](const char* more) {
@@ -169,44 +130,6 @@ TEST(Collective, TheRangeOfALifeHasTheScatterOfStrengths) {
   EXPECT_NEAR(scattered.wheels.low / given.wheels.low, std::pow(0.9, 6), 1e-3);
   EXPECT_NE(scattered.rests_on.find("strengths ± 10 %"), std::string::npos) << scattered.rests_on;
   EXPECT_GT(life("[collective]\nlateral_deviation = \"6 mm\"\n").wheels.best, 1.3 * given.wheels.best);
-}
-
-// bem, sweep and study give the life of their one load: that of a collective of it.
-TEST(Collective, TheLifeOfOneLoadIsThatOfItsCollective) {
-  std::string text = kArcs;
-  text +=
-      "friction_coefficient = 0.15\n[material.rail]\nhardening = \"R260\"\n[passes]\npatch_cells = 3\n"
-      "patch_rows = 4\nductility = 5\n[life]\npasses = 8\n[vehicle]\nwheel_load = \"60 kN\"\n";
-  const CaseSpec one = parse_case(text, "a.toml").spec,
-                 many = parse_case(text + "[[load]]\npassages = 1\n", "a.toml").spec;
-  const Placement placement = place(one, {});
-  const Answer alone = ask(one, placement, {}, {.bem = coarse().bem});
-  const std::vector<CollectiveRow> rows = solved(many);
-  const double cell = coarse().bem.cell;
-  const Lives lives =
-      collective_lives(many, rows, rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell));
-  EXPECT_EQ(alone.summary.life.text, life_text(lives.rows));
-  EXPECT_DOUBLE_EQ(alone.summary.life.best, 1e9 * shortest(lives.rows)->mgt.best);
-  EXPECT_GT(alone.summary.life.best, 0);
-}
-
-// Yield two deviations lower flows more, higher less.
-TEST(Collective, PassesAreFollowedWithScatteredStrengths) {
-  const CaseSpec spec = parse_case(std::string(kArcs) +
-                                       "friction_coefficient = 0.15\n[material.rail]\nhardening = \"R260\"\n"
-                                       "[passes]\npatch_cells = 3\npatch_rows = 4\n[life]\npasses = 8\n"
-                                       "strength_scatter = 0.05\n[[load]]\npassages = 10\n",
-                                   "a.toml")
-                            .spec;
-  const std::vector<CollectiveRow> rows = solved(spec);
-  ASSERT_EQ(rows[0].not_followed, "");
-  std::array<double, 3> most{};
-  for (std::size_t v = 0; v < 3; ++v) {
-    const std::vector<double>& reached = rows[0].passed[v].front().reached;
-    most[v] = *std::max_element(reached.begin(), reached.end());
-  }
-  EXPECT_GT(most[0], 1.1 * most[1]);
-  EXPECT_GT(most[1], 1.1 * most[2]);
 }
 
 TEST(Collective, NamesTheLoadThatDecidesAndDoubtsTheWearOfOneProfile) {

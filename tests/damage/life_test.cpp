@@ -37,20 +37,6 @@ TEST(Life, TwoKindsOfWheelsAddUp) {
   EXPECT_EQ(below.depth, 1e-3);
 }
 
-// begun + rate from ((n/from)^(1-m) - 1)/(1-m) = 1, solved for n; m = 1: from exp(...); m > 1 never where it stays
-// below.
-TEST(Life, FadingStrainHasAClosedForm) {
-  const auto wheels = [](double rate, double m) {
-    const DamagedPlace place{
-        .depth = {0}, .kinds = {{.rate = {rate}, .trend = {m}, .begun = {0.1}, .from = 20}}, .top = 0, .bottom = kDeep};
-    return first_failure(place, {}, 0, kDeep).traffic;
-  };
-  EXPECT_NEAR(wheels(1e-3, 0) / (20 + 900), 1, 1e-9);
-  EXPECT_NEAR(wheels(1e-3, 0.5) / (20 * std::pow(1 + 0.5 * 0.9 / 0.02, 2)), 1, 1e-9);
-  EXPECT_NEAR(wheels(1e-2, 1) / (20 * std::exp(0.9 / 0.2)), 1, 1e-9);
-  EXPECT_TRUE(std::isinf(wheels(1e-3, 1.5)));  // 0.1 + 0.02/0.5 at most
-}
-
 // A skin of rate r: slower than its removal 1/r, and never once wear goes through it in less.
 TEST(Life, WearAgainstAUniformSkin) {
   const double rate = 0.01, skin = 1e-3;

@@ -208,10 +208,10 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
     }
 }
 
-TEST(StrengthCase, HardeningIsNotedAsUnusedUnlessALifeFollowsPasses) {
+TEST(StrengthCase, HardeningIsNotedAsUnusedUnlessALifeFollowsTheRail) {
   const std::string card = "[material.rail]\nhardening = \"R260\"\n";
   EXPECT_EQ(parse_case(card, "a.toml").idle.size(), 1u);
-  EXPECT_TRUE(parse_case(card + "[life]\npasses = 8\n", "a.toml").idle.empty());
+  EXPECT_TRUE(parse_case(card + "[life]\nuntil = \"50 Mt\"\n", "a.toml").idle.empty());
 }
 
 }  // namespace

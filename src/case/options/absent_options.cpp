@@ -68,6 +68,8 @@ constexpr std::array kRetired{
                "0 for real masses"},
     RetiredKey{"run", "plastic_depth", "", kHot},
     RetiredKey{"run", "plastic_width", "", kHot},
+    RetiredKey{"life", "passes", "0",
+               "write life.until = \"50 Mt\": the rail is followed through its traffic instead of some first passes"},
     RetiredKey{"passes", "window_tolerance", "0.001", "take it out, or give a longer passes.window"},
 };
 

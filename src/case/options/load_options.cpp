@@ -20,8 +20,7 @@ double passages_of(const CaseSpec& spec, std::size_t index, double million_tonne
   return 1e6 * million_tonnes / gross_tonnes(wheel);
 }
 
-bool follows_passes(const CaseSpec& spec, std::size_t) { return spec.life.passes > 0; }
-bool has_life(const CaseSpec& spec, std::size_t i) { return has_loads(spec, i) || follows_passes(spec, i); }
+bool has_life(const CaseSpec& spec, std::size_t i) { return has_loads(spec, i) || spec.life.until > 0; }
 bool grinds(const CaseSpec& spec, std::size_t) { return spec.life.grinding.every.has_value(); }
 
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
@@ -141,16 +140,19 @@ OptionTable collective_table() {
 OptionTable life_table() {
   return {
       "life",
-      "Settings for the lives of `railstrata collective`; they also need strengths",
+      "Settings for lives of rail and wheel; they also need strengths",
       {option(
-           "passes", at<&CaseSpec::life, &LifeSpec::passes>,
-           "Number of passes of each load over a new rail, computed by the stationary method (`railstrata passes`); "
-           "the strain they leave gives the life of zones that yield. 0: no passes; otherwise at least 8, typically 40",
-           kNumber, {0, 10000})
-           .where(follows_passes),
+           "until", at<&CaseSpec::life, &LifeSpec::until>,
+           "Gross traffic through which the rail is followed, a mass: \"50 Mt\" are 50 million tonnes. Wear and "
+           "grinding "
+           "change the profile, plastic strain adds up in the metal; from it come the lives of zones that yield. 0: "
+           "the "
+           "rail is not followed. `railstrata collective --until` sets it. Without [[load]] every wheel is that of the "
+           "case",
+           kMass, {0, 1e13}),
        option("strength_scatter", at<&CaseSpec::life, &LifeSpec::strength_scatter>,
-              "Coefficient of variation of the strengths of rail, wheel and layers. The range of a life covers "
-              "strengths two deviations lower and higher, so three times as many passes are computed",
+              "Coefficient of variation of the strengths of rail, wheel and layers. The range of a life by fatigue or "
+              "by a first wheel covers strengths two deviations lower and higher",
               kNumber, {0, 0.2})
            .where(has_life)}};
 }

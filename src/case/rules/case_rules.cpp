@@ -163,13 +163,6 @@ void check_passes(const CaseSpec& spec, CaseSource& source) {
                              "the wheel would slide: lower the traction or raise the friction");
 }
 
-void check_life(const CaseSpec& spec, CaseSource& source) {
-  constexpr int kFewest = 8;
-  if (spec.life.passes > 0 && spec.life.passes < kFewest)
-    refuse(source, "life.passes", fmt::format("{}", spec.life.passes),
-           fmt::format("must be 0, or at least {} for a trend", kFewest), "take some 40");
-}
-
 }  // namespace
 
 void check_case_rules(const CaseSpec& spec, CaseSource& source) {
@@ -188,7 +181,6 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_track(spec, source);
   check_passes(spec, source);
   check_irregularities(spec, source);
-  check_life(spec, source);
   check_loads(spec, source);
 }
 

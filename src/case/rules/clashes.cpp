@@ -152,7 +152,7 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
     kRollingDevice{"run.device = \"gpu\"",
                    [](const C&c) { return c.run.rolling && c.run.device != ComputeDevice::cpu; }},
     kWindow{"run.window", [](const C&c) { return c.run.rolling && c.run.window > 0; }},
-    kElastic{"run.plasticity = false", [](const C&c) { return !c.run.plasticity && c.life.passes == 0; }},
+    kElastic{"run.plasticity = false", [](const C&c) { return !c.run.plasticity && c.life.until == 0; }},
     kLayerEnds{"layer.from | layer.to"},
     kRollingColumns{
         "transient.creepage | transient.lateral_creepage | transient.spin | transient.at_distance | "

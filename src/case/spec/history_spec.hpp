@@ -75,9 +75,9 @@ struct GrindingSpec {
   double depth = 0;             ///< m, each time
 };
 
-/// What lives are computed from beside the strengths (lives/zone_life.hpp).
+/// What lives are computed from beside the strengths (lives/zone_life.hpp, clock/clock.hpp).
 struct LifeSpec {
-  int passes = 0;               ///< of every load, by the stationary method; 0: none
+  double until = 0;             ///< kg of gross traffic through which rail and metal are followed; 0: they are not
   double strength_scatter = 0;  ///< coefficient of variation of the strengths
   GrindingSpec grinding;
 };

@@ -11,6 +11,7 @@
 #include "app/progress.hpp"
 #include "app/summary_text.hpp"
 #include "ask/half_space_need.hpp"
+#include "clock/wheel_life.hpp"
 #include "core/faults.hpp"
 #include "fatigue/row_strength.hpp"
 #include "io/folder_kind.hpp"
@@ -71,7 +72,9 @@ Answer solve_steady(const HalfSpaceJob& job, const BemWords& own) {
   answer_interrupt_with("\nstopped: nothing was written\n");
   const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)));
   const Wanted wanted{.single_track = own.single_track, .maps = own.maps};
-  return ask(job.loaded.spec, job.placement, wanted, {.bem = job.bem});
+  const Control* control = job.loaded.spec.life.until > 0 ? &control_by_signals() : nullptr;
+  return ask(job.loaded.spec, job.placement, wanted,
+             {.bem = job.bem, .control = control, .life_of = life_of_wheels(job.loaded.folder(), control)});
 }
 
 /// Its history and pictures are there while it is followed, and after Ctrl-C up to there.

@@ -35,14 +35,12 @@ namespace {
 
 constexpr const char* kRowFolder = "shown_load";
 
-/// passes: those of life.passes, for lives that are not followed through the traffic.
-void solve(const LoadedCase& loaded, double cell, bool passes, std::vector<CollectiveRow>& rows) {
+void solve(const LoadedCase& loaded, double cell, std::vector<CollectiveRow>& rows) {
   InfluenceCache cache;
   CollectiveOptions how;
   how.bem.cell = cell;
   how.bem.cache = &cache;
   how.control = &control_by_signals();
-  how.wanted.passes = passes;
   solve_collective(rows, loaded.folder(), how);
   how.control->progress("");
 }
@@ -127,15 +125,6 @@ bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded
   });
 }
 
-/// Of loads whose passes were asked for and cannot be followed.
-void warn_of_passes(const std::vector<CollectiveRow>& rows) {
-  const auto lacks = [](const CollectiveRow& row) { return !row.not_followed.empty(); };
-  const auto first = std::find_if(rows.begin(), rows.end(), lacks);
-  if (first == rows.end()) return;
-  spdlog::warn("{} of {} loads without passes, which lives by ductility and low-cycle fatigue leave out; {}: {}",
-               std::count_if(first, rows.end(), lacks), rows.size(), first->name, first->not_followed);
-}
-
 /// `collective --measured-before --measured-after --tonnes`.
 struct MeasuredOptions {
   std::string before, after;  ///< files
@@ -154,7 +143,7 @@ ExitCode command_collective(const CommandOptions& options, const std::string& un
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   spdlog::info("{}: {} loads; results go to {}", loaded.spec.title, rows.size(), out.string());
-  solve(loaded, cell, until.empty(), rows);
+  solve(loaded, cell, rows);
   write_collective_table(out / "collective.csv", table_origin(loaded), rows);
   if (control().stop) {
     spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
@@ -185,8 +174,6 @@ ExitCode command_collective(const CommandOptions& options, const std::string& un
                                            history ? history_charts(*history) : std::vector<ReportChart>{});
   if (history)
     for (const std::string& note : history->notes) spdlog::warn("{}", note);
-  else
-    warn_of_passes(rows);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
   return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;

@@ -18,6 +18,7 @@
 #include "app/shipped_files.hpp"
 #include "ask/half_space_need.hpp"
 #include "batch/batch_script.hpp"
+#include "clock/wheel_life.hpp"
 #include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "fem/memory_need.hpp"
@@ -230,7 +231,7 @@ ExitCode command_study(const StudyOptions& own, const CommandOptions& options) {
   if (own.list || !own.batch.empty()) return report_cases(own, options, study, out, cases, ours);
   if (own.dry_run) return list_cases(options, out, cases, ours);
 
-  StudyOrder order{job_order_of(options, out, false), options.overrides, own.jobs, lease, own.wait};
+  StudyOrder order{job_order_of(options, out, false), options.overrides, own.jobs, lease, own.wait, life_of_wheels};
   start_children_alone();
   const auto show = [&](const std::vector<CaseRow>& rows) {
     print_list(rows, options.json);

@@ -13,6 +13,7 @@
 #include "app/case_of.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
+#include "clock/wheel_life.hpp"
 #include "io/output_folder.hpp"
 #include "judge/check_limits.hpp"
 #include "many/each_case.hpp"
@@ -87,6 +88,7 @@ ExitCode command_sweep(const SweepWords& own, const CommandOptions& options) {
     write_cases(out / "sweep.csv", origin, table);
   };
   sweep.control = &control_by_signals();
+  sweep.life_of = life_of_wheels;
   NowAndThen now_and_then;
   std::size_t done = 0;
   sweep.ended = [&] {

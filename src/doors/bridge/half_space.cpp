@@ -4,6 +4,7 @@
 
 #include "ask/answer.hpp"
 #include "bridge/records.hpp"
+#include "clock/wheel_life.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "core/stop_request.hpp"
@@ -34,6 +35,7 @@ void answer_half_space(Call& call) {
   const auto run = std::make_shared<HalfSpaceRun>(HalfSpaceRun{*loaded, place(loaded->spec, loaded->folder()), {}});
   AskOptions how{.threads = call.whole("threads"), .control = &call.control};
   how.bem.cell = call.number("cell");
+  how.life_of = life_of_wheels(loaded->folder(), &call.control);
   how.observer = [&](const TransientState& state) {
     call.report(Json::array({static_cast<double>(state.step) / state.steps}));
   };

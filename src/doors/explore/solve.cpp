@@ -240,7 +240,7 @@ struct Explorer::State {
     Wanted wanted = kContactAlone;
     wanted.rail = wanted.wheel = request.wants("stress");
     wanted.shakedown = request.wants("shakedown");
-    judge(loaded.spec, placement, wanted, asked);
+    judge(loaded.spec, wanted, asked);
     if (request.wants("section")) add_section();
   }
 

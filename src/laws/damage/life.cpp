@@ -9,31 +9,11 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Damage at depth j by the first n wheels of a kind.
-double damage_by(const KindDamage& kind, std::size_t j, double n) {
-  if (kind.trend.empty()) return kind.rate[j] * n;
-  if (n <= kind.from) return kind.begun[j] * n / kind.from;
-  const double left = 1 - kind.trend[j], grown = std::log(n / kind.from);
-  const double wheels = kind.from * (std::abs(left) < 1e-9 ? grown : std::expm1(left * grown) / left);
-  return kind.begun[j] + kind.rate[j] * wheels;
-}
-
-double damage_at(const DamagedPlace& place, std::size_t j, double t) {
+/// Damage at depth j in a unit of traffic.
+double rate_at(const DamagedPlace& place, std::size_t j) {
   double out = 0;
-  for (const KindDamage& kind : place.kinds) out += damage_by(kind, j, kind.wheels * t);
+  for (const KindDamage& kind : place.kinds) out += kind.wheels * kind.rate[j];
   return out;
-}
-
-/// Units until depth j fails with nothing removed.
-double failure_of(const DamagedPlace& place, std::size_t j) {
-  constexpr double kMost = 1e30;
-  if (damage_at(place, j, kMost) < 1) return kNever;
-  double low = std::log(1e-12), high = std::log(kMost);
-  for (int step = 0; step < 80; ++step) {
-    const double middle = 0.5 * (low + high);
-    (damage_at(place, j, std::exp(middle)) < 1 ? low : high) = middle;
-  }
-  return std::exp(high);
 }
 
 /// A table of the depths at z.
@@ -64,22 +44,18 @@ void follow(const DamagedPlace& place, const Removal& removal, double end, Faile
   constexpr int kSteps = 300;
   const std::vector<double> z0 = points_of(place, removal.after(end));
   std::vector<double> damage(z0.size(), 0.0);
-  std::vector<double> before(place.depth.size(), 0.0), step(place.depth.size());
+  std::vector<double> rate(place.depth.size());
+  for (std::size_t j = 0; j < rate.size(); ++j) rate[j] = rate_at(place, j);
   double since = 0, removed = 0;
   for (int k = 1; k <= kSteps; ++k) {
     const double t = end * k * k / (kSteps * kSteps), then = removal.after(t);
-    for (std::size_t j = 0; j < step.size(); ++j) {
-      const double is = damage_at(place, j, t);
-      step[j] = is - before[j];
-      before[j] = is;
-    }
     bool enough = false;
     for (std::size_t p = 0; p < z0.size(); ++p) {
       if (z0[p] < removed || (z0[p] == removed && then > removed)) continue;
       const double gone = std::min(then, z0[p]);  // what is removed of the point's way to the surface in this step
       const double there = then > removed ? (gone - removed) / (then - removed) : 1, was = damage[p],
                    depth = z0[p] - gone;
-      const double more = there * at_depth(place.depth, step, z0[p] - 0.5 * (removed + gone));
+      const double more = there * (t - since) * at_depth(place.depth, rate, z0[p] - 0.5 * (removed + gone));
       damage[p] += more;
       if (damage[p] < 1) continue;
       const double when = since + (t - since) * there * std::clamp((1 - was) / more, 0.0, 1.0);
@@ -131,7 +107,7 @@ double Removal::until(double removed) const {
 
 std::vector<double> failures_by_depth(const DamagedPlace& place) {
   std::vector<double> out;
-  for (std::size_t j = 0; j < place.depth.size(); ++j) out.push_back(failure_of(place, j));
+  for (std::size_t j = 0; j < place.depth.size(); ++j) out.push_back(1 / rate_at(place, j));
   return out;
 }
 

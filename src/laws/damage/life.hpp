@@ -1,13 +1,11 @@
 #pragma once
-// From damage of one wheel to a life: a sigma-N line, the sum over kinds of wheels, strain that fades from wheel to
-// wheel, and removal, by wear and grinding, that takes the damaged skin away.
+// From damage of one wheel to a life: a sigma-N line, the sum over kinds of wheels, and removal, by wear and grinding,
+// that takes the damaged skin away.
 //
 // A point that has seen n_i wheels of every kind is damaged by D = sum of n_i/N_i and fails at D = 1. [Miner1945]
-// Where passages add strain, a wheel's share is strain over ductility, and it fades as the wheel's number to the power
-// of -m (trend of steady/pass_class.hpp): n wheels add rate from ((n/from)^(1 - m) - 1)/(1 - m) after the first `from`.
 //
 // Removal: a point at depth z0 of the new surface lies at z = z0 - removed(t) when t units of traffic have passed, and
-// gathers there what the table of depths says of z. So with rates that do not fade and wear w a unit
+// gathers there what the table of depths says of z. So with wear w a unit
 //   D(z0, t) = 1/w integral of rate over z from z0 - w t to z0,
 // and nothing ever fails where w is above the integral of the rate over all depths: the magic wear rate.
 #include <cstddef>
@@ -38,11 +36,8 @@ double fatigue_rate(double used, const SigmaN& line, std::size_t variant);
 
 /// Damage of one kind of wheels at a place of the surface, by depth.
 struct KindDamage {
-  double wheels = 1;            ///< of this kind in a unit of traffic
-  std::vector<double> rate{};   ///< at every depth, of one wheel
-  std::vector<double> trend{};  ///< m at every depth; empty: nothing fades
-  std::vector<double> begun{};  ///< damage after `from` wheels; with trend
-  double from = 1;              ///< the wheel that has `rate`; with trend
+  double wheels = 1;           ///< of this kind in a unit of traffic
+  std::vector<double> rate{};  ///< at every depth, of one wheel
 };
 
 /// m, removed by the first t units of traffic: wear, and grinding after every so many units.

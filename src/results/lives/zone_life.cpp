@@ -8,16 +8,13 @@
 #include <functional>
 #include <optional>
 
-#include "damage/low_cycle.hpp"
 #include "lives/life_section.hpp"
 #include "model/zone.hpp"
 #include "spec/case_spec.hpp"
-#include "steady/pass_class.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr int kSettledPasses = 40;  // from 12 to 16 passes a life may change sixfold, from 40 to 200 by 1 %
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
 
@@ -42,28 +39,15 @@ struct LifeZone {
 /// Adds at every depth of a place what one load does there, in one of the three variants.
 using AddKind = std::function<void(const LifeLoad&, double s, std::size_t variant, KindDamage&)>;
 
-/// Adds a share of the wheels of a kind, which run aside; the trend is summed by its rate.
-void add_share(const KindDamage& one, double share, KindDamage& sum) {
-  sum.from = one.from;
-  sum.rate.resize(one.rate.size());
-  sum.begun.resize(one.begun.size());
-  sum.trend.resize(one.trend.size());
-  for (std::size_t j = 0; j < one.rate.size(); ++j) sum.rate[j] += share * one.rate[j];
-  for (std::size_t j = 0; j < one.begun.size(); ++j) sum.begun[j] += share * one.begun[j];
-  for (std::size_t j = 0; j < one.trend.size(); ++j) sum.trend[j] += share * one.rate[j] * one.trend[j];
-}
-
 /// What the wheels of a kind do, mean over where they run.
 KindDamage damage_of_kind(const LifeZone& z, const LifeLoad& load, double s, std::size_t variant, const AddKind& add) {
-  KindDamage out;
+  KindDamage out{.wheels = load.passages};
   for (const AsideShare& aside : z.aside) {
     KindDamage one;
     add(load, s - aside.offset, variant, one);
-    add_share(one, aside.share, out);
+    out.rate.resize(one.rate.size());
+    for (std::size_t j = 0; j < one.rate.size(); ++j) out.rate[j] += aside.share * one.rate[j];
   }
-  for (std::size_t j = 0; j < out.trend.size(); ++j)
-    if (out.rate[j] > 0) out.trend[j] /= out.rate[j];
-  out.wheels = load.passages;
   return out;
 }
 
@@ -151,22 +135,6 @@ bool yields(const LifeZone& z, const LifeLoad& load) {
   return false;
 }
 
-/// Of the patch that is nearest to a place.
-const PassedSection& passed_at(const LifeLoad& load, double s, std::size_t variant) {
-  const PassedSections& all = *load.passed;
-  const std::vector<PassedSection>& sections = all[variant].empty() ? all[1] : all[variant];
-  const auto away = [&](const PassedSection& p) { return std::abs(s - middle_of(load, BodyId::rail, p.patch)); };
-  return *std::min_element(sections.begin(), sections.end(),
-                           [&](const PassedSection& a, const PassedSection& b) { return away(a) < away(b); });
-}
-
-double flow_at(const LifeZone& z, const LifeLoad& load, const PassedSection& p, const std::vector<double>& values,
-               double s, double depth) {
-  const LifeSection section{&p.y, &p.depth, &p.zone, middle_of(load, z.across.body, p.patch)};
-  const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
-  return rows ? value_at(section, values, *rows, s) : 0;
-}
-
 AddKind by_fatigue(const LifeZone& z) {
   return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
     const SectionShakedown* found = section_of(load, z.across.body);
@@ -174,44 +142,10 @@ AddKind by_fatigue(const LifeZone& z) {
     const LifeSection section{&found->y, &found->depth, &found->zone, middle_of(load, z.across.body, found->patch)};
     const SigmaN line{*z.strength().fatigue.exponent, z.strength().fatigue.cycles};
     const double strength = strength_factor(z.spec, variant);
-    const PassedSection* passed = load.followed() ? &passed_at(load, s, variant) : nullptr;
     for (const double depth : z.depth) {
       const std::optional<RowsBeside> rows = rows_beside(section, z.zone, depth);
-      const bool flows = passed && flow_at(z, load, *passed, passed->accumulated, s, depth) >= kNoFlow;
-      const double used = rows && !flows ? value_at(section, found->fatigue.dang_van_used, *rows, s) : 0;
+      const double used = rows ? value_at(section, found->fatigue.dang_van_used, *rows, s) : 0;
       kind.rate.push_back(fatigue_rate(used / strength, line, variant));
-    }
-  };
-}
-
-AddKind by_closed_cycles(const LifeZone& z) {
-  return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
-    if (!load.followed()) return;
-    const PassedSection& passed = passed_at(load, s, variant);
-    for (const double depth : z.depth) {
-      const double flow = flow_at(z, load, passed, passed.accumulated, s, depth);
-      kind.rate.push_back(
-          flow < kNoFlow
-              ? 0
-              : 1 / std::max(low_cycle_life(flow, *z.spec.passes.ductility, kLowCycleExponents[variant]), 1.0));
-    }
-  };
-}
-
-AddKind by_ductility(const LifeZone& z) {
-  return [&z](const LifeLoad& load, double s, std::size_t variant, KindDamage& kind) {
-    if (!load.followed()) return;
-    const PassedSection& passed = passed_at(load, s, variant);
-    const double bears = *z.spec.passes.ductility;
-    kind.from = passed.passes;
-    for (const double depth : z.depth) {
-      std::array<double, 3> trends{};
-      for (std::size_t k = 0; k < trends.size(); ++k)
-        trends[k] = std::max(flow_at(z, load, passed, passed.trend[k], s, depth), 0.0);
-      const auto [least, most] = std::minmax_element(trends.begin(), trends.end());
-      kind.rate.push_back(flow_at(z, load, passed, passed.net, s, depth) / bears);
-      kind.begun.push_back(flow_at(z, load, passed, passed.reached, s, depth) / bears);
-      kind.trend.push_back(variant == 0 ? *least : variant == 2 ? *most : trends[1]);
     }
   };
 }
@@ -222,25 +156,9 @@ std::string scatter_text(const CaseSpec& spec) {
   return scatter > 0 ? fmt::format(", strengths ± {:.3g} %", 100 * (strength_factor(spec, 2) - 1)) : "";
 }
 
-/// Loads that a life by plastic strain lacks.
-std::string without_passes(const std::vector<LifeLoad>& loads) {
-  double all = 0, lacking = 0;
-  int count = 0;
-  for (const LifeLoad& load : loads) {
-    all += load.passages;
-    if (load.followed()) continue;
-    lacking += load.passages;
-    ++count;
-  }
-  if (count == 0) return {};
-  return fmt::format(", without {} of {} loads ({:.2g} % of the wheels)", count, loads.size(), 100 * lacking / all);
-}
-
 void add_damages(const LifeZone& z, FoundLives& out) {
   const FatigueSpec& f = z.strength().fatigue;
   const bool yielding = std::any_of(z.loads.begin(), z.loads.end(), [&](const LifeLoad& l) { return yields(z, l); });
-  const bool passed = z.across.body == BodyId::rail &&
-                      std::any_of(z.loads.begin(), z.loads.end(), [](const LifeLoad& l) { return l.followed(); });
   if (!f.limit || !f.dang_van || !f.exponent)
     out.rows.push_back(missing(z, "fatigue",
                                fmt::format("{0}.{1}", z.key,
@@ -248,26 +166,13 @@ void add_damages(const LifeZone& z, FoundLives& out) {
                                            : !f.dang_van ? "dang_van_coefficient"
                                                          : "fatigue_exponent")));
   else
-    add_row(
-        z, by_fatigue(z), "fatigue",
-        fmt::format("Dang Van{}, {:.0f} MPa at {:.3g} cycles, exponent {}{}; Miner's sum 1/3 to 3",
-                    passed ? " where nothing flows" : "", 1e-6 * *f.limit, f.cycles, *f.exponent, scatter_text(z.spec)),
-        out);
-  if (!passed && yielding)
+    add_row(z, by_fatigue(z), "fatigue",
+            fmt::format("Dang Van, {:.0f} MPa at {:.3g} cycles, exponent {}{}; Miner's sum 1/3 to 3", 1e-6 * *f.limit,
+                        f.cycles, *f.exponent, scatter_text(z.spec)),
+            out);
+  if (yielding)
     out.rows.push_back(missing(z, "ductility exhausted",
-                               z.across.body == BodyId::rail ? "life.passes" : "passes over a wheel are not computed"));
-  if (!passed) return;
-  if (!z.spec.passes.ductility) {
-    out.rows.push_back(missing(z, "ductility exhausted", "passes.ductility"));
-    return;
-  }
-  const std::string ductility =
-      fmt::format("passes.ductility = {}{}{}", *z.spec.passes.ductility, scatter_text(z.spec), without_passes(z.loads));
-  add_row(z, by_closed_cycles(z), "low-cycle fatigue", ductility + "; Coffin and Manson, exponents 0.7 to 0.5", out);
-  add_row(z, by_ductility(z), "ductility exhausted",
-          fmt::format("{}; {} passes of each load and their trend{}", ductility, z.spec.life.passes,
-                      z.spec.life.passes < kSettledPasses ? " (40 passes give a steadier one)" : ""),
-          out);
+                               z.across.body == BodyId::rail ? "life.until" : "passes over a wheel are not computed"));
 }
 
 /// Units until wear and grinding have taken so much somewhere, and where.
@@ -327,8 +232,6 @@ double deepest_of(const std::vector<LifeLoad>& loads, BodyId body) {
   double out = 0;
   for (const LifeLoad& load : loads) {
     if (const SectionShakedown* s = section_of(load, body)) out = std::max(out, s->depth.back());
-    if (body != BodyId::rail || !load.followed()) continue;
-    for (const PassedSection& p : (*load.passed)[1]) out = std::max(out, p.depth.back());
   }
   return out;
 }

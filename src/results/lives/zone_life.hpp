@@ -2,18 +2,16 @@
 // How long rail and wheel last under a load collective: every zone, at its surface and below, by every way in which it
 // may end.
 //
-//   fatigue               Dang Van's stress on a sigma-N line, where nothing flows
-//   low-cycle fatigue     closed cycles of plastic strain (damage/low_cycle.hpp)
-//   ductility exhausted   strain that passes add, each by its own trend n^-m
+//   fatigue               Dang Van's stress on a sigma-N line
 //   worn through          wear and grinding take a layer away
 //   layer cracks, interface shears   the stresses of a load reach the strength
 //
-// Fatigue and ratchetting do not add, the shorter life counts. [Kapoor1994] Damage is summed by position across the
-// body and by depth (damage/life.hpp), with the wear of the case's law on the unworn profile and with the grinding of
-// the case; kinds of wheels add up by their numbers.
+// Lives by plastic strain, low-cycle fatigue and ductility, need a rail that is followed through its traffic
+// (clock/clock.hpp), which gives its rows in place of these; fatigue and ratchetting do not add, the shorter life
+// counts. [Kapoor1994] Damage is summed by position across the body and by depth (damage/life.hpp), with the wear of
+// the case's law on the unworn profile and with the grinding of the case; kinds of wheels add up by their numbers.
 //
 // Ranges. Fatigue: Miner's sum from 1/3 to 3 [Haibach2006], and below the limit the line as above it, flatter, or none.
-// Low-cycle fatigue: exponents 0.7, 0.6 and 0.5. Ductility: the trends of the two halves of the passes and of all.
 // Worn through: the wear laws that the case has data for.
 #include <array>
 #include <cstddef>
@@ -31,22 +29,6 @@ namespace railstrata {
 /// m, the upper part of a body that counts as its surface.
 inline constexpr double kSkin = 0.2e-3;
 
-/// Plastic strain of a rail's section after so many passes of one load's patch. Rows by depth, columns by y from the
-/// patch's rigid contact point; point row * columns + column.
-struct PassedSection {
-  int passes = 0;
-  std::size_t patch = 0;  ///< of the load
-  std::vector<double> y, depth;
-  std::vector<int> zone;             ///< of rows
-  std::vector<double> accumulated;   ///< dp of the last pass
-  std::vector<double> net, reached;  ///< plastic strain that the last pass has added, and of all
-  std::vector<double> trend[3];  ///< s of net ~ n^-s: from a quarter to half of the passes, over both, from there on
-};
-
-/// Of the patches of a load, with strengths low, as given and high (strength_factor); low and high are empty where
-/// nothing scatters.
-using PassedSections = std::array<std::vector<PassedSection>, 3>;
-
 /// Factor on the strengths for the low (0), best (1) and high (2) life: two deviations of life.strength_scatter.
 double strength_factor(const CaseSpec& spec, std::size_t variant);
 
@@ -56,8 +38,6 @@ struct LifeLoad {
   double force = 0;     ///< N, on this rail
   const std::vector<PatchDamage>* patches = nullptr;
   const std::vector<SectionShakedown>* sections = nullptr;
-  const PassedSections* passed = nullptr;  ///< null or empty: no passes were followed
-  bool followed() const { return passed && !(*passed)[1].empty(); }
 };
 
 struct LifeRow {

@@ -77,7 +77,7 @@ Answer solve_contact(const CaseSpec& spec, const Placement& placement, const Ask
 Answer ask(const CaseSpec& spec, const Placement& placement, const Wanted& wanted, const AskOptions& how) {
   const ThreadsOfCaller threads(how.threads);
   Answer out = solve_contact(spec, placement, how);
-  judge(spec, placement, wanted, out, how);
+  judge(spec, wanted, out, how);
   sign(out.summary);
   return out;
 }

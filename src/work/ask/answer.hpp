@@ -1,5 +1,6 @@
 #pragma once
 // One question, one answer: what half-space theory says of a case. Nothing is written or printed here.
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,7 +11,6 @@
 #include "core/control.hpp"
 #include "fatigue/rail_damage.hpp"
 #include "fatigue/shakedown_summary.hpp"
-#include "lives/zone_life.hpp"
 #include "result/summary.hpp"
 #include "result/transient_row.hpp"
 
@@ -25,16 +25,16 @@ struct Wanted {
   bool shakedown = true;
   bool single_track = false;  ///< with shakedown: the limit for traffic on one line, in some seconds
   bool maps = false;          ///< with shakedown: the limits over traction
-  bool passes = true;         ///< the passes of life.passes
-  bool life = true;           ///< of the rail if every wheel were this one: with shakedown and the passes
+  bool life = true;           ///< of the rail through life.until if every wheel were this one
 };
-inline constexpr Wanted kContactAlone{.rail = false,
-                                      .wheel = false,
-                                      .shakedown = false,
-                                      .single_track = false,
-                                      .maps = false,
-                                      .passes = false,
-                                      .life = false};
+inline constexpr Wanted kContactAlone{
+    .rail = false, .wheel = false, .shakedown = false, .single_track = false, .maps = false, .life = false};
+
+/// How long the rail of a case lasts if all wheels are its one; of what how it is answered. Whoever asks gives it:
+/// life_of_wheels (clock/wheel_life.hpp), which itself asks for contacts.
+using LifeOf = std::function<LifeSummary(const CaseSpec& spec, const BemOptions& bem)>;
+/// The same for cases with files in a folder.
+using LifeOfFolder = LifeOf (*)(std::filesystem::path folder, const Control* control);
 
 /// How it is answered.
 struct AskOptions {
@@ -42,6 +42,7 @@ struct AskOptions {
   int threads = 0;                   ///< 0: those of the calling thread
   const Control* control = nullptr;  ///< asked to stop: Interrupted, of a transient Answer::stopped
   std::function<void(const TransientState&)> observer = {};  ///< receives every state of a transient
+  LifeOf life_of = {};                                       ///< none: lives are left out
 };
 
 struct Answer {
@@ -55,8 +56,6 @@ struct Answer {
   std::vector<PatchDamage> wear = {};            ///< of each patch, if it rolls
   std::vector<SectionShakedown> shakedown = {};  ///< of the judged bodies
   std::vector<SlidingMap> sliding = {};
-  PassedSections passed = {};
-  std::string not_followed = {};  ///< why there are no passes though they are wanted
 };
 
 /// The case as half-space theory can treat it. A static case (run.rolling = false) has frictionless contact, as the

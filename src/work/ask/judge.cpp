@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "ask/life_passes.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "core/stop_request.hpp"
@@ -43,55 +42,21 @@ void add_stresses(const Wanted& wanted, Answer& out) {
   add(BodyId::wheel, wanted.wheel, s.wheel);
 }
 
-void add_passes(const CaseSpec& spec, const Placement& placement, const AskOptions& how, Answer& out) {
-  try {
-    out.passed = passed_sections(spec, placement, out.result, how.bem, how.control);
-  } catch (const CaseError& e) {
-    out.not_followed = fault_line(e);
-  } catch (const NumericalError& e) {
-    out.not_followed = fault_line(e);
-  }
-}
-
-/// By lives/zone_life.hpp; a unit of traffic is one wheel.
-LifeSummary life_of(const CaseSpec& spec, const Placement& placement, double cell, const Answer& answer) {
-  LifeSummary out;
-  if (!answer.not_followed.empty()) {
-    out.text = "not known: " + answer.not_followed;
-    return out;
-  }
-  const std::vector<WheelKind> kinds{{1, answer.wear}};
-  const Lives lives =
-      zone_lives(spec, {{1, answer.summary.contact.F_z, &answer.wear, &answer.shakedown, &answer.passed}},
-                 rail_damage(spec, kinds, placement, cell), wheel_damage(spec, kinds, placement, cell));
-  out.text = life_text(lives.rows);
-  if (const LifeRow* row = shortest(lives.rows)) {
-    constexpr double kOfKilogram = unit::kMGT.factor;
-    out.best = row->mgt.best / kOfKilogram;
-    out.low = row->mgt.low / kOfKilogram;
-    out.high = row->mgt.high / kOfKilogram;
-  }
-  return out;
-}
-
 }  // namespace
 
-void judge(const CaseSpec& given, const Placement& placement, const Wanted& wanted, Answer& out,
-           const AskOptions& how) {
+void judge(const CaseSpec& given, const Wanted& wanted, Answer& out, const AskOptions& how) {
   const CaseSpec spec = half_space_case(given);
   std::optional<StopRequest> stop;
   if (how.control) stop.emplace(&how.control->stop);
   Summary& s = out.summary;
-  const bool life = wanted.life && spec.life.passes > 0, shakedown = wanted.shakedown || life;
   if (out.wear.empty()) add_wear(spec, out);
   if (!out.stopped) {
-    if (shakedown && out.shakedown.empty()) out.shakedown = half_space_shakedown(spec, out.result);
+    if (wanted.shakedown && out.shakedown.empty()) out.shakedown = half_space_shakedown(spec, out.result);
     add_stresses(wanted, out);
     if (wanted.single_track) add_single_track(spec, out.result, out.shakedown);
     if (wanted.maps) out.sliding = sliding_maps(out.result, out.shakedown);
     judge_sections(spec, out.shakedown, s);
-    if (life || (wanted.passes && spec.life.passes > 0)) add_passes(spec, placement, how, out);
-    if (life) s.life = life_of(spec, placement, how.bem.cell, out);
+    if (wanted.life && how.life_of && spec.life.until > 0 && spec.run.rolling) s.life = how.life_of(spec, how.bem);
   }
   s.warnings = bem_warnings(s, spec, out.result, out.coarsest);
 }

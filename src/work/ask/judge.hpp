@@ -4,10 +4,9 @@
 
 namespace railstrata {
 
-/// Adds what is wanted and not there yet. `spec`, `placement`, how.bem: of the answer's contact. Of a transient that
+/// Adds what is wanted and not there yet. `spec`, how.bem: of the answer's contact. Of a transient that
 /// was stopped: its wear alone. Throws CaseError where a table of strengths ends too early; Interrupted.
-void judge(const CaseSpec& spec, const Placement& placement, const Wanted& wanted, Answer& answer,
-           const AskOptions& how = {});
+void judge(const CaseSpec& spec, const Wanted& wanted, Answer& answer, const AskOptions& how = {});
 
 /// Shakedown, layers and fatigue of the sections that were judged, by either engine.
 void judge_sections(const CaseSpec& spec, const std::vector<SectionShakedown>& sections, Summary& summary);

@@ -49,8 +49,6 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
   row.track = placement.track;
   Answer answer = ask(row.spec, placement, options.wanted, {.bem = options.bem, .control = options.control});
   row.sections = std::move(answer.shakedown);
-  row.passed = std::move(answer.passed);
-  row.not_followed = std::move(answer.not_followed);
   row.patches = std::move(answer.wear);
   if (!row.given.wheel_profile.empty())
     for (const PatchDamage& patch : row.patches)
@@ -126,7 +124,7 @@ Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& r
                        const WheelDamage& wheel) {
   std::vector<LifeLoad> loads;
   for (const CollectiveRow& row : rows)
-    if (row.sound()) loads.push_back({row.passages, row.summary.contact.F_z, &row.patches, &row.sections, &row.passed});
+    if (row.sound()) loads.push_back({row.passages, row.summary.contact.F_z, &row.patches, &row.sections});
   return zone_lives(spec, loads, rail, wheel);
 }
 

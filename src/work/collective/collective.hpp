@@ -35,8 +35,6 @@ struct CollectiveRow {
   std::vector<double> wheel_y;  ///< m, of the patches on a wheel with a profile of its own; empty: the case's
   std::vector<SectionShakedown> sections;  ///< of the bodies with strengths
   LoadSpec given;                          ///< of the case
-  PassedSections passed;                   ///< by life.passes, of its patches
-  std::string not_followed;                ///< why there are none though life.passes asks for them
   double moved = 0;   ///< m of the shift for the given guiding force; NaN: none within kFarthestMatch has it
   std::string fault;  ///< empty: solved, and its checks hold
   bool done = false;

@@ -84,7 +84,6 @@ Json row_json(const CollectiveRow& row) {
           {"shift_moved_m", json_number(row.moved)},
           {"shakedown_wandering", json_number(factor)},
           {"warnings", warnings},
-          {"passes_not_followed", row.not_followed.empty() ? Json(nullptr) : Json(row.not_followed)},
           {"fault", row.fault.empty() ? Json(nullptr) : Json(row.fault)}};
 }
 

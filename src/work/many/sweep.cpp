@@ -4,7 +4,6 @@
 #include <exception>
 #include <utility>
 
-#include "ask/answer.hpp"
 #include "core/faults.hpp"
 #include "io/summary_json.hpp"
 #include "many/each_case.hpp"
@@ -13,12 +12,14 @@
 namespace railstrata {
 namespace {
 
-void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
+void solve(SweepCase& c, const SweepOptions& options) {
   if (!c.loaded) return;
   try {
     const CaseSpec& spec = c.loaded->spec;
-    const Wanted wanted = stresses ? Wanted{.wheel = false} : kContactAlone;
-    c.summary = summary_json(ask(spec, place(spec, c.loaded->folder()), wanted, {.bem = bem}).summary);
+    const Wanted wanted = options.stresses ? Wanted{.wheel = false} : kContactAlone;
+    AskOptions how{.bem = options.bem};
+    if (options.life_of) how.life_of = options.life_of(c.loaded->folder(), options.control);
+    c.summary = summary_json(ask(spec, place(spec, c.loaded->folder()), wanted, how).summary);
     c.fault = failed_check(c.summary);
   } catch (const std::exception& e) {
     c.fault = fault_line(e);
@@ -57,7 +58,7 @@ std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std:
 
 void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options) {
   for_each_completed(cases.size(), options.control, [&](std::size_t i) {
-    solve(cases[i], options.bem, options.stresses);
+    solve(cases[i], options);
     return [&cases, &options, i] {
       cases[i].done = true;
       if (options.ended) options.ended();

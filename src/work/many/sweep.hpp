@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ask/answer.hpp"
 #include "bem/bem_options.hpp"
 #include "core/control.hpp"
 #include "many/axis.hpp"
@@ -37,6 +38,7 @@ std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std:
 struct SweepOptions {
   BemOptions bem;
   bool stresses = false;             ///< the rail's largest stresses too, and what else `bem` judges but one track
+  LifeOfFolder life_of = nullptr;    ///< with stresses, of cases with life.until; null: lives are left out
   const Control* control = nullptr;  ///< asked to stop, cases that have not begun are left out
   std::function<void()> ended;       ///< after every case, from any thread, one at a time
 };

@@ -59,6 +59,7 @@ class CaseThread : public RunningCase {
     AskOptions how{.control = &control_};
     if (!settings_.cell.empty()) how.bem.cell = parse_quantity(settings_.cell, dimension::kLength);
     how.bem.cache = settings_.cache;
+    if (settings_.life_of) how.life_of = settings_.life_of(loaded.folder(), &control_);
     const Placement placement = place(loaded.spec, loaded.folder());
     require_solvable(loaded.spec, placement, how.bem);
     const FolderHold hold(folder_);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ask/answer.hpp"
 #include "bem/influence_operator.hpp"
 #include "study/study_plan.hpp"
 
@@ -33,6 +34,7 @@ struct CaseSettings {
   int threads = 1;   ///< of each
   InfluenceCache* cache = nullptr;
   std::counting_semaphore<>* wake = nullptr;  ///< released when a thread has ended
+  LifeOfFolder life_of = nullptr;             ///< as of StudyRun
 };
 
 /// The variable of the environment by which a program that study starts knows that a second signal is not to end it.

@@ -108,6 +108,7 @@ class StudyJob : public Job {
     run.control = &control_;
     run.lease = wanted_.lease;
     run.wait = wanted_.wait;
+    run.life_of = wanted_.life_of;
     report(run, to_do.size());
     NowAndThen now_and_then;
     run.ended = [&](const StudyCase& c, const std::string& fault, double seconds, int done) {

@@ -18,6 +18,7 @@ struct StudyOrder : JobOrder {
   int jobs = 0;                        ///< cases at a time; 0: as many as threads
   double lease = kDefaultLease;        ///< s, of claims
   bool wait = true;                    ///< as of StudyRun
+  LifeOfFolder life_of = nullptr;      ///< as of StudyRun
 };
 
 /// Carries the study out. `ours`: of the cases those that this job sees to; `at_end`: called with their rows. Throws

@@ -39,7 +39,7 @@ class Pool {
  public:
   Pool(const StudyRun& run, const std::vector<const StudyCase*>& cases)
       : run_(run),
-        settings_{run.cell, run.threads, &cache_, &wake_},
+        settings_{run.cell, run.threads, &cache_, &wake_, run.life_of},
         pending_(cases.begin(), cases.end()),
         began_(file_server_time(run.out / "study")) {
     for (const StudyCase* c : cases) ++left_[c->engine];

@@ -17,6 +17,7 @@ struct StudyRun {
   int jobs = 1, threads = 1;     ///< cases at a time; threads of each
   double lease = kDefaultLease;  ///< of the claims (study/claim.hpp), s
   bool wait = true;  ///< for cases that others compute, to take over those that die; false: they are left to them
+  LifeOfFolder life_of = nullptr;  ///< of cases with life.until, by the half-space engine; null: lives are left out
   Control* control = nullptr;  ///< its stop and save are handed on to the cases, which write checkpoints; must be given
   std::function<void(const StudyCase&, const std::string& fault, double seconds, int done)>
       ended;  ///< a case has ended; fault: empty if it has a result
