@@ -84,7 +84,7 @@ function chartFigure(c: ChartData): Figure {
     series: c.series.map(seriesOf),
     wide: c.wide,
     bars: c.bars,
-    height: c.bars.length ? 120 + 34 * c.bars.length : undefined,
+    height: c.bars?.length ? 120 + 34 * c.bars.length : undefined,
   });
 }
 
