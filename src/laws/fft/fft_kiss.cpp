@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <new>
 #include <vector>
@@ -15,14 +16,6 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::align_val_t kAlignment{64};
-
-/// Each thread has its own: it keeps tables by length, which grow as they are asked for.
-Eigen::FFT<double>& kiss() {
-  thread_local Eigen::FFT<double> fft(
-      Eigen::FFT<double>::impl_type(),
-      static_cast<Eigen::FFT<double>::Flag>(Eigen::FFT<double>::HalfSpectrum | Eigen::FFT<double>::Unscaled));
-  return fft;
-}
 
 }  // namespace
 
@@ -76,10 +69,8 @@ Four more_quarter(const Four& z) { return {-z.imag(), z.real()}; }
 Four of_rows(Complex* const* row, int k) { return Lanes::side_by_side(row[0][k], row[1][k], row[2][k], row[3][k]); }
 void to_rows(const Four& z, Complex* const* row, int k) { Lanes::apart(z, row[0][k], row[1][k], row[2][k], row[3][k]); }
 
-}  // namespace
-
-void Fft::rows_forward(const double* reals, int count, int given, Complex* waves, std::size_t pitch) const {
-  const int n = plans_->rows;
+/// Rows of `given` real numbers, zero beyond to n -> n/2 + 1 waves of each.
+void transform_rows(int n, const double* reals, int count, int given, Complex* waves, std::size_t pitch) {
   auto& [from, to, nobody] = side_by_side(n);
   std::fill(from.begin() + given, from.begin() + n, Four(Lanes(0), Lanes(0)));
   for (int first = 0; first < count; first += kRows) {
@@ -102,14 +93,16 @@ void Fft::rows_forward(const double* reals, int count, int given, Complex* waves
   }
 }
 
-void Fft::rows_backward(Complex* waves, std::size_t pitch, int count, int given, double* reals) const {
-  const int n = plans_->rows;
+/// Back, the first `given` numbers of each; waves that are those of no real row become real.
+void transform_rows_back(int n, Complex* waves, std::size_t pitch, int count, int given, double* reals) {
   auto& [from, to, nobody] = side_by_side(n);
   for (int first = 0; first < count; first += kRows) {
     Complex* wave[kRows];
     for (int r = 0; r < kRows; ++r) wave[r] = waves + static_cast<std::size_t>(std::min(first + r, count - 1)) * pitch;
-    for (Complex* w : wave)
-      for (const int k : {0, n / 2}) w[k] = w[k].real();
+    for (Complex* w : wave) {
+      w[0] = w[0].real();
+      if (n % 2 == 0) w[n / 2] = w[n / 2].real();
+    }
     for (int k = 0; k <= n / 2; ++k) {
       const Four a = of_rows(wave, k), b = of_rows(wave + Lanes::kCount, k);
       from[static_cast<std::size_t>(k)] = a + more_quarter(b);
@@ -125,6 +118,16 @@ void Fft::rows_backward(Complex* waves, std::size_t pitch, int count, int given,
       }
     }
   }
+}
+
+}  // namespace
+
+void Fft::rows_forward(const double* reals, int count, int given, Complex* waves, std::size_t pitch) const {
+  transform_rows(plans_->rows, reals, count, given, waves, pitch);
+}
+
+void Fft::rows_backward(Complex* waves, std::size_t pitch, int count, int given, double* reals) const {
+  transform_rows_back(plans_->rows, waves, pitch, count, given, reals);
 }
 
 void Fft::columns_forward(const Complex* rows, std::size_t pitch, int count, Complex* columns) const {
@@ -169,17 +172,22 @@ namespace {
 /// kiss FFT has no plan for a single number, which is its own transform.
 constexpr int kNone = 1;
 
-/// Every column of a plane of waves, by `transform(out, in)`.
+/// Every column of a plane of waves, four at a time, by `transform(out, in)`.
 template <class Transform>
-void transform_columns(std::complex<double>* waves, int nx, std::size_t width, Transform&& transform) {
+void transform_columns(Complex* waves, int nx, int width, Transform&& transform) {
   if (nx == kNone) return;
-  thread_local std::vector<std::complex<double>> in, out;
-  in.resize(static_cast<std::size_t>(nx));
-  out.resize(in.size());
-  for (std::size_t column = 0; column < width; ++column) {
-    for (std::size_t i = 0; i < in.size(); ++i) in[i] = waves[i * width + column];
-    transform(out.data(), in.data());
-    for (std::size_t i = 0; i < in.size(); ++i) waves[i * width + column] = out[i];
+  auto& [from, to, nobody] = side_by_side(nx);
+  for (int first = 0; first < width; first += Lanes::kCount) {
+    std::array<int, Lanes::kCount> column;
+    for (int c = 0; c < Lanes::kCount; ++c) column[static_cast<std::size_t>(c)] = std::min(first + c, width - 1);
+    const auto [a, b, c, d] = column;
+    Complex* row = waves;
+    for (int i = 0; i < nx; ++i, row += width)
+      from[static_cast<std::size_t>(i)] = Lanes::side_by_side(row[a], row[b], row[c], row[d]);
+    transform(to.data(), from.data());
+    row = waves;
+    for (int i = 0; i < nx; ++i, row += width)
+      Lanes::apart(to[static_cast<std::size_t>(i)], row[a], row[b], row[c], row[d]);
   }
 }
 
@@ -187,21 +195,21 @@ void transform_columns(std::complex<double>* waves, int nx, std::size_t width, T
 
 void RealPlaneFft::forward(const double* plane, std::complex<double>* waves) const {
   const auto [nx, ny] = *plans_;
-  const std::size_t width = plans_->width();
   if (ny == kNone)
     std::copy(plane, plane + nx, waves);
   else
-    for (int i = 0; i < nx; ++i) kiss().fwd(waves + i * width, plane + static_cast<std::ptrdiff_t>(i) * ny, ny);
-  transform_columns(waves, nx, width, [n = nx](auto* out, const auto* in) { kiss().fwd(out, in, n); });
+    transform_rows(ny, plane, nx, ny, waves, plans_->width());
+  transform_columns(waves, nx, static_cast<int>(plans_->width()),
+                    [n = nx](Four* out, const Four* in) { kiss_of_lanes().fwd(out, in, n); });
 }
 void RealPlaneFft::backward(std::complex<double>* waves, double* plane) const {
   const auto [nx, ny] = *plans_;
-  const std::size_t width = plans_->width();
-  transform_columns(waves, nx, width, [n = nx](auto* out, const auto* in) { kiss().inv(out, in, n); });
+  transform_columns(waves, nx, static_cast<int>(plans_->width()),
+                    [n = nx](Four* out, const Four* in) { kiss_of_lanes().inv(out, in, n); });
   if (ny == kNone)
     for (int i = 0; i < nx; ++i) plane[i] = waves[i].real();
   else
-    for (int i = 0; i < nx; ++i) kiss().inv(plane + static_cast<std::ptrdiff_t>(i) * ny, waves + i * width, ny);
+    transform_rows_back(ny, waves, plans_->width(), nx, ny, plane);
 }
 
 }  // namespace railstrata

@@ -8,51 +8,52 @@ namespace railstrata {
 
 class Lanes {
   using Two = double __attribute__((vector_size(16)));
+  using All = double __attribute__((vector_size(32)));
 
  public:
   static constexpr int kCount = 4;
   Lanes() = default;
-  Lanes(double all) : low_{all, all}, high_{all, all} {}  // NOLINT(google-explicit-constructor): a number for all
-  Lanes(double a, double b, double c, double d) : low_{a, b}, high_{c, d} {}
-  double operator[](int lane) const { return lane < 2 ? low_[lane] : high_[lane - 2]; }
+  Lanes(double all) : all_{all, all, all, all} {}  // NOLINT(google-explicit-constructor): a number for all
+  Lanes(double a, double b, double c, double d) : all_{a, b, c, d} {}
+  double operator[](int lane) const { return all_[lane]; }
 
-  friend Lanes operator+(Lanes a, Lanes b) { return {a.low_ + b.low_, a.high_ + b.high_}; }
-  friend Lanes operator-(Lanes a, Lanes b) { return {a.low_ - b.low_, a.high_ - b.high_}; }
-  friend Lanes operator*(Lanes a, Lanes b) { return {a.low_ * b.low_, a.high_ * b.high_}; }
-  friend Lanes operator-(Lanes a) { return {-a.low_, -a.high_}; }
-  Lanes& operator+=(Lanes b) { return *this = *this + b; }
-  Lanes& operator-=(Lanes b) { return *this = *this - b; }
-  Lanes& operator*=(Lanes b) { return *this = *this * b; }
+  friend Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a.all_ + b.all_); }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.all_ - b.all_); }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.all_ * b.all_); }
+  friend Lanes operator-(const Lanes& a) { return Lanes(-a.all_); }
+  Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
+  Lanes& operator-=(const Lanes& b) { return *this = *this - b; }
+  Lanes& operator*=(const Lanes& b) { return *this = *this * b; }
 
   using Complex = std::complex<double>;
   /// Four complex numbers, each in its lane, and back.
   static std::complex<Lanes> side_by_side(const Complex& a, const Complex& b, const Complex& c, const Complex& d) {
     const Two p = pair(a), q = pair(b), r = pair(c), s = pair(d);
-    return {Lanes(__builtin_shufflevector(p, q, 0, 2), __builtin_shufflevector(r, s, 0, 2)),
-            Lanes(__builtin_shufflevector(p, q, 1, 3), __builtin_shufflevector(r, s, 1, 3))};
+    const All pq = __builtin_shufflevector(p, q, 0, 2, 1, 3), rs = __builtin_shufflevector(r, s, 0, 2, 1, 3);
+    return {Lanes(__builtin_shufflevector(pq, rs, 0, 1, 4, 5)), Lanes(__builtin_shufflevector(pq, rs, 2, 3, 6, 7))};
   }
   static void apart(const std::complex<Lanes>& z, Complex& a, Complex& b, Complex& c, Complex& d) {
-    const Lanes re = z.real(), im = z.imag();
-    put(__builtin_shufflevector(re.low_, im.low_, 0, 2), a);
-    put(__builtin_shufflevector(re.low_, im.low_, 1, 3), b);
-    put(__builtin_shufflevector(re.high_, im.high_, 0, 2), c);
-    put(__builtin_shufflevector(re.high_, im.high_, 1, 3), d);
+    const All re = z.real().all_, im = z.imag().all_;
+    put(__builtin_shufflevector(re, im, 0, 4), a);
+    put(__builtin_shufflevector(re, im, 1, 5), b);
+    put(__builtin_shufflevector(re, im, 2, 6), c);
+    put(__builtin_shufflevector(re, im, 3, 7), d);
   }
 
   // Required by the library's product of complex numbers, which corrects infinities; none occur here.
-  friend bool isnan(Lanes) { return false; }
-  friend bool isinf(Lanes) { return false; }
-  friend Lanes copysign(Lanes size, Lanes) { return size; }
+  friend bool isnan(const Lanes&) { return false; }
+  friend bool isinf(const Lanes&) { return false; }
+  friend Lanes copysign(const Lanes& size, const Lanes&) { return size; }
 
  private:
-  Lanes(Two low, Two high) : low_(low), high_(high) {}
+  explicit Lanes(const All& all) : all_(all) {}
   static Two pair(const Complex& z) {
     Two out;
     std::memcpy(&out, &z, sizeof out);
     return out;
   }
   static void put(Two pair, Complex& z) { std::memcpy(static_cast<void*>(&z), &pair, sizeof pair); }
-  Two low_, high_;
+  All all_;
 };
 
 }  // namespace railstrata

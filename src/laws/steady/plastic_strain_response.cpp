@@ -199,8 +199,8 @@ void PlasticStrainResponse::factorize(int kx, int ky) {
   wave[0].m_inverse = 1 / m_under;
 }
 
-void PlasticStrainResponse::solve(int kx, int ky, bool with_surface) const {
-  const int rows = grid_.rows();
+void PlasticStrainResponse::solve(int kx, int ky, bool with_surface, const std::vector<int>& counting) const {
+  const int rows = grid_.rows(), end = counting.empty() ? 0 : counting.back() + 1;  // of what has to be known
   const std::size_t plane = static_cast<std::size_t>(grid_.nx) * static_cast<std::size_t>(width_);
   const Spectrum spectrum{spectrum_.data() + static_cast<std::size_t>(kx) * width_ + ky, plane, rows};
   const Spectrum surface{&spectrum(6, 0), plane, 1};
@@ -209,7 +209,7 @@ void PlasticStrainResponse::solve(int kx, int ky, bool with_surface) const {
   const double k = std::hypot(x, y);
   if (std::isnan(k)) {
     for (int c = 0; c < 6; ++c)
-      for (int r = 0; r < rows; ++r) spectrum(c, r) = 0;
+      for (const int r : counting) spectrum(c, r) = 0;
     for (int c = 0; c < 3; ++c) surface(c, 0) = 0;
     return;
   }
@@ -218,33 +218,43 @@ void PlasticStrainResponse::solve(int kx, int ky, bool with_surface) const {
   const Wave* wave =
       factors_.data() + (static_cast<std::size_t>(folded) * width_ + ky) * static_cast<std::size_t>(rows + 1);
   thread_local std::vector<Node> u;
-  u.assign(static_cast<std::size_t>(rows + 1), {});
-  for (int r = 0; r < rows; ++r)
+  u.assign(static_cast<std::size_t>(end + 1), {});
+  for (const int r : counting)
     add_load(spectrum, r, along, grid_.thickness[r], moduli_[r].mu, u[static_cast<std::size_t>(r)],
              u[static_cast<std::size_t>(r + 1)]);
-  for (int r = rows - 1; r >= 0; --r) u[r] = less(u[r], wave[r].below, wave[r].m_below, u[r + 1]);
-  for (int r = 0; r <= rows; ++r) {
+  for (int r = end - 1; r >= 0; --r) u[r] = less(u[r], wave[r].below, wave[r].m_below, u[r + 1]);
+  for (int r = 0; r <= end; ++r) {
     u[r] = less({}, scaled(-1, wave[r].inverse), -wave[r].m_inverse, u[r]);
     if (r > 0) u[r] = less(u[r], transposed(wave[r - 1].below), wave[r - 1].m_below, u[r - 1]);
   }
-  for (int r = 0; r < rows; ++r)
+  for (const int r : counting)
     put_strain(u[static_cast<std::size_t>(r)], u[static_cast<std::size_t>(r + 1)], along, grid_.thickness[r], spectrum,
                r);
   if (with_surface) put_surface(u.front(), along, surface);
 }
 
-void PlasticStrainResponse::apply(Field& field, Field* surface) const {
+void PlasticStrainResponse::apply(Field& field, Field* surface, const std::vector<bool>& rows) const {
   if (field.size() != grid_.size()) throw std::invalid_argument("PlasticStrainResponse: a field of another grid");
-  const int planes = 6 * grid_.rows();
+  std::vector<int> counting;
+  for (int r = 0; r < grid_.rows(); ++r)
+    if (rows.empty() || rows[static_cast<std::size_t>(r)]) counting.push_back(r);
+  std::vector<int> planes;
+  for (int c = 0; c < 6; ++c)
+    for (const int r : counting) planes.push_back(c * grid_.rows() + r);
   const std::size_t real = grid_.plane(), complex = static_cast<std::size_t>(grid_.nx) * width_;
-  for_each(planes, [&](std::ptrdiff_t p) { fft_->forward(field.data() + p * real, spectrum_.data() + p * complex); });
+  const auto strains = static_cast<std::ptrdiff_t>(planes.size());
+  for_each(strains, [&](std::ptrdiff_t k) {
+    const int p = planes[static_cast<std::size_t>(k)];
+    fft_->forward(field.data() + p * real, spectrum_.data() + p * complex);
+  });
   for_each(grid_.nx, [&](std::ptrdiff_t kx) {
-    for (int ky = 0; ky < width_; ++ky) solve(static_cast<int>(kx), ky, surface != nullptr);
+    for (int ky = 0; ky < width_; ++ky) solve(static_cast<int>(kx), ky, surface != nullptr, counting);
   });
   if (surface) surface->resize(3 * real);
   const double scale = 1 / static_cast<double>(real);
-  for_each(surface ? planes + 3 : planes, [&](std::ptrdiff_t p) {
-    double* out = p < planes ? field.data() + p * real : surface->data() + (p - planes) * real;
+  for_each(surface ? strains + 3 : strains, [&](std::ptrdiff_t k) {
+    const std::ptrdiff_t p = k < strains ? planes[static_cast<std::size_t>(k)] : 6 * grid_.rows() + k - strains;
+    double* out = k < strains ? field.data() + p * real : surface->data() + (k - strains) * real;
     fft_->backward(spectrum_.data() + p * complex, out);
     for (std::size_t n = 0; n < real; ++n) out[n] *= scale;
   });

@@ -38,12 +38,13 @@ class PlasticStrainResponse {
   /// `field` holds the plastic strain and then the strain. The same bits for any number of threads; one call at a time.
   /// surface, if not null: displacement of the surface along x, y and z (down), m, a plane each; along y and z from
   /// rest far below, periodic as the rest, each value the mean around its station and column as the strains are.
-  void apply(Field& field, Field* surface = nullptr) const;
+  /// rows, if not empty: those that count; the others have no plastic strain and stay as they are.
+  void apply(Field& field, Field* surface = nullptr, const std::vector<bool>& rows = {}) const;
 
  private:
   struct Wave;
   void factorize(int kx, int ky);
-  void solve(int kx, int ky, bool with_surface) const;
+  void solve(int kx, int ky, bool with_surface, const std::vector<int>& rows) const;
 
   SteadyGrid grid_;
   std::vector<RowModuli> moduli_;

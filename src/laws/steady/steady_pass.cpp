@@ -39,6 +39,13 @@ void advance(const PlasticParameters<double>& law, int terms, const double (&str
   }
 }
 
+/// √(2/3 e:e) of the deviator of a strain, and the deviator of one.
+double size_of(const double (&e)[6]) { return std::sqrt(2.0 / 3 * double_contraction(e, e)); }
+void take_deviator(double (&e)[6]) {
+  const double mean = (e[0] + e[1] + e[2]) / 3;
+  for (int c = 0; c < 3; ++c) e[c] -= mean;
+}
+
 SteadyGrid section_of(SteadyGrid grid) {
   grid.dx *= grid.nx;
   grid.nx = 1;
@@ -55,11 +62,15 @@ std::vector<RowModuli> moduli_of(const std::vector<SteadyRow>& rows) {
 
 /// Arrays of one pass.
 struct SteadyBody::Work {
-  Field before;               // strain of the earlier passes, per component and point of the section
-  Field field;                // plastic strain of this pass everywhere, then the strain it causes
-  Field guess, residual;      // at active stations
-  std::vector<double> after;  // histories behind the load
-  std::vector<double> late;   // p of each point in the last quarter of the stations behind the load
+  Field before;                   // strain of the earlier passes, per component and point of the section
+  std::vector<StrainBall> balls;  // of the contact's strain, per point of the section
+  std::vector<bool> rows;         // that are followed; empty: all
+  Field field;                    // plastic strain of this pass everywhere, then the strain it causes
+  Field guess, residual;          // at active stations
+  std::vector<double> after;      // histories behind the load
+  std::vector<double> late;       // p of each point in the last quarter of the stations behind the load
+
+  bool follows(int row) const { return rows.empty() || rows[static_cast<std::size_t>(row)]; }
 };
 
 SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowModuli below,
@@ -137,12 +148,66 @@ Field SteadyBody::uniform_strain(const std::vector<double>& history, Field* surf
   return section;
 }
 
+std::vector<StrainBall> SteadyBody::balls_of(const Field& contact_strain) const {
+  const SteadyGrid& g = grid();
+  std::vector<StrainBall> out(g.points());
+  for_each(static_cast<std::ptrdiff_t>(g.points()), [&](std::ptrdiff_t n) {
+    const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
+    std::array<double, 6> least, most;
+    least.fill(std::numeric_limits<double>::infinity());
+    most.fill(-std::numeric_limits<double>::infinity());
+    const auto deviator = [&](int i, double(&e)[6]) {
+      for (int c = 0; c < 6; ++c) e[c] = contact_strain[g.index(c, r, i, j)];
+      take_deviator(e);
+    };
+    double e[6];
+    for (int i = 0; i < g.active_stations(); ++i) {
+      deviator(i, e);
+      for (std::size_t c = 0; c < 6; ++c) {
+        least[c] = std::min(least[c], e[c]);
+        most[c] = std::max(most[c], e[c]);
+      }
+    }
+    StrainBall& ball = out[static_cast<std::size_t>(n)];
+    for (std::size_t c = 0; c < 6; ++c) ball.middle[c] = 0.5 * (least[c] + most[c]);
+    for (int i = 0; i < g.active_stations(); ++i) {
+      deviator(i, e);
+      for (std::size_t c = 0; c < 6; ++c) e[c] -= ball.middle[c];
+      const double size = size_of(e);
+      if (!(size <= ball.radius)) ball.radius = size;  // NaN too
+    }
+  });
+  return out;
+}
+
+/// An upper bound of the yield condition f over the strength, of all stations, as long as nothing flows.
+double SteadyBody::largest_excess(std::size_t point, const StrainBall& ball, const Field& before, const Field& guess,
+                                  const double* history) const {
+  const std::size_t points = grid().points(), line = static_cast<std::size_t>(grid().active_stations());
+  const auto r = point / static_cast<std::size_t>(grid().ny);
+  const PlasticParameters<double>& law = rows_[r].law;
+  double e[6], largest = 0;
+  for (std::size_t i = 0; i < line; ++i) {
+    for (std::size_t c = 0; c < 6; ++c) e[c] = guess[(c * points + point) * line + i];
+    largest = std::max(largest, double_contraction(e, e));
+  }
+  for (std::size_t c = 0; c < 6; ++c) e[c] = before[c * points + point] + initial_strain_[r][c];
+  take_deviator(e);
+  for (std::size_t c = 0; c < 6; ++c) {
+    e[c] += ball.middle[c] - history[c];
+    for (int k = 0; k < terms_[r]; ++k) e[c] -= history[7 + 6 * k + static_cast<int>(c)] / (2 * law.mu);
+  }
+  const double strength = law.yield + law.saturation * saturated_share(law.rate * history[6]);
+  return 3 * law.mu * (size_of(e) + ball.radius + std::sqrt(2.0 / 3 * largest)) / strength - 1;
+}
+
 void SteadyBody::follow(const Field& contact_strain, const PassState& state, Work& work) const {
   const SteadyGrid& g = grid();
   const int active = g.active_stations();
   const std::size_t line = static_cast<std::size_t>(active);
   std::vector<double> share(static_cast<std::size_t>(g.nx));
   for (int i = 0; i < g.nx; ++i) share[i] = g.share(i);
+  const bool with_field = !work.field.empty();
   const int late = std::max(0, active - static_cast<int>(std::lround(0.25 * g.active / g.dx)));
   for_each(
       static_cast<std::ptrdiff_t>(g.points()),
@@ -151,8 +216,12 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
         const double* before = state.history.data() + n * kStreamlineHistory;
         double* h = work.after.data() + n * kStreamlineHistory;
         std::copy(before, before + kStreamlineHistory, h);
+        if (!work.follows(r)) return;
         const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
-        const bool yields = std::isfinite(row.law.yield);
+        const auto point = static_cast<std::size_t>(n);
+        const bool yields = std::isfinite(row.law.yield) &&
+                            !(largest_excess(point, work.balls[point], work.before, work.guess, before) <= 0);
+        if (!yields && !with_field) return;
         for (int i = 0; i < g.nx; ++i) {
           if (i == late) work.late[n] = h[6];
           if (yields && i < active) {
@@ -162,7 +231,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
                      work.guess[(c * g.points() + n) * line + i];
             advance(row.law, terms_[r], e, h);
           }
-          for (int c = 0; c < 6; ++c) work.field[g.index(c, r, i, j)] = share[i] * (h[c] - before[c]);
+          for (int c = 0; with_field && c < 6; ++c) work.field[g.index(c, r, i, j)] = share[i] * (h[c] - before[c]);
         }
         work.late[n] = h[6] - work.late[n];
       },
@@ -176,6 +245,7 @@ double SteadyBody::compare(Work& work) const {
   std::vector<double> worst(g.points());
   for_each(static_cast<std::ptrdiff_t>(g.points()), [&](std::ptrdiff_t n) {
     const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
+    if (!work.follows(r)) return;
     const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
     const double scale = 2 * row.moduli.mu / (row.law.yield / std::numbers::sqrt3);
     for (int c = 0; c < 6; ++c)
@@ -196,16 +266,19 @@ void SteadyBody::iterate(const Field& contact_strain, PassState& state, const Pa
                          PassResult& out) const {
   assert(contact_strain.size() == grid().size() && state.residual_strain.size() == grid().size());
   const SteadyGrid& g = grid();
-  work.field.resize(g.size());
   work.guess = state.residual_strain;
-  work.residual.resize(work.guess.size());
+  if (limits.iterations > 0) {
+    work.field.resize(g.size());
+    work.residual.resize(work.guess.size());
+  }
   work.after.resize(state.history.size());
   work.late.resize(g.points());
   Anderson anderson;
   for (;;) {
     if (asked_to_stop(limits.control)) throw Interrupted("stopped in a pass");
     follow(contact_strain, state, work);
-    response_.apply(work.field, &out.surface);
+    if (limits.iterations == 0) break;
+    response_.apply(work.field, &out.surface, work.rows);
     out.error = compare(work);
     ++out.iterations;
     if (!std::isfinite(out.error))
@@ -225,6 +298,7 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   Work work;
   Field surface_before;
   work.before = uniform_strain(state.history, &surface_before);
+  work.balls = balls_of(contact_strain);
   PassResult out;
   iterate(contact_strain, state, limits, work, out);
   add_section(surface_before, out.surface);
@@ -234,12 +308,27 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   return out;
 }
 
-PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact_strain, PassState& state,
+PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact_strain,
+                                       const std::vector<StrainBall>& balls, PassState& state,
                                        const PassLimits& limits) const {
+  constexpr double kNear = 0.05;  // of the strength: what neighbours that flow in this pass may add
   Work work;
   work.before = before;
+  work.balls = balls;
+  work.rows.assign(rows_.size(), false);
+  for (std::size_t n = 0; n < grid().points(); ++n)
+    if (const std::size_t r = n / static_cast<std::size_t>(grid().ny);
+        !work.rows[r] && std::isfinite(rows_[r].law.yield))
+      work.rows[r] = !(largest_excess(n, balls[n], before, state.residual_strain,
+                                      state.history.data() + n * kStreamlineHistory) <= -kNear);
   PassResult out;
+  if (std::find(work.rows.begin(), work.rows.end(), true) == work.rows.end()) {
+    out.before = state.history;
+    ++state.passes;
+    return out;
+  }
   iterate(contact_strain, state, limits, work, out);
+  for (std::size_t n = 0; n < work.residual.size(); ++n) state.residual_strain[n] += work.residual[n];
   return out;
 }
 

@@ -74,6 +74,12 @@ struct PassLimits {
   const Control* control = nullptr;  ///< asked to stop, the pass is given up between two iterations
 };
 
+/// A ball around the deviators of strain that a point of the section goes through, sizes as √(2/3 e:e).
+struct StrainBall {
+  std::array<double, 6> middle{};
+  double radius = 0;
+};
+
 /// A body and its grid; constant, but one pass at a time.
 class SteadyBody {
  public:
@@ -93,9 +99,13 @@ class SteadyBody {
   /// Interrupted when it is given up, the state is then as it was.
   PassResult run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits = {}) const;
   /// The same within a wider body that is uniform along x: `before` (six components by point of the section) is the
-  /// strain there by what earlier passes have left. What the result has beyond histories and strains is empty.
-  PassResult run_pass_within(const Field& before, const Field& contact_strain, PassState& state,
-                             const PassLimits& limits = {}) const;
+  /// strain there by what earlier passes have left; `balls` those of the contact's strain. Rows where no point comes
+  /// near its yield strength are left out. Without iterations the first guess is taken as it is and stays; else that of
+  /// the next pass is of one more iteration. What the result has beyond histories and strains is empty.
+  PassResult run_pass_within(const Field& before, const Field& contact_strain, const std::vector<StrainBall>& balls,
+                             PassState& state, const PassLimits& limits = {}) const;
+  /// Of every point of the section.
+  std::vector<StrainBall> balls_of(const Field& contact_strain) const;
   /// The way of points of the section through the pass that `result` and `state` are of, at the active stations in
   /// their order.
   std::vector<std::vector<StationState>> streamlines(const Field& contact_strain, const PassResult& result,
@@ -109,6 +119,8 @@ class SteadyBody {
  private:
   struct Work;
   void follow(const Field& contact_strain, const PassState& state, Work& work) const;
+  double largest_excess(std::size_t point, const StrainBall& ball, const Field& before, const Field& guess,
+                        const double* history) const;
   double compare(Work& work) const;
   void add_section(const Field& section, Field& surface) const;
   Field uniform_strain(const std::vector<double>& history, Field* surface = nullptr) const;

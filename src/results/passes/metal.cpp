@@ -13,7 +13,9 @@ namespace railstrata {
 namespace {
 
 constexpr std::size_t kHistory = kStreamlineHistory;
-constexpr int kIterations = 3;  // of a pass in each change: its guess goes on with the next one
+// The answer of the body around a pass takes most of its time and hardly changes from call to call.
+constexpr int kFirst = 4;  // its iterations in a kind's first pass
+constexpr int kEvery = 4;  // then one in each fourth pass, whose guess goes on
 
 SteadyGrid section_grid(const MetalGrid& g) {
   SteadyGrid out;
@@ -35,6 +37,7 @@ struct Metal::Kind {
       : wheel(std::move(w)),
         body(wheel.rail.grid, wheel.rail.rows, wheel.rail.below, wheel.rail.initial_stress),
         strain(contact_strain(wheel.rail, body, wheel.rail.contact_stress.at(0))),
+        balls(body.balls_of(strain)),
         state(body.virgin()) {
     wheel.rail.contact_stress.clear();
   }
@@ -49,8 +52,9 @@ struct Metal::Kind {
   MetalWheel wheel;
   SteadyBody body;
   Field strain;
-  PassState state;              ///< its guess goes on from call to call
-  std::vector<double> changes;  ///< of the history, at its own points
+  std::vector<StrainBall> balls;  ///< of `strain`
+  PassState state;                ///< its guess goes on from call to call
+  std::vector<double> changes;    ///< of the history, at its own points
 };
 
 std::vector<double> MetalGrid::depths() const {
@@ -104,19 +108,19 @@ void Metal::put(std::vector<MetalWheel> wheels) {
   pace_.clear();
 }
 
-/// Of the plastic strain of a state: what is compatible, six components by point.
-std::vector<double> Metal::compatible(const std::vector<double>& state) const {
+/// Of the plastic strain of a state: what is compatible, six components by point; surface as of PlasticStrainResponse.
+std::vector<double> Metal::compatible(const std::vector<double>& state, Field* surface) const {
   const std::size_t points = grid_.points();
   Field strain(6 * points);
   for (std::size_t n = 0; n < points; ++n)
     for (std::size_t c = 0; c < 6; ++c) strain[c * points + n] = state[n * kHistory + c];
-  section_->apply(strain);
+  section_->apply(strain, surface);
   return {strain.begin(), strain.end()};
 }
 
-void Metal::strip(std::vector<double>& state) const {
+void Metal::strip(std::vector<double>& state, Field* surface) const {
   const std::size_t points = grid_.points();
-  const std::vector<double> strain = compatible(state);
+  const std::vector<double> strain = compatible(state, surface);
   for (std::size_t n = 0; n < points; ++n)
     for (std::size_t c = 0; c < 6; ++c) state[n * kHistory + c] -= strain[c * points + n];
 }
@@ -133,7 +137,10 @@ void Metal::pass(Kind& kind, const std::vector<double>& state, const std::vector
                 own.history.begin() + static_cast<std::ptrdiff_t>(n * kHistory));
     for (std::size_t c = 0; c < 6; ++c) before[c * points + n] = strain[c * grid_.points() + *at];
   }
-  const PassResult result = kind.body.run_pass_within(before, kind.strain, own, {.iterations = kIterations});
+  const PassResult result = kind.body.run_pass_within(before, kind.strain, kind.balls, own,
+                                                      {.iterations = own.passes == 0            ? kFirst
+                                                                     : own.passes % kEvery == 0 ? 1
+                                                                                                : 0});
   kind.changes.resize(own.history.size());
   for (std::size_t i = 0; i < own.history.size(); ++i) kind.changes[i] = own.history[i] - result.before[i];
 }
@@ -159,7 +166,10 @@ void Metal::add_pace(const std::vector<double>& flowing, StateChange& change) co
 StateChange Metal::change(const std::vector<double>& given) {
   StateChange out{.mean = std::vector<double>(given.size(), 0.0), .pace = std::vector<double>(given.size(), 0.0)};
   const std::size_t points = grid_.points();
-  flow_ = {std::vector<double>(points, 0.0), std::vector<std::array<double, 3>>(points), {}};
+  flow_ = {std::vector<double>(points, 0.0),
+           std::vector<std::array<double, 3>>(points),
+           {},
+           std::vector<double>(static_cast<std::size_t>(grid_.columns), 0.0)};
   if (kinds_.empty()) return out;
   const std::vector<double> strain = compatible(given);
   std::vector<std::exception_ptr> faults(kinds_.size());
@@ -198,7 +208,9 @@ StateChange Metal::change(const std::vector<double>& given) {
     for (std::size_t c = 0; c < 6; ++c) sum += std::pow(two_mu(n) * norm_weight(c) * out.mean[n * kHistory + c], 2);
   }
   out.flow = std::sqrt(sum);
-  strip(out.mean);
+  Field surface;
+  strip(out.mean, &surface);
+  flow_.sinking.assign(surface.end() - grid_.columns, surface.end());  // the last of x, y, z (down)
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/faults.hpp"
 #include "fatigue/row_strength.hpp"
+#include "fft/fft.hpp"
 #include "material/elastic.hpp"
 #include "material/material_path.hpp"
 #include "material/strain_claim.hpp"
@@ -111,11 +112,10 @@ SteadyGrid plan_grid(const Footprint& f, const PassesSpec& passes, double window
 
 /// The columns nearest around the patch, so many that a Fourier transform likes them.
 void take_columns(const PassLattice& lattice, const Footprint& f, SteadyGrid& g) {
-  constexpr double kHalfAxes = 8;
-  constexpr int kFewest = 16, kMultiple = 8;
+  constexpr double kHalfAxes = 5;
+  constexpr int kFewest = 16;
   g.dy = lattice.apart;
-  const int wanted = static_cast<int>(std::ceil(kHalfAxes * f.y.half() / g.dy));
-  g.ny = std::max(kFewest, kMultiple * ((wanted + kMultiple - 1) / kMultiple));
+  g.ny = good_fft_length(std::max(kFewest, static_cast<int>(std::ceil(kHalfAxes * f.y.half() / g.dy))));
   const double first = f.y.middle() - 0.5 * (g.ny - 1) * g.dy;
   g.y0 = lattice.line + g.dy * std::round((first - lattice.line) / g.dy);
 }

@@ -189,15 +189,21 @@ std::vector<ContactMark> Clock::marks() const {
   return out;
 }
 
+/// In the mean square of all wheels; a patch that has come or gone is the change that is allowed, and none counts for
+/// more than four of it, so that a few loads that go from tread to flange do not end every stretch.
 bool Clock::changed(const std::vector<ContactMark>& from) const {
+  constexpr double kMost = 4;
   const std::vector<ContactMark> now = marks();
+  double sum = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i].at.size() != from[i].at.size()) return true;
-    if (std::abs(now[i].p_max - from[i].p_max) > options_.change * from[i].p_max) return true;
-    for (std::size_t k = 0; k < now[i].at.size(); ++k)
-      if (std::abs(now[i].at[k] - from[i].at[k]) > options_.moved) return true;
+    double by = std::abs(now[i].p_max - from[i].p_max) / (options_.change * std::max(from[i].p_max, now[i].p_max));
+    if (now[i].at.size() != from[i].at.size()) by = std::max(by, 1.0);
+    for (std::size_t k = 0; k < std::min(now[i].at.size(), from[i].at.size()); ++k)
+      by = std::max(by, std::abs(now[i].at[k] - from[i].at[k]) / options_.moved);
+    by = std::min(by, kMost);
+    if (now[i].p_max > 0 || from[i].p_max > 0) sum += rows_[i].passages / out_.wheels * by * by;
   }
-  return false;
+  return sum > 1;
 }
 
 void Clock::put_wheels() {
@@ -403,6 +409,7 @@ void Clock::note(const ClockMoment& of_stretch) {
   m.ductility = ductility.damage;
   m.ductility_y = unworn_.rail.at(ductility.s).position.y;
   m.ductility_depth = ductility.depth - surface_.removed_at(ductility.s);
+  m.exhausted = damages_->depth_reached(0, gone);
   m.cycles = cycles.damage;
   m.fatigue = fatigue.damage;
   if (!metal_->flow().net.empty()) m.net = *std::max_element(metal_->flow().net.begin(), metal_->flow().net.end());
@@ -410,9 +417,9 @@ void Clock::note(const ClockMoment& of_stretch) {
   if (options_.control)
     options_.control->info(
         "{:.3g} MGT: removed {:.0f} µm, p_max {:.0f} MPa, strain {:.2e} a wheel, ductility used {:.3g} (y {:.1f} mm, "
-        "{:.2f} mm deep), {} changes, {:.2f} unsettled",
+        "{:.2f} mm deep), used up to {:.2f} mm, {} changes, {:.2f} unsettled",
         1e-9 * m.kilograms, 1e6 * m.removed, 1e-6 * m.p_max, m.net, m.ductility, 1e3 * m.ductility_y,
-        1e3 * m.ductility_depth, m.changes, m.unsettled);
+        1e3 * m.ductility_depth, 1e3 * m.exhausted, m.changes, m.unsettled);
 }
 
 /// The key that a mechanism (0: ductility, 1: closed cycles, 2: fatigue) lacks in a zone; empty: none.

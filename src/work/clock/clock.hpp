@@ -40,8 +40,10 @@ struct ClockMoment {
   double removed = 0, removed_y = 0;                           ///< m, where most has gone
   double p_max = 0;                                            ///< Pa, largest of all loads
   double layer_left = kNotApplicable;                          ///< m, of the uppermost layer where least is left
-  double ductility = 0, ductility_y = 0, ductility_depth = 0;  ///< largest share used; where, m; depth below the
-                                                               ///< surface of that time
+  double ductility = 0, ductility_y = 0, ductility_depth = 0;  ///< largest share used from kShallowest on;
+                                                               ///< where, m; depth below the surface of that time
+  double exhausted = 0;                                        ///< m, so deep is the ductility of all metal used up
+                                                               ///< from the surface on, where that is deepest
   double cycles = 0, fatigue = 0;                              ///< largest Miner's sums
   double net = 0;                                              ///< strain that stays, by a wheel, largest
   double unsettled = 0;                                        ///< SettledState::unsettled of the stretch, the largest

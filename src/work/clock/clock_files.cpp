@@ -21,6 +21,7 @@ const Columns<ClockMoment>& moment_columns() {
                                   {"ductility_used", kNone, [](const M& m) { return m.ductility; }},
                                   {"ductility_y", kMillimetres, [](const M& m) { return m.ductility_y; }},
                                   {"ductility_depth", kMillimetres, [](const M& m) { return m.ductility_depth; }},
+                                  {"exhausted_depth", kMillimetres, [](const M& m) { return m.exhausted; }},
                                   {"cycles_used", kNone, [](const M& m) { return m.cycles; }},
                                   {"fatigue_used", kNone, [](const M& m) { return m.fatigue; }},
                                   {"net_strain", kNone, [](const M& m) { return m.net; }},

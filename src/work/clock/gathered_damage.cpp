@@ -46,7 +46,7 @@ void GatheredDamage::gather(std::size_t column, const std::vector<ZoneRates>& ra
         if (zone_[p] != zone.zone) continue;
         double& damage = damage_[(column * depth_.size() + p) * kDamages + kind];
         const std::optional<DamageReached> reached = railstrata::gather(rate, step, depth_[p], damage);
-        if (!reached) continue;
+        if (!reached || reached->depth < kShallowest) continue;
         const Key key{zone.zone, reached->depth <= kSkin, kind};
         const FirstFailure failure{since + reached->share * step.traffic, reached->depth, s_[column]};
         const auto [first, fresh] = failures_.emplace(key, failure);
@@ -59,9 +59,20 @@ WorstPoint GatheredDamage::worst(std::size_t kind, const std::vector<double>& re
   WorstPoint out;
   for (std::size_t c = 0; c < s_.size(); ++c)
     for (std::size_t p = 0; p < depth_.size(); ++p) {
-      if (depth_[p] < removed[c]) continue;
+      if (depth_[p] < removed[c] + kShallowest) continue;
       const double d = damage(c, p, kind);
       if (d > out.damage) out = {d, s_[c], depth_[p]};
+    }
+  return out;
+}
+
+double GatheredDamage::depth_reached(std::size_t kind, const std::vector<double>& removed) const {
+  double out = 0;
+  for (std::size_t c = 0; c < s_.size(); ++c)
+    for (std::size_t p = 0; p < depth_.size(); ++p) {
+      if (depth_[p] < removed[c]) continue;
+      if (damage(c, p, kind) < 1) break;
+      out = std::max(out, depth_[p] - removed[c]);
     }
   return out;
 }

@@ -20,6 +20,10 @@ struct DamageRates {
 inline constexpr std::size_t kDamages = 7;
 std::array<double, kDamages> numbers_of(const DamageRates& rates);
 
+/// m: metal that has failed less deep below the surface of the day is not called a failure. The skin wears off, its
+/// stresses are those of asperities, and what eddy currents find first is 0.1 to 0.5 mm deep.
+inline constexpr double kShallowest = 0.1e-3;
+
 /// The largest of a damage, and where.
 struct WorstPoint {
   double damage = 0, s = 0, depth = 0;  ///< m, of the unworn rail
@@ -41,7 +45,7 @@ class GatheredDamage {
   /// between). Points that fail are noted.
   void gather(std::size_t column, const std::vector<ZoneRates>& rates, const SinkingStep& step, double since);
 
-  /// The first failures by zone, by place (surface: up to 0.2 mm deep at that time) and by damage.
+  /// The first failures by zone, by place (surface: kShallowest to 0.2 mm deep at that time) and by damage.
   struct FirstFailure {
     double traffic = 0, depth = 0, s = 0;  ///< depth below the surface of that time
   };
@@ -52,8 +56,10 @@ class GatheredDamage {
     auto operator<=>(const Key&) const = default;
   };
   const std::map<Key, FirstFailure>& failures() const { return failures_; }
-  /// Of the metal that is left below `removed` [m, of columns].
+  /// Of the metal that lies kShallowest or deeper below a surface that has sunk by `removed` [m, of columns].
   WorstPoint worst(std::size_t damage, const std::vector<double>& removed) const;
+  /// m, below that surface: so deep has all metal failed from it on, where that is deepest.
+  double depth_reached(std::size_t damage, const std::vector<double>& removed) const;
   /// By depth of the unworn rail.
   const std::vector<double>& depths() const { return depth_; }
   double damage(std::size_t column, std::size_t point, std::size_t kind) const {
