@@ -130,8 +130,11 @@ ReportChart way_chart(const FollowedTraffic& traffic) {
                                    used_line(result, "closed cycles used", "low-cycle fatigue", &ClockMoment::cycles),
                                    used_line(result, "fatigue used", "fatigue", &ClockMoment::fatigue)})
     if (*std::max_element(used.y.begin(), used.y.end()) > 0) out.series.push_back(used);
-  if (const double most = result.history.back().removed; most > 0)
-    out.series.push_back(depth_line(result, "removed depth", &ClockMoment::removed, round_up(most)));
+  const ClockMoment& end = result.history.back();
+  const double one = round_up(std::max(end.removed, end.exhausted));
+  if (end.removed > 0) out.series.push_back(depth_line(result, "removed depth", &ClockMoment::removed, one));
+  if (end.exhausted > 0)
+    out.series.push_back(depth_line(result, "skin without ductility", &ClockMoment::exhausted, one));
   if (const double layer = result.history.front().layer_left; std::isfinite(layer))
     out.series.push_back(depth_line(result, "layer left", &ClockMoment::layer_left, layer));
   if (const GrindingSpec& grinding = traffic.spec.life.grinding; grinding.every && *grinding.every <= result.reached)
