@@ -149,7 +149,7 @@ TEST(TrafficRange, ALifeOnALineHasThePowersOfItsLimit) {
   EXPECT_NEAR(strength.life[1].mgt / out.first.best, std::pow(1.1, 8), 1e-6);
   // and Miner's sum 1/3 to 3, where the stress stays above the limit
   EXPECT_NEAR(std::log(out.first.low / out.first.best), -std::hypot(std::log(3), 8 * std::log(0.9)), 1e-6);
-  EXPECT_NE(told.back().find("run 3 of 3, strength 1.1 times: first crack"), std::string::npos) << told.back();
+  EXPECT_NE(told.back().find("run 3 of 3, strength × 1.1: first crack"), std::string::npos) << told.back();
   EXPECT_TRUE(control.on_info && !control.on_progress) << "as they were";
 }
 
@@ -167,7 +167,7 @@ TEST(UncertainInputs, EveryInputHasTwoDeviationsToBothSides) {
   EXPECT_NEAR(*inputs[0].ends[1].spec.passes.ductility, 13, 1e-12);
   EXPECT_EQ(inputs[1].ends[0].value, "0.28");
   EXPECT_NEAR(inputs[1].ends[1].spec.drive.friction_coefficient, 0.52, 1e-12);
-  EXPECT_EQ(inputs[2].ends[0].value, "0.93 times");
+  EXPECT_EQ(inputs[2].ends[0].value, "× 0.93");
   EXPECT_NEAR(inputs[3].ends[0].spec.collective.wear_factor, 0.6, 1e-12);
   EXPECT_EQ(inputs[4].ends[1].value, "+1 mm");
   EXPECT_NEAR(*inputs[4].ends[1].spec.loads[0].lateral_shift, 3e-3, 1e-12);

@@ -193,8 +193,8 @@ ReportChart deciding_chart(const TrafficRange& range) {
                                    ReportSeries{.name = "at the higher value", .x = {}, .y = {}}};
   for (auto e = range.effects.rbegin(); e != range.effects.rend(); ++e) {
     const double row = static_cast<double>(out.bars.size());
-    out.bars.push_back(
-        fmt::format("{}: {} to {} ({:.0f} %)", e->input, e->value[0], e->value[1], kToPercent * e->share));
+    const std::string values = e->key.empty() ? "" : fmt::format(" {} to {}", e->value[0], e->value[1]);
+    out.bars.push_back(fmt::format("{}{} ({:.0f} %)", e->input, values, kToPercent * e->share));
     for (std::size_t end = 0; end < ends.size(); ++end) {
       if (!e->known[end]) continue;
       const double life =

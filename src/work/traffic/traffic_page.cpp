@@ -26,17 +26,27 @@ std::string range_words(const FollowedTraffic& t, const LifeRange& range) {
   return fmt::format(" ({} to {})", end(range.low), end(range.high));
 }
 
+ReportAnswer unknown_answer(const FollowedTraffic& t) {
+  std::vector<std::string> lacking;
+  for (const LifeRow& row : t.best().lives) {
+    const std::string text = fmt::format("{} of {} (give {})", row.mechanism, row.zone, row.rests_on);
+    if (!row.known() && std::find(lacking.begin(), lacking.end(), text) == lacking.end()) lacking.push_back(text);
+  }
+  if (lacking.empty()) return {};
+  return {"plain", "Not known", fmt::format("{}", fmt::join(lacking, "; "))};
+}
+
 ReportAnswer crack_answer(const FollowedTraffic& t) {
   const LifeRow* row = first_damage(t.best().lives);
   if (!row) return {"open", "First crack", "not known"};
-  if (std::isinf(row->mgt.best))
-    return {"good", "No crack",
-            fmt::format(
-                "within the {:.3g} MGT that were followed{}", row->followed,
-                t.has_range()
-                    ? fmt::format("; with the range of what is not known from {} MGT on",
-                                  range_text({t.range.first.low, t.range.first.low, t.range.first.low}, row->followed))
-                    : "")};
+  if (std::isinf(row->mgt.best)) {
+    const bool sure = std::isinf(t.range.first.low) && unknown_answer(t).text.empty();
+    return {sure ? "good" : "open", "No crack",
+            fmt::format("within the {:.3g} MGT that were followed{}", row->followed,
+                        std::isinf(t.range.first.low)
+                            ? ""
+                            : fmt::format("; at the lower end of its range after {:.3g} MGT", t.range.first.low))};
+  }
   return {"open", "First crack",
           fmt::format("after {:.3g} MGT{} at {}, {:.2f} mm deep ({}, {}), by {}", row->mgt.best,
                       range_words(t, t.range.first), place_text(row->y), unit::kMillimetres.factor * row->depth,
@@ -69,16 +79,6 @@ ReportAnswer deciding_answer(const FollowedTraffic& t) {
   if (!t.has_range()) return {"plain", "Range", "one run with the best values; the flag --range computes it"};
   const std::string text = deciding_text(t.range);
   return {"plain", "Range", text.empty() ? "no input changes this answer" : text};
-}
-
-ReportAnswer unknown_answer(const FollowedTraffic& t) {
-  std::vector<std::string> lacking;
-  for (const LifeRow& row : t.best().lives) {
-    const std::string text = fmt::format("{} of {} (give {})", row.mechanism, row.zone, row.rests_on);
-    if (!row.known() && std::find(lacking.begin(), lacking.end(), text) == lacking.end()) lacking.push_back(text);
-  }
-  if (lacking.empty()) return {};
-  return {"plain", "Not known", fmt::format("{}", fmt::join(lacking, "; "))};
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ UncertainInput factor_of(const CaseSpec& spec, const char* name, const char* key
   UncertainInput out{name, key, {}};
   for (std::size_t end = 0; end < out.ends.size(); ++end) {
     const double factor = 1 + (end == 0 ? -1 : 1) * kDeviations * scatter;
-    out.ends[end] = {best ? fmt::format("{:.3g}", factor * *best) : fmt::format("{:.3g} times", factor), spec};
+    out.ends[end] = {best ? fmt::format("{:.3g}", factor * *best) : fmt::format("× {:.3g}", factor), spec};
     scaled_by(out.ends[end].spec, factor);
   }
   return out;

@@ -15,7 +15,7 @@ namespace railstrata {
 
 /// A case with one number at an end of its spread.
 struct InputEnd {
-  std::string value;  ///< as people read it: "0.245", "0.93 times", "-1 mm"
+  std::string value;  ///< as people read it: "0.245", "× 0.93", "-1 mm"
   CaseSpec spec;
 };
 
