@@ -53,7 +53,7 @@ endfunction()
 # source with compile options of its own stays alone. Rooms that compute nothing are compiled with -O1.
 set(SOURCES_AT_ONCE 24)
 set(ROOMS_THAT_COMPUTE_NOTHING record text spec options tables rules reader hdf5 io passes report jobs ask runs many
-  laboratory collective creep study validate wear clock explore app bridge batch usetab export)
+  laboratory collective creep study validate wear clock traffic explore app bridge batch usetab export)
 
 # railstrata_light(TARGET NAME): these rules for the sources of a room or of its tests.
 function(railstrata_light target name)

@@ -114,6 +114,20 @@ TEST(SlowPatchRolling, WithFrictionItShakesDownToTheLimitOfOneTrackAndRatchetsBe
   EXPECT_GT(verdict.rate * kShear, 0.5);
 }
 
+// Into a body without strain of earlier passes: the rows that are left out do not flow.
+TEST(PatchRolling, APassWithinABodyIsThatOfTheBodyAlone) {
+  PatchRolling alone(patch_grid(.5, .2), 4.2), within(patch_grid(.5, .2), 4.2);
+  alone.body.run_pass(alone.contact, alone.state);
+  const Field before(6 * within.body.grid().points(), 0.0);
+  within.body.run_pass_within(before, within.contact, within.body.balls_of(within.contact), within.state);
+  double most = 0;
+  for (std::size_t n = 0; n < alone.state.history.size(); ++n) {
+    most = std::max(most, std::abs(alone.state.history[n]));
+    EXPECT_NEAR(within.state.history[n], alone.state.history[n], 1e-6);
+  }
+  EXPECT_GT(most, 1e-3) << "it flows";
+}
+
 TEST(PatchRolling, LinearKinematicHardeningStopsWhatRatchets) {
   PatchRolling run(patch_grid(0.2, 0.1), 4.7, 0.2, 60);
   const std::vector<PassStrain> all = roll(run, 20);

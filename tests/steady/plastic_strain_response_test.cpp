@@ -99,6 +99,29 @@ TEST(PlasticStrainResponse, UniformPlasticStrainOfALayerLeavesItsClosedFormStres
   }
 }
 
+TEST(PlasticStrainResponse, RowsThatDoNotCountChangeNothingInTheOthers) {
+  const SteadyGrid g = grid(16, 8, 6);
+  const RowModuli m = moduli(210e9, .3);
+  const PlasticStrainResponse response(g, std::vector<RowModuli>(6, m), m);
+  Field all(g.size()), some(g.size(), 7);
+  const std::vector<bool> rows{true, false, true, true, false, false};
+  for (int c = 0; c < 6; ++c)
+    for (int r = 0; r < 6; ++r)
+      for (int i = 0; rows[static_cast<std::size_t>(r)] && i < g.nx; ++i)
+        for (int j = 0; j < g.ny; ++j)
+          all[g.index(c, r, i, j)] = some[g.index(c, r, i, j)] = std::sin(c + 2 * i + 3 * j);
+  response.apply(all);
+  response.apply(some, nullptr, rows);
+  for (int c = 0; c < 6; ++c)
+    for (int r = 0; r < 6; ++r)
+      for (int i = 0; i < g.nx; ++i)
+        for (int j = 0; j < g.ny; ++j)
+          if (const std::size_t at = g.index(c, r, i, j); rows[static_cast<std::size_t>(r)])
+            EXPECT_NEAR(some[at], all[at], 1e-13);
+          else
+            EXPECT_EQ(some[at], 7) << "left as it was";
+}
+
 /// Displacement of a half-plane's surface at 0 by plastic strain in a rectangle: u_i = integral of E^p : S_i, S_i the
 /// stress of a unit line load along i at that place (Flamant). Normal: E^p_tt = -E^p_zz = 1; shear: E^p_tz = 1.
 struct OfRectangle {

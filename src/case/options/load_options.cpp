@@ -23,6 +23,11 @@ double passages_of(const CaseSpec& spec, std::size_t index, double million_tonne
 bool has_life(const CaseSpec& spec, std::size_t i) { return has_loads(spec, i) || spec.life.until > 0; }
 bool grinds(const CaseSpec& spec, std::size_t) { return spec.life.grinding.every.has_value(); }
 
+/// A coefficient of variation that leaves a number above zero two deviations lower.
+Option scatter(std::string_view key, Slot (*slot)(CaseSpec&, std::size_t), std::string_view doc) {
+  return option(key, slot, doc, kNumber, {0, 0.45}).where(has_loads);
+}
+
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
 
 std::vector<Option> force_options() {
@@ -144,17 +149,29 @@ OptionTable life_table() {
       {option(
            "until", at<&CaseSpec::life, &LifeSpec::until>,
            "Gross traffic through which the rail is followed, a mass: \"50 Mt\" are 50 million tonnes. Wear and "
-           "grinding "
-           "change the profile, plastic strain adds up in the metal; from it come the lives of zones that yield. 0: "
-           "the "
-           "rail is not followed. `railstrata collective --until` sets it. Without [[load]] every wheel is that of the "
-           "case",
+           "grinding change the profile, plastic strain adds up in the metal; from it come the lives of zones that "
+           "yield. 0: the rail is not followed. `railstrata collective --until` sets it. Without [[load]] every wheel "
+           "is that of the case",
            kMass, {0, 1e13}),
        option("strength_scatter", at<&CaseSpec::life, &LifeSpec::strength_scatter>,
               "Coefficient of variation of the strengths of rail, wheel and layers. The range of a life by fatigue or "
-              "by a first wheel covers strengths two deviations lower and higher",
+              "by a first wheel covers strengths two deviations lower and higher. Not given: 0; with `collective "
+              "--range` 0.035, the hardness that EN 13674-1 allows R260",
               kNumber, {0, 0.2})
-           .where(has_life)}};
+           .where(has_life),
+       scatter("ductility_scatter", at<&CaseSpec::life, &LifeSpec::ductility_scatter>,
+               "Coefficient of variation of passes.ductility for `collective --range`, which computes two deviations "
+               "lower and higher. 0: as known. The default is an estimate"),
+       scatter("friction_scatter", at<&CaseSpec::life, &LifeSpec::friction_scatter>,
+               "The same of all friction coefficients together: the default takes 0.35 from 0.245 to 0.455, an "
+               "estimate for a dry curve"),
+       scatter("wear_scatter", at<&CaseSpec::life, &LifeSpec::wear_scatter>,
+               "The same of collective.wear_factor. The default is an estimate for a factor measured on the line"),
+       option("place_scatter", at<&CaseSpec::life, &LifeSpec::place_scatter>,
+              "Standard deviation of what is not known of the lateral shift of all wheels together, for `collective "
+              "--range`; the wheels' scatter about it is collective.lateral_deviation. The default is an estimate",
+              kLength, {0, 0.01})
+           .where(has_loads)}};
 }
 
 OptionTable grinding_table() {

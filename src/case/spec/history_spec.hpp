@@ -77,10 +77,15 @@ struct GrindingSpec {
 
 /// What lives are computed from beside the strengths (lives/zone_life.hpp, clock/clock.hpp).
 struct LifeSpec {
-  double until = 0;             ///< kg of gross traffic through which rail and metal are followed; 0: they are not
-  double strength_scatter = 0;  ///< coefficient of variation of the strengths
+  double until = 0;  ///< kg of gross traffic through which rail and metal are followed; 0: they are not
+  // What is not known of a number that holds for all wheels and all metal: coefficients of variation, of the place a
+  // standard deviation [m]. A range covers two of them to both sides.
+  std::optional<double> strength_scatter;  ///< not given: none, in a range of the traffic kStrengthScatter
+  double ductility_scatter = 0.15, friction_scatter = 0.15, wear_scatter = 0.2, place_scatter = 0.5e-3;
   GrindingSpec grinding;
 };
+/// Hardness of a grade's delivery: two of it reach from 260 to 300 HBW of R260. [EN13674]
+inline constexpr double kStrengthScatter = 0.035;
 
 /// Whether passes are jumped over (steady/pass_jump.hpp).
 enum class PassJump { off, automatic };

@@ -28,6 +28,9 @@
 #include "record/output_file.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "runs/write_report.hpp"
+#include "traffic/range_files.hpp"
+#include "traffic/traffic_page.hpp"
+#include "traffic/traffic_range.hpp"
 #include "wear/wear_loop_job.hpp"
 
 namespace railstrata {
@@ -78,9 +81,15 @@ const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_
                                         {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
                                         {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};
 
+/// `collective --until --range`.
+struct TrafficOptions {
+  std::string until;   ///< a mass
+  bool range = false;  ///< a run for each end of what is not known
+};
+
 /// Rail and metal through the traffic of --until [kg]; the rail's lives become those of it.
-std::optional<ClockResult> follow_traffic(const CommandOptions& options, const LoadedCase& loaded, double horizon,
-                                          CollectiveDamage& damage) {
+std::optional<TrafficRange> follow_traffic(const CommandOptions& options, const LoadedCase& loaded, double horizon,
+                                           bool range, CollectiveDamage& damage) {
   if (!(horizon > 0)) return {};
   InfluenceCache cache;
   ClockOptions how;
@@ -88,7 +97,8 @@ std::optional<ClockResult> follow_traffic(const CommandOptions& options, const L
   how.bem.cache = &cache;
   how.control = &control_by_signals();
   how.horizon = horizon;
-  ClockResult out = run_clock(loaded.spec, loaded.folder(), how);
+  TrafficRange out = range ? run_range(loaded.spec, loaded.folder(), how, control_by_signals())
+                           : range_of({{"", "", run_clock(loaded.spec, loaded.folder(), how)}}, {});
   how.control->progress("");
   std::vector<LifeRow>& rows = damage.lives.rows;
   std::erase_if(rows, [&](const LifeRow& row) {
@@ -101,27 +111,27 @@ std::optional<ClockResult> follow_traffic(const CommandOptions& options, const L
   return out;
 }
 
-void print_collective(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
+void print_collective(const std::vector<CollectiveRow>& rows, const std::vector<ReportAnswer>& answers,
                       const std::optional<MeasuredWear>& measured) {
   const CaseTable table = collective_table(rows);
   print_rows(joined(std::vector<CaseColumn>{{"load", [](const CaseRow& row) { return row.name; }}},
                     answer_columns(table.rows)),
              kListed, table.rows);
-  for (const ReportAnswer& a : collective_answers(rows, damage)) fmt::print("{}: {}\n", a.title, printable(a.text));
+  for (const ReportAnswer& a : answers) fmt::print("{}: {}\n", a.title, printable(a.text));
   if (measured) fmt::print("Measured wear: {}\n", measured_text(*measured));
 }
 
 /// Returns whether the page's verdict holds, true without a page.
 bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& out,
                          const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
-                         const std::vector<ReportChart>& history) {
+                         const CollectiveFront& front) {
   const CollectiveRow* shown = shown_row(rows);
   if (!shown) return true;
   const std::filesystem::path page = out / "report.html";
   return write_page_or_warn(page, control(), [&] {
     write_row(options, loaded, out / kRowFolder, *shown);
     return WrittenPage{
-        write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name, history), {}};
+        write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name, front), {}};
   });
 }
 
@@ -131,10 +141,27 @@ struct MeasuredOptions {
   std::string tonnes;         ///< a mass
 };
 
-ExitCode command_collective(const CommandOptions& options, const std::string& until, const MeasuredOptions& wanted) {
+void write_traffic(const std::filesystem::path& out, const LoadedCase& loaded, const TrafficRange& traffic) {
+  const ClockResult& best = traffic.runs.front().result;
+  write_history(out / "history.csv", table_origin(loaded), best);
+  write_worn_rail(out / "worn_rail.csv", table_origin(loaded), best);
+  if (traffic.runs.size() > 1) write_range(out / "range.csv", table_origin(loaded), traffic);
+}
+
+nlohmann::ordered_json traffic_json(const TrafficRange& traffic) {
+  nlohmann::ordered_json out = history_json(traffic.runs.front().result);
+  if (traffic.runs.size() > 1) out["range"] = range_json(traffic);
+  return out;
+}
+
+ExitCode command_collective(const CommandOptions& options, const TrafficOptions& followed,
+                            const MeasuredOptions& wanted) {
   const double tonnes = wanted.before.empty() ? 0 : 1e-3 * mass_of("--tonnes", wanted.tonnes);
-  const double horizon = until.empty() ? 0 : mass_of("--until", until);
+  const double asked = followed.until.empty() ? 0 : mass_of("--until", followed.until);
   const LoadedCase loaded = load_case_of(options, uses::kCollective);
+  const double horizon = asked > 0 ? asked : tonnes > 0 ? 0 : loaded.spec.life.until;
+  if (followed.range && !(horizon > 0))
+    throw CaseError("--range: the rail is not followed", "give --until \"50 Mt\", or life.until in the case");
   std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
   const double cell = cell_size(options.cell);
   const Placement placement = place(loaded.spec, loaded.folder());
@@ -151,16 +178,17 @@ ExitCode command_collective(const CommandOptions& options, const std::string& un
   }
   CollectiveDamage damage{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
   damage.lives = collective_lives(loaded.spec, rows, damage.rail, damage.wheel);
-  const std::optional<ClockResult> history = follow_traffic(options, loaded, horizon, damage);
-  if (history) {
-    write_history(out / "history.csv", table_origin(loaded), *history);
-    write_worn_rail(out / "worn_rail.csv", table_origin(loaded), *history);
+  const std::optional<TrafficRange> traffic = follow_traffic(options, loaded, horizon, followed.range, damage);
+  CollectiveFront front;
+  if (traffic) {
+    write_traffic(out, loaded, *traffic);
+    front = traffic_front({loaded.spec, rows, damage.rail, *traffic, horizon, cell});
   }
   write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage.rail);
   write_wheel_damage(out / "wheel_damage.csv", table_origin(loaded), damage.wheel);
   write_lives(out / "life.csv", table_origin(loaded), damage.lives);
   nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
-  if (history) json["traffic"] = history_json(*history);
+  if (traffic) json["traffic"] = traffic_json(*traffic);
   std::optional<MeasuredWear> measured;
   if (tonnes > 0) measured = measured_wear(rows, damage.rail, wanted.before, wanted.after, tonnes);
   if (measured) json["measured_wear"] = measured_json(*measured);
@@ -168,14 +196,13 @@ ExitCode command_collective(const CommandOptions& options, const std::string& un
   if (options.json)
     fmt::print("{}\n", json_text(json, 2));
   else
-    print_collective(rows, damage, measured);
-  const bool page_holds =
-      !options.page || add_collective_page(options, loaded, out, rows, damage,
-                                           history ? history_charts(*history) : std::vector<ReportChart>{});
-  if (history)
-    for (const std::string& note : history->notes) spdlog::warn("{}", note);
+    print_collective(rows, traffic ? front.answers : collective_answers(rows, damage), measured);
+  const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage, front);
+  if (traffic)
+    for (const std::string& note : traffic->runs.front().result.notes) spdlog::warn("{}", note);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
+  if (traffic && control().stop) return ExitCode::interrupted;
   return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;
 }
 
@@ -209,7 +236,7 @@ ExitCode collective_wear(const WearOptions& wanted, const CommandOptions& option
 
 CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
   const auto wear = std::make_shared<WearOptions>();
-  const auto until = std::make_shared<std::string>();
+  const auto followed = std::make_shared<TrafficOptions>();
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-collective, or -wear-loop");
   add_cell(sub, options);
@@ -230,11 +257,14 @@ CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
   for (auto* option : {before, after, tonnes})
     for (auto* other : {before, after, tonnes})
       if (option != other) option->needs(other);
-  auto* traffic = sub.add_option("--until", *until,
+  auto* traffic = sub.add_option("--until", followed->until,
                                  "Follow the rail through so much gross traffic: wear, grinding, strain and damage "
-                                 "of the same metal on the profile of the day, e.g. \"50 Mt\"");
+                                 "of the same metal on the profile of the day, e.g. \"50 Mt\"; not given: life.until");
   for (auto* other : std::initializer_list<CLI::Option*>{steps, passages, most, resume, before})
     traffic->excludes(other);
+  sub.add_flag("--range", followed->range,
+               "Of the rail that is followed: one more run for each end of what is not known (life.ductility_scatter and its "
+               "neighbours), up to 11 in all; the lives have the range of all, and the answer names what decides");
   add_no_report(sub, options);
   return [=, &options] {
     if (*before && (*steps || *passages))
@@ -243,7 +273,7 @@ CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
     if (*most || *resume)
       throw CaseError(fmt::format("{} belongs to wear, step by step", *most ? "--max-wear" : "--resume"),
                       "give --steps 10, or --passages 2e6, or both with it");
-    return command_collective(options, *until, *measured);
+    return command_collective(options, *followed, *measured);
   };
 }
 

@@ -152,7 +152,7 @@ AddKind by_fatigue(const LifeZone& z) {
 
 /// ", strengths ± 20 %", or nothing.
 std::string scatter_text(const CaseSpec& spec) {
-  const double scatter = spec.life.strength_scatter;
+  const double scatter = spec.life.strength_scatter.value_or(0);
   return scatter > 0 ? fmt::format(", strengths ± {:.3g} %", 100 * (strength_factor(spec, 2) - 1)) : "";
 }
 
@@ -177,7 +177,7 @@ void add_damages(const LifeZone& z, FoundLives& out) {
 
 /// Units until wear and grinding have taken so much somewhere, and where.
 void add_worn_through(const LifeZone& z, std::vector<LifeRow>& out) {
-  LifeRow row = z.row("layer", "worn through");
+  LifeRow row = z.row("layer", kWornThrough);
   for (const WearLaw law : kWearLaws) {
     if (z.across.wear[static_cast<std::size_t>(law)].empty()) continue;
     double least = kNever;
@@ -304,7 +304,7 @@ std::string number_text(double v, double followed) {
 }  // namespace
 
 double strength_factor(const CaseSpec& spec, std::size_t variant) {
-  return 1 + 2 * spec.life.strength_scatter * (static_cast<double>(variant) - 1);
+  return 1 + 2 * spec.life.strength_scatter.value_or(0) * (static_cast<double>(variant) - 1);
 }
 
 Lives zone_lives(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const RailDamage& rail,

@@ -26,6 +26,9 @@
 
 namespace railstrata {
 
+/// The way of ending of a layer that wear and grinding take away; all others are damages.
+inline constexpr const char* kWornThrough = "worn through";
+
 /// m, the upper part of a body that counts as its surface.
 inline constexpr double kSkin = 0.2e-3;
 

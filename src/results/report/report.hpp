@@ -92,6 +92,8 @@ struct ReportChart {
   std::string id, title, note;
   std::string x, y;  ///< axes, with units
   std::vector<ReportSeries> series;
+  std::vector<std::string> bars{};  ///< names of y = 0, 1, … from below, where lines are bars; x is logarithmic then
+  bool wide = false;                ///< as wide as the page
 };
 
 /// A row of maps of one quantity, one for each run, on one scale.

@@ -77,6 +77,7 @@ class Clock {
   std::vector<double> day_feet() const;
   double largest_pressure() const;
   void note(const ClockMoment& stretch);
+  bool ratchets_on() const;
   void conclude();
   std::string lacks(int zone, std::size_t mechanism) const;
   LifeRow life_row(const GatheredDamage::Key& key) const;
@@ -415,7 +416,7 @@ void Clock::note(const ClockMoment& of_stretch) {
   if (!metal_->flow().net.empty()) m.net = *std::max_element(metal_->flow().net.begin(), metal_->flow().net.end());
   out_.history.push_back(m);
   if (options_.control)
-    options_.control->info(
+    options_.control->detail(
         "{:.3g} MGT: removed {:.0f} µm, p_max {:.0f} MPa, strain {:.2e} a wheel, ductility used {:.3g} (y {:.1f} mm, "
         "{:.2f} mm deep), used up to {:.2f} mm, {} changes, {:.2f} unsettled",
         1e-9 * m.kilograms, 1e6 * m.removed, 1e-6 * m.p_max, m.net, m.ductility, 1e3 * m.ductility_y,
@@ -460,14 +461,24 @@ LifeRow Clock::life_row(const GatheredDamage::Key& key) const {
   return row;
 }
 
+/// Whether the rate of strain has fallen less than the root of the traffic in the second half of it.
+bool Clock::ratchets_on() const {
+  const auto half = std::find_if(out_.history.begin(), out_.history.end(),
+                                 [&](const ClockMoment& m) { return m.net > 0 && m.kilograms >= 0.5 * out_.reached; });
+  if (half == out_.history.end()) return false;
+  const ClockMoment& end = out_.history.back();
+  return end.net > half->net * std::sqrt(half->kilograms / end.kilograms) * (1 - 1e-9) && &*half != &end;
+}
+
 void Clock::conclude() {
   const std::size_t zones = feet_.size();
   for (std::size_t zone = 0; zone <= zones; ++zone)
-    for (const bool surface : {true, false}) {
-      if (surface && zone != (zones > 0 ? 1u : 0u)) continue;
-      for (const std::size_t damage : {std::size_t{0}, std::size_t{1}, std::size_t{4}})
+    for (const std::size_t damage : {std::size_t{0}, std::size_t{1}, std::size_t{4}})
+      for (const bool surface : {true, false}) {
+        if (surface && zone != (zones > 0 ? 1u : 0u)) continue;
         out_.lives.push_back(life_row({static_cast<int>(zone), surface, damage}));
-    }
+        if (out_.lives.back().place.empty()) break;  // not known, wherever
+      }
   if (zones > 0) {
     const double when = out_.ended.empty() ? kNever : 1e-9 * out_.reached;
     const double wheels = out_.ended.empty() ? kNever : wheels_;
@@ -480,6 +491,12 @@ void Clock::conclude() {
                           .rests_on = fmt::format("followed to {:.3g} MGT", 1e-9 * out_.reached),
                           .followed = 1e-9 * out_.reached});
   }
+  const double net = out_.history.empty() ? 0 : out_.history.back().net;
+  if (net >= kNoFlow && ratchets_on())
+    out_.notes.push_back(fmt::format(
+        "strain still grows by {:.2g} a wheel and hardly fades: the law of hardening (Armstrong and Frederick) ratchets "
+        "for ever, while the rate of rail steel falls: lives by ductility are lower limits",
+        net));
   out_.profile = surface_.points();
 }
 

@@ -1,10 +1,8 @@
 #include "clock/clock_files.hpp"
 
-#include <cmath>
-
 #include "record/column.hpp"
 #include "record/csv.hpp"
-#include "record/number_text.hpp"
+#include "record/json.hpp"
 #include "record/unit.hpp"
 
 namespace railstrata {
@@ -48,38 +46,8 @@ void write_worn_rail(const std::filesystem::path& file, const std::vector<std::s
 
 Json history_json(const ClockResult& result) {
   Json rows = Json::array();
-  for (const ClockMoment& m : result.history)
-    rows.push_back({{"traffic_MGT", 1e-9 * m.kilograms},
-                    {"removed_m", m.removed},
-                    {"p_max_Pa", m.p_max},
-                    {"ductility_used", m.ductility},
-                    {"cycles_used", m.cycles},
-                    {"fatigue_used", m.fatigue}});
+  for (const ClockMoment& m : result.history) rows.push_back(json_record(m, moment_columns()));
   return {{"followed_MGT", 1e-9 * result.reached}, {"ended", result.ended}, {"notes", result.notes}, {"history", rows}};
-}
-
-std::vector<ReportChart> history_charts(const ClockResult& result) {
-  ReportChart used{"history-damage",
-                   "Damage over the traffic",
-                   "Largest shares of the metal that is still there, at the end of each stretch; at 1 it fails.",
-                   "traffic [MGT]",
-                   "share used",
-                   {}};
-  ReportChart removed{"history-removed", "Removed by wear and grinding, where most has gone", "",
-                      "traffic [MGT]",   titled("depth", unit::kMillimetres.shown),           {}};
-  std::vector<double> mgt;
-  for (const ClockMoment& m : result.history) mgt.push_back(1e-9 * m.kilograms);
-  const auto line = [&](const char* name, double ClockMoment::*value, double factor) {
-    ReportSeries out{.name = name, .x = mgt, .y = {}, .markers = true};
-    for (const ClockMoment& m : result.history) out.y.push_back(factor * (m.*value));
-    return out;
-  };
-  used.series = {line("ductility", &ClockMoment::ductility, 1), line("closed cycles", &ClockMoment::cycles, 1),
-                 line("fatigue", &ClockMoment::fatigue, 1)};
-  removed.series = {line("removed", &ClockMoment::removed, unit::kMillimetres.factor)};
-  if (!result.history.empty() && std::isfinite(result.history.front().layer_left))
-    removed.series.push_back(line("layer left", &ClockMoment::layer_left, unit::kMillimetres.factor));
-  return {used, removed};
 }
 
 }  // namespace railstrata

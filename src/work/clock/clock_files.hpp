@@ -1,5 +1,5 @@
 #pragma once
-// The history of a rail through its traffic as a table and pictures.
+// The history of a rail through its traffic as a table.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "clock/clock.hpp"
-#include "report/report.hpp"
 
 namespace railstrata {
 
@@ -17,9 +16,7 @@ void write_history(const std::filesystem::path& file, const std::vector<std::str
 /// worn_rail.csv: the profile at the end, in the frame of the unworn one.
 void write_worn_rail(const std::filesystem::path& file, const std::vector<std::string>& origin,
                      const ClockResult& result);
+/// The same rows in SI, with what was followed and why it ended.
 nlohmann::ordered_json history_json(const ClockResult& result);
-
-/// Over gross tonnes: the largest damages of the metal that is left, and what has been removed.
-std::vector<ReportChart> history_charts(const ClockResult& result);
 
 }  // namespace railstrata

@@ -292,26 +292,6 @@ ReportChart wheel_chart(const WheelDamage& d) {
   return out;
 }
 
-/// Round factor by which the largest value is drawn some 5 mm long.
-double magnification(const std::vector<double>& values) {
-  constexpr double kDrawn = 5e-3;
-  const double most = *std::max_element(values.begin(), values.end());
-  return most > 0 ? std::pow(10, std::floor(std::log10(kDrawn / most))) : 0;
-}
-
-/// Points of the profile moved along its normal, outwards positive.
-ReportSeries beside_profile(const std::string& name, const RailDamage& d, const std::vector<double>& outwards) {
-  ReportSeries out{.name = name, .x = {}, .y = {}, .markers = false};
-  for (std::size_t i = 0; i < d.y.size(); ++i) {
-    const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, d.y.size() - 1);
-    const double dy = d.y[after] - d.y[before], dz = d.z[after] - d.z[before], length = std::hypot(dy, dz);
-    const double up = dy > 0 ? 1 : -1;
-    out.x.push_back(as_shown(unit::kMillimetres, d.y[i] - up * outwards[i] * dz / length));
-    out.y.push_back(as_shown(unit::kMillimetres, d.z[i] + up * outwards[i] * dy / length));
-  }
-  return out;
-}
-
 /// Wear and fatigue on the rail's head.
 ReportChart head_chart(const RailDamage& d) {
   ReportChart out{"profile",
@@ -358,6 +338,24 @@ std::vector<ReportChart> charts_of(const RailDamage& d) {
 }
 
 }  // namespace
+
+double magnification(const std::vector<double>& values) {
+  constexpr double kDrawn = 5e-3;
+  const double most = *std::max_element(values.begin(), values.end());
+  return most > 0 ? std::pow(10, std::floor(std::log10(kDrawn / most))) : 0;
+}
+
+ReportSeries beside_profile(const std::string& name, const RailDamage& d, const std::vector<double>& outwards) {
+  ReportSeries out{.name = name, .x = {}, .y = {}, .markers = false};
+  for (std::size_t i = 0; i < d.y.size(); ++i) {
+    const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, d.y.size() - 1);
+    const double dy = d.y[after] - d.y[before], dz = d.z[after] - d.z[before], length = std::hypot(dy, dz);
+    const double up = dy > 0 ? 1 : -1;
+    out.x.push_back(as_shown(unit::kMillimetres, d.y[i] - up * outwards[i] * dz / length));
+    out.y.push_back(as_shown(unit::kMillimetres, d.z[i] + up * outwards[i] * dy / length));
+  }
+  return out;
+}
 
 ShownCells cells_above(const std::vector<double>& values, double least, std::size_t room) {
   const auto above = [&](double v) { return v > least; };
@@ -473,22 +471,25 @@ std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& r
 ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
                                     const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
                                     const std::filesystem::path& looked_at, const std::string& shown,
-                                    const std::vector<ReportChart>& history) {
+                                    const CollectiveFront& front) {
   Report report;
   report.title = title;
   report.runs.push_back(read_report_run(looked_at));
   report.runs.back().name = shown;
   report.checks = report_checks(report.runs);
   report.checks.insert(report.checks.begin(), unsolved_check(rows));
-  report.answers = collective_answers(rows, damage);
+  const bool followed = !front.answers.empty();
+  report.answers = followed ? front.answers : collective_answers(rows, damage);
+  if (const ReportAnswer compared = comparison_answer(rows); followed && !compared.text.empty())
+    report.answers.push_back(compared);
+  report.tables = front.tables;
   if (!damage.lives.rows.empty()) report.tables.push_back(lives_table(damage.lives));
   report.tables.push_back(totals_table(rows, damage.rail));
   report.tables.push_back(rows_table(rows));
-  report.charts = charts_of(damage.rail);
+  report.charts = followed ? front.charts : charts_of(damage.rail);
   if (const std::optional<ReportChart> life = life_chart(damage.lives))
     report.charts.insert(report.charts.begin(), *life);
   report.charts.push_back(wheel_chart(damage.wheel));
-  report.charts.insert(report.charts.begin(), history.begin(), history.end());
   write_whole_file(page, report_page(report));
   return verdict_of(report);
 }

@@ -47,12 +47,24 @@ nlohmann::ordered_json collective_json(const std::string& title, const std::vect
 /// What the passages do, the worst first: whether and how long the rail lasts, rolling contact fatigue, wear.
 std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage);
 
-/// A page over all rows; `looked_at` is the result folder of the row that it shows whole, by the name `shown`;
-/// `history` comes first of the charts.
+/// What stands first on the page of a collective that was followed through its traffic; empty: it was not.
+struct CollectiveFront {
+  std::vector<ReportAnswer> answers;
+  std::vector<ReportChart> charts;
+  std::vector<ReportTable> tables;
+};
+
+/// A page over all rows; `looked_at` is the result folder of the row that it shows whole, by the name `shown`. With a
+/// front without the rail's sums and answers of the unworn profile, which that replaces.
 ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
                                     const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
                                     const std::filesystem::path& looked_at, const std::string& shown,
-                                    const std::vector<ReportChart>& history = {});
+                                    const CollectiveFront& front = {});
+
+/// Points of the rail's profile moved along its normal by so much [m], outwards positive.
+ReportSeries beside_profile(const std::string& name, const RailDamage& d, const std::vector<double>& outwards);
+/// Round factor by which the largest value [m] is drawn some 5 mm long; 0 where none is above zero.
+double magnification(const std::vector<double>& values);
 
 /// A depth of the cells that is known everywhere.
 struct KnownWear {

@@ -15,14 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// followed: as of LifeRow, in the unit of the value.
-Json life_cell(double value, double followed) {
-  if (std::isnan(value)) return nullptr;
-  if (!std::isinf(value)) return value;
-  if (std::isinf(followed)) return "never";
-  return std::isnan(followed) ? Json(nullptr) : Json(fmt::format("> {:.3g}", followed));
-}
-
 /// Of lives in wheels or km: what was followed is known in MGT alone.
 double followed_otherwise(const LifeRow& r) { return std::isinf(r.followed) ? r.followed : kNotApplicable; }
 
@@ -61,6 +53,13 @@ ReportSeries line(const std::string& name, const std::vector<double>& mgt, const
 }
 
 }  // namespace
+
+Json life_cell(double value, double followed) {
+  if (std::isnan(value)) return nullptr;
+  if (!std::isinf(value)) return value;
+  if (std::isinf(followed)) return "never";
+  return std::isnan(followed) ? Json(nullptr) : Json(fmt::format("> {:.3g}", followed));
+}
 
 void write_lives(const std::filesystem::path& file, const std::vector<std::string>& origin, const Lives& lives) {
   write_whole_file(file, csv_remarks(origin) + csv_lines(life_columns(), lives.rows));

@@ -12,6 +12,10 @@
 
 namespace railstrata {
 
+/// A life as a cell: "never" without end, "> 50" beyond what was followed (as of LifeRow, in the unit of the life),
+/// null where it is not known.
+nlohmann::ordered_json life_cell(double value, double followed);
+
 /// life.csv: a row for each zone and mechanism; "never" is a life without end, an empty cell is not known.
 void write_lives(const std::filesystem::path& file, const std::vector<std::string>& origin, const Lives& lives);
 /// The same rows as objects.

@@ -162,6 +162,8 @@ export interface ChartData {
   x: string;
   y: string;
   series: ChartSeries[];
+  bars?: string[];  // names of y = 0, 1, … where lines are bars; x is logarithmic then
+  wide?: boolean;
 }
 
 /// A row of maps of one quantity, one a run, on one scale.

@@ -1,4 +1,5 @@
 // Charts of lines.
+import type {Axis} from "../axes";
 import type {Chart, Dash} from "../chart";
 import type {DataTable, Plotted} from "../figures";
 import {filled} from "../text";
@@ -31,7 +32,8 @@ export interface LinesSpec {
   deepest?: number;    // of y that grows downwards
   leastSpan?: number;  // of y, as a share of its largest value: small ripples stay small
   wide?: boolean;
-  log?: "xy";  // logarithmic axes: values above zero alone
+  log?: "xy";       // logarithmic axes: values above zero alone
+  bars?: string[];  // names of y = 0, 1, …: lines are bars there, over a logarithmic x
 }
 
 /// A little more than the values take; lines do not run along the frame.
@@ -65,12 +67,22 @@ function rangeOfY(c: LinesSpec): Span {
   return [1.02 * Math.max(...lines.flat().map((v) => v ?? 0)), 0];
 }
 
-function chartOf(c: LinesSpec, theme: Theme, width: number): Chart {
+function axesOf(c: LinesSpec): {x: Axis; y: Axis} {
   const log = c.log !== undefined;
-  const rangeX = log ? decades(c.series.map((s) => s.x)) : c.window ?? roomFor(c.series.map((s) => s.x));
+  const bars = c.bars?.length ? c.bars : undefined;
+  const rangeX = log || bars ? decades(c.series.map((s) => s.x)) : c.window ?? roomFor(c.series.map((s) => s.x));
+  const rangeY: Span = bars ? [-0.6, bars.length - 0.4] : log ? decades(c.series.map((s) => s.y)) : rangeOfY(c);
   return {
-    x: {title: c.labels[0], range: rangeX, log},
-    y: {title: c.labels[1], range: log ? decades(c.series.map((s) => s.y)) : rangeOfY(c), log},
+    x: {title: c.labels[0], range: rangeX, log: log || bars !== undefined},
+    y: {title: c.labels[1], range: rangeY, log, names: bars},
+  };
+}
+
+const kBar = 14;  // px
+
+function chartOf(c: LinesSpec, theme: Theme, width: number): Chart {
+  return {
+    ...axesOf(c),
     height: Math.min((c.height ?? 330) - 76, 0.75 * width - 36),
     grid: true,
     legend: c.series.length > 1,
@@ -82,7 +94,10 @@ function chartOf(c: LinesSpec, theme: Theme, width: number): Chart {
                            y: s.y,
                            colour: s.colour(theme),
                            dash: s.dash,
-                           mark: s.markers ? "dot" : undefined,
+                           width: c.bars?.length ? kBar : undefined,
+                           mark: !s.markers || c.bars?.length ? undefined
+                               : s.x.length > 1               ? "dot"
+                                                              : "circle",
                            quiet: s.quiet,
                            words: (x, y) => filled(s.hover, {x, y}),
                          })),

@@ -82,6 +82,9 @@ function chartFigure(c: ChartData): Figure {
     names: [c.x, c.y],
     window: touched(c),
     series: c.series.map(seriesOf),
+    wide: c.wide,
+    bars: c.bars,
+    height: c.bars?.length ? 120 + 34 * c.bars.length : undefined,
   });
 }
 
