@@ -71,8 +71,8 @@ class TrafficPage(unittest.TestCase):
         first = self.traffic["range"]["first_damage"]
         words = BROWSER.text("#verdict")
         self.assertEqual(self.first_words, [])
-        self.assertTrue(words.startswith(f"! First crack: after {first['best_MGT']:.3g} MGT ({first['low_MGT']:.3g} to "),
-                        words)
+        best, low = (f"{first[key]:.3g}" for key in ("best_MGT", "low_MGT"))
+        self.assertTrue(words.startswith(f"! First crack: after {best} MGT ({low} to "), words)
         self.assertIn(self.traffic["range"]["decides"], words)
         self.assertIn("Layer: ", words)
 
@@ -116,8 +116,8 @@ class TrafficPage(unittest.TestCase):
         rows = BROWSER.js("return [...document.querySelectorAll('#table-assumptions tbody tr')].map(r => "
                           "[...r.children].map(c => c.textContent))")
         keys = " ".join(row[-1] for row in rows)
-        for key in ["drive.friction_coefficient", "passes.ductility", "layer.0.hardening", "material.rail.fatigue_limit",
-                    "collective.wear_law", "grinding.every", "--until"]:
+        for key in ["drive.friction_coefficient", "passes.ductility", "layer.0.hardening",
+                    "material.rail.fatigue_limit", "collective.wear_law", "grinding.every", "--until"]:
             self.assertIn(key, keys)
         self.assertIn("0.21 to 0.39 (life.friction_scatter)", [row[2] for row in rows])
 
