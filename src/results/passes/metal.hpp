@@ -60,6 +60,8 @@ class Metal {
   /// Of the wheels at the present state.
   const MetalFlow& flow() const { return flow_; }
 
+  /// The state of the same metal before; wheels must be put then.
+  void stand(std::vector<double> state) { state_ = std::move(state); }
   /// Other wheels from now on.
   void put(std::vector<MetalWheel> wheels);
   /// The state after so many wheels of the mixture, in one implicit step (steady/settle.hpp).

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "bem/contact_places.hpp"
+#include "clock/clock_lives.hpp"
+#include "clock/clock_state.hpp"
 #include "clock/wheel_kinds.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
@@ -24,7 +25,6 @@ constexpr double kThinnest = 0.05e-3;  // m, of a layer that still is one
 constexpr double kBeside = 15e-3;      // m, of metal beside the outermost contacts
 constexpr double kAll = 1 - 1e-12;     // of a mass that has been reached but for rounding
 constexpr int kSteps = 3;              // of the metal through a stretch
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// What a load's contact was, to see whether it has changed.
 struct ContactMark {
@@ -52,14 +52,30 @@ class Clock {
   }
 
   ClockResult run() {
-    begin();
-    while (out_.reached < options_.horizon * kAll && out_.ended.empty()) stretch();
-    conclude();
-    return std::move(out_);
+    if (options_.begun)
+      stand(*options_.begun);
+    else
+      begin();
+    while (!at_horizon() && now_.out.ended.empty()) {
+      stretch();
+      if (!at_horizon()) keep();
+    }
+    now_.out.lives = clock_lives(spec_, state(), unworn_.rail);
+    if (std::string note = ratchets_on(now_.out.history); !note.empty()) now_.out.notes.push_back(std::move(note));
+    now_.out.profile = surface_.points();
+    return std::move(now_.out);
   }
 
  private:
   void begin();
+  void stand(const ClockState& begun);
+  void set_up();
+  ClockState state() const;
+  void keep() const {
+    if (options_.keep) options_.keep(state());
+  }
+  bool at_horizon() const { return now_.out.reached >= options_.horizon * kAll; }
+  void progress(double wheels) const;
   void stretch();
   void solve(bool with_stresses);
   CaseSpec case_of_day() const;
@@ -77,30 +93,20 @@ class Clock {
   std::vector<double> day_feet() const;
   double largest_pressure() const;
   void note(const ClockMoment& stretch);
-  bool ratchets_on() const;
-  void conclude();
-  std::string lacks(int zone, std::size_t mechanism) const;
-  LifeRow life_row(const GatheredDamage::Key& key) const;
-  double wheels_until(double kg) const { return (kg - out_.reached) / kilograms_; }
+  double wheels_until(double kg) const { return (kg - now_.out.reached) / now_.kilograms; }
 
   CaseSpec spec_;
   std::filesystem::path folder_;
   ClockOptions options_;
   Placement unworn_;
-  WornProfile surface_;
   std::vector<double> feet_;  ///< m, of the layers on the unworn rail
-  ClockResult out_;
-  double kilograms_ = 0;  ///< gross, by a wheel of the mixture
-  double wheels_ = 0;     ///< so far, of all loads
-  double next_grinding_ = kNever;
-  std::vector<CollectiveRow> rows_;
-  std::vector<std::size_t> load_of_;  ///< of the metal's wheels, the row
+  ClockState now_;            ///< without what the next three hold; all of it: state()
+  WornProfile surface_;
   std::optional<Metal> metal_;
   std::optional<GatheredDamage> damages_;
-  std::vector<double> metal_removed_;  ///< m, of columns, when the metal's rows were laid
+  std::vector<CollectiveRow> rows_;   ///< solved for the next stretch; empty: they are not
+  std::vector<std::size_t> load_of_;  ///< of the metal's wheels, the row
   std::vector<Sinking> sinkings_;
-  std::set<std::string> noted_;
-  bool followed_ = false;  ///< the metal, under any load
 };
 
 CaseSpec Clock::case_of_day() const {
@@ -130,9 +136,9 @@ void Clock::solve(bool with_stresses) {
     wheels += row.passages;
     if (row.sound()) continue;
     left_out += row.passages;
-    if (noted_.insert(row.name).second)
-      out_.notes.push_back(fmt::format("{}: left out from {:.3g} MGT on for as long as it cannot be solved: {}",
-                                       row.name, 1e-9 * out_.reached, row.fault));
+    if (now_.noted.insert(row.name).second)
+      now_.out.notes.push_back(fmt::format("{}: left out from {:.3g} MGT on for as long as it cannot be solved: {}",
+                                           row.name, 1e-9 * now_.out.reached, row.fault));
   }
   if (left_out == wheels) throw CaseError("no load of the collective can be solved", rows_.front().fault);
 }
@@ -141,12 +147,12 @@ void Clock::begin() {
   solve(true);
   double kilograms = 0;
   for (const CollectiveRow& row : rows_) {
-    out_.wheels += row.passages;
+    now_.out.wheels += row.passages;
     if (row.solved()) kilograms += row.passages * 1e3 * gross_tonnes(row.summary.contact.F_z);
   }
-  kilograms_ = kilograms / out_.wheels;
-  out_.tonnes = 1e-3 * kilograms;
-  if (spec_.life.grinding.every) next_grinding_ = *spec_.life.grinding.every;
+  now_.kilograms = kilograms / now_.out.wheels;
+  now_.out.tonnes = 1e-3 * kilograms;
+  if (spec_.life.grinding.every) now_.next_grinding = *spec_.life.grinding.every;
   double from = kNever, to = -kNever;
   for (const CollectiveRow& row : rows_)
     for (const PatchDamage& patch : row.patches) {
@@ -155,15 +161,42 @@ void Clock::begin() {
     }
   from = std::max(from, unworn_.rail.s_min());
   to = std::min(to, unworn_.rail.s_max());
-  const MetalGrid grid = metal_grid(from, to, options_.apart, options_.first_row, kDeepest);
-  metal_.emplace(grid, spec_.passes.ductility.value_or(0));
-  std::vector<double> s;
-  for (int c = 0; c < grid.columns; ++c) s.push_back(grid.s(c));
-  damages_.emplace(std::move(s), feet_, kDeepest);
-  metal_removed_.assign(static_cast<std::size_t>(grid.columns), 0.0);
-  ClockMoment& start = out_.history.emplace_back();
+  now_.grid = metal_grid(from, to, options_.apart, options_.first_row, kDeepest);
+  now_.metal_removed.assign(static_cast<std::size_t>(now_.grid.columns), 0.0);
+  set_up();
+  ClockMoment& start = now_.out.history.emplace_back();
   start.p_max = largest_pressure();
   if (!feet_.empty()) start.layer_left = feet_.front();
+  keep();
+}
+
+/// Metal and damage, still without any, on the grid.
+void Clock::set_up() {
+  metal_.emplace(now_.grid, spec_.passes.ductility.value_or(0));
+  std::vector<double> s;
+  for (int c = 0; c < now_.grid.columns; ++c) s.push_back(now_.grid.s(c));
+  damages_.emplace(std::move(s), feet_, kDeepest);
+}
+
+void Clock::stand(const ClockState& begun) {
+  now_ = begun;
+  set_up();
+  metal_->stand(std::move(now_.metal));
+  surface_.stand(std::move(now_.surface));
+  damages_->stand(std::move(now_.damage));
+}
+
+ClockState Clock::state() const {
+  ClockState out = now_;
+  out.metal = metal_->state();
+  out.surface = surface_.worn();
+  out.damage = damages_->gathered();
+  return out;
+}
+
+/// All wheels until then have worn the rail and rolled through its metal.
+void Clock::progress(double wheels) const {
+  if (options_.control) options_.control->progress("traffic", wheels * now_.kilograms / options_.horizon);
 }
 
 std::vector<double> Clock::removed_of_columns() const {
@@ -202,7 +235,7 @@ bool Clock::changed(const std::vector<ContactMark>& from) const {
     for (std::size_t k = 0; k < std::min(now[i].at.size(), from[i].at.size()); ++k)
       by = std::max(by, std::abs(now[i].at[k] - from[i].at[k]) / options_.moved);
     by = std::min(by, kMost);
-    if (now[i].p_max > 0 || from[i].p_max > 0) sum += rows_[i].passages / out_.wheels * by * by;
+    if (now[i].p_max > 0 || from[i].p_max > 0) sum += rows_[i].passages / now_.out.wheels * by * by;
   }
   return sum > 1;
 }
@@ -210,9 +243,9 @@ bool Clock::changed(const std::vector<ContactMark>& from) const {
 void Clock::put_wheels() {
   const std::vector<double> removed = removed_of_columns();
   std::vector<double> since = removed;
-  for (std::size_t c = 0; c < since.size(); ++c) since[c] -= metal_removed_[c];
+  for (std::size_t c = 0; c < since.size(); ++c) since[c] -= now_.metal_removed[c];
   metal_->sink(since);
-  metal_removed_ = removed;
+  now_.metal_removed = removed;
   load_of_.clear();
   const MetalGrid& g = metal_->grid();
   std::vector<MetalWheel> wheels;
@@ -226,19 +259,19 @@ void Clock::put_wheels() {
       const PassLattice lattice{g.apart, line, g.thickness};
       try {
         MetalWheel wheel{.rail = rail_passes(row.spec, {alone(*row.result, *patch)}, 1, &lattice),
-                         .share = row.passages / out_.wheels};
+                         .share = row.passages / now_.out.wheels};
         wheel.column = static_cast<int>(std::lround((at + wheel.rail.grid.y0 - g.from) / g.apart));
         wheels.push_back(std::move(wheel));
         load_of_.push_back(i);
       } catch (const CaseError& e) {
-        if (noted_.insert(row.name + "/flow").second)
-          out_.notes.push_back(fmt::format("{}: at {:.3g} MGT its metal is not followed: {}", row.name,
-                                           1e-9 * out_.reached, fault_line(e)));
+        if (now_.noted.insert(row.name + "/flow").second)
+          now_.out.notes.push_back(fmt::format("{}: at {:.3g} MGT its metal is not followed: {}", row.name,
+                                               1e-9 * now_.out.reached, fault_line(e)));
       }
     }
     row.result.reset();
   }
-  followed_ = followed_ || !wheels.empty();
+  now_.followed = now_.followed || !wheels.empty();
   metal_->put(std::move(wheels));
 }
 
@@ -250,17 +283,17 @@ double Clock::wear_step(double most) {
   double deepest = 0;
   for (const double d : depth) deepest = std::max(deepest, std::isfinite(d) ? d : 0);
   double wheels = most;
-  if (deepest > 0) wheels = std::min(wheels, out_.wheels * options_.max_wear / deepest);
-  Sinking sinking{.from = wheels_, .to = wheels_ + wheels, .before = removed_of_columns(), .after = {}};
+  if (deepest > 0) wheels = std::min(wheels, now_.out.wheels * options_.max_wear / deepest);
+  Sinking sinking{.from = now_.wheels, .to = now_.wheels + wheels, .before = removed_of_columns(), .after = {}};
   if (deepest > 0) {
     std::vector<double> step;
-    for (const double d : depth) step.push_back(std::isfinite(d) ? d * wheels / out_.wheels : 0);
+    for (const double d : depth) step.push_back(std::isfinite(d) ? d * wheels / now_.out.wheels : 0);
     surface_.wear(cells, step);
   }
   sinking.after = removed_of_columns();
   sinkings_.push_back(std::move(sinking));
-  wheels_ += wheels;
-  out_.reached += wheels * kilograms_;
+  now_.wheels += wheels;
+  now_.out.reached += wheels * now_.kilograms;
   return wheels;
 }
 
@@ -269,19 +302,19 @@ void Clock::wear_until_changed() {
   const std::vector<ContactMark> from = marks();
   sinkings_.clear();
   for (;;) {
-    const double end = std::min(options_.horizon, next_grinding_);
+    const double end = std::min(options_.horizon, now_.next_grinding);
     wear_step(wheels_until(end));
-    if (options_.control) options_.control->progress("traffic", out_.reached / options_.horizon);
-    if (out_.reached >= next_grinding_ * kAll) {
-      Sinking grinding{.from = wheels_, .to = wheels_, .before = removed_of_columns(), .after = {}};
+    progress(sinkings_.front().from);
+    if (now_.out.reached >= now_.next_grinding * kAll) {
+      Sinking grinding{.from = now_.wheels, .to = now_.wheels, .before = removed_of_columns(), .after = {}};
       surface_.grind(spec_.life.grinding.depth);
       grinding.after = removed_of_columns();
       sinkings_.push_back(std::move(grinding));
-      next_grinding_ += *spec_.life.grinding.every;
+      now_.next_grinding += *spec_.life.grinding.every;
     }
-    if (out_.reached >= options_.horizon * kAll) return;
+    if (at_horizon()) return;
     if (!feet_.empty() && day_feet().front() < kThinnest) {
-      out_.ended = fmt::format("layer worn through after {:.3g} MGT", 1e-9 * out_.reached);
+      now_.out.ended = fmt::format("layer worn through after {:.3g} MGT", 1e-9 * now_.out.reached);
       return;
     }
     solve(false);
@@ -315,7 +348,7 @@ DamageRates Clock::rates_at(int column, std::size_t row) const {
       if (!rows || depth > found.depth.back()) continue;
       const double used = value_at(section, found.fatigue.dang_van_used, *rows, at);
       for (std::size_t v = 0; v < out.fatigue.size(); ++v)
-        out.fatigue[v] += rows_[i].passages / out_.wheels * fatigue_rate(used, line, v);
+        out.fatigue[v] += rows_[i].passages / now_.out.wheels * fatigue_rate(used, line, v);
     }
   }
   return out;
@@ -324,7 +357,7 @@ DamageRates Clock::rates_at(int column, std::size_t row) const {
 /// Of the metal so deep below the surface of the day.
 int Clock::zone_at(int column, double depth) const {
   for (std::size_t k = 0; k < feet_.size(); ++k)
-    if (depth < feet_[k] - metal_removed_[static_cast<std::size_t>(column)]) return static_cast<int>(k) + 1;
+    if (depth < feet_[k] - now_.metal_removed[static_cast<std::size_t>(column)]) return static_cast<int>(k) + 1;
   return 0;
 }
 
@@ -361,11 +394,11 @@ void Clock::gather(double from, double wheels) {
 
 /// Takes the metal through the stretch's traffic, in steps that grow.
 void Clock::roll_metal() {
-  const double begin = sinkings_.front().from, all = wheels_ - begin;
+  const double begin = sinkings_.front().from, all = now_.wheels - begin;
   ClockMoment moment;
   double step = all * (options_.growth - 1) / (std::pow(options_.growth, kSteps) - 1), from = begin;
-  while (from < wheels_) {
-    const double left = wheels_ - from;
+  for (int done = 1; from < now_.wheels; ++done) {
+    const double left = now_.wheels - from;
     const double wheels = left < 1.5 * step ? left : step;
     const SettledState settled = metal_->roll(wheels, options_.settle);
     moment.changes += settled.changes;
@@ -373,12 +406,13 @@ void Clock::roll_metal() {
     gather(from, wheels);
     from += wheels;
     step *= options_.growth;
+    progress(begin + all * std::min(done, kSteps) / kSteps);  // steps take alike long
   }
   note(moment);
 }
 
 void Clock::stretch() {
-  if (wheels_ > 0) solve(true);
+  if (rows_.empty()) solve(true);
   const std::vector<CollectiveRow> before = [&] {
     put_wheels();
     return rows_;
@@ -386,6 +420,7 @@ void Clock::stretch() {
   wear_until_changed();
   rows_ = before;  // whose stresses the metal has
   roll_metal();
+  rows_.clear();
 }
 
 double Clock::largest_pressure() const {
@@ -397,7 +432,7 @@ double Clock::largest_pressure() const {
 
 void Clock::note(const ClockMoment& of_stretch) {
   ClockMoment m = of_stretch;
-  m.kilograms = out_.reached;
+  m.kilograms = now_.out.reached;
   const std::vector<double>& removed = surface_.removed();
   const auto most = std::max_element(removed.begin(), removed.end());
   m.removed = *most;
@@ -414,90 +449,13 @@ void Clock::note(const ClockMoment& of_stretch) {
   m.cycles = cycles.damage;
   m.fatigue = fatigue.damage;
   if (!metal_->flow().net.empty()) m.net = *std::max_element(metal_->flow().net.begin(), metal_->flow().net.end());
-  out_.history.push_back(m);
+  now_.out.history.push_back(m);
   if (options_.control)
     options_.control->detail(
         "{:.3g} MGT: removed {:.0f} µm, p_max {:.0f} MPa, strain {:.2e} a wheel, ductility used {:.3g} (y {:.1f} mm, "
         "{:.2f} mm deep), used up to {:.2f} mm, {} changes, {:.2f} unsettled",
         1e-9 * m.kilograms, 1e6 * m.removed, 1e-6 * m.p_max, m.net, m.ductility, 1e3 * m.ductility_y,
         1e3 * m.ductility_depth, 1e3 * m.exhausted, m.changes, m.unsettled);
-}
-
-/// The key that a mechanism (0: ductility, 1: closed cycles, 2: fatigue) lacks in a zone; empty: none.
-std::string Clock::lacks(int zone, std::size_t mechanism) const {
-  if (mechanism < 2) return !spec_.passes.ductility ? "passes.ductility" : !followed_ ? "the strength of the rail" : "";
-  const FatigueSpec& f = zone_material(spec_, BodyId::rail, zone).strength.fatigue;
-  const char* key = !f.limit ? "fatigue_limit" : !f.dang_van ? "dang_van_coefficient" : "fatigue_exponent";
-  return f.limit && f.dang_van && f.exponent ? "" : fmt::format("{}.{}", zone_key(spec_, BodyId::rail, zone), key);
-}
-
-LifeRow Clock::life_row(const GatheredDamage::Key& key) const {
-  static constexpr std::array kMechanisms{"ductility exhausted", "low-cycle fatigue", "fatigue"};
-  const std::size_t mechanism = key.damage == 0 ? 0 : key.damage < 4 ? 1 : 2;
-  LifeRow row{.body = std::string(body_word(BodyId::rail)),
-              .zone = zone_name(spec_, BodyId::rail, key.zone),
-              .place = key.surface ? "at the surface" : "below",
-              .mechanism = kMechanisms[mechanism]};
-  if (std::string lacking = lacks(key.zone, mechanism); !lacking.empty()) {
-    row.place = "";
-    row.rests_on = std::move(lacking);
-    return row;
-  }
-  const std::size_t first = mechanism == 0 ? 0 : mechanism == 1 ? 1 : 4, count = mechanism == 0 ? 1 : 3;
-  constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
-  for (std::size_t v = 0; v < kVariants.size(); ++v) {
-    const auto at = damages_->failures().find({key.zone, key.surface, first + (count == 1 ? 0 : v)});
-    const bool fails = at != damages_->failures().end();
-    row.wheels.*kVariants[v] = fails ? at->second.traffic : kNever;
-    row.mgt.*kVariants[v] = fails ? 1e-9 * kilograms_ * at->second.traffic : kNever;
-    if (fails && (v == 1 || count == 1)) {
-      row.depth = at->second.depth;
-      row.y = unworn_.rail.at(at->second.s).position.y;
-    }
-  }
-  row.followed = 1e-9 * out_.reached;
-  row.rests_on = fmt::format("followed to {:.3g} MGT", row.followed);
-  if (mechanism < 2) row.rests_on += fmt::format("; passes.ductility = {}", *spec_.passes.ductility);
-  return row;
-}
-
-/// Whether the rate of strain has fallen less than the root of the traffic in the second half of it.
-bool Clock::ratchets_on() const {
-  const auto half = std::find_if(out_.history.begin(), out_.history.end(),
-                                 [&](const ClockMoment& m) { return m.net > 0 && m.kilograms >= 0.5 * out_.reached; });
-  if (half == out_.history.end()) return false;
-  const ClockMoment& end = out_.history.back();
-  return end.net > half->net * std::sqrt(half->kilograms / end.kilograms) * (1 - 1e-9) && &*half != &end;
-}
-
-void Clock::conclude() {
-  const std::size_t zones = feet_.size();
-  for (std::size_t zone = 0; zone <= zones; ++zone)
-    for (const std::size_t damage : {std::size_t{0}, std::size_t{1}, std::size_t{4}})
-      for (const bool surface : {true, false}) {
-        if (surface && zone != (zones > 0 ? 1u : 0u)) continue;
-        out_.lives.push_back(life_row({static_cast<int>(zone), surface, damage}));
-        if (out_.lives.back().place.empty()) break;  // not known, wherever
-      }
-  if (zones > 0) {
-    const double when = out_.ended.empty() ? kNever : 1e-9 * out_.reached;
-    const double wheels = out_.ended.empty() ? kNever : wheels_;
-    out_.lives.push_back({.body = std::string(body_word(BodyId::rail)),
-                          .zone = zone_name(spec_, BodyId::rail, 1),
-                          .place = "layer",
-                          .mechanism = "worn through",
-                          .wheels = {wheels, wheels, wheels},
-                          .mgt = {when, when, when},
-                          .rests_on = fmt::format("followed to {:.3g} MGT", 1e-9 * out_.reached),
-                          .followed = 1e-9 * out_.reached});
-  }
-  const double net = out_.history.empty() ? 0 : out_.history.back().net;
-  if (net >= kNoFlow && ratchets_on())
-    out_.notes.push_back(fmt::format(
-        "strain still grows by {:.2g} a wheel and hardly fades: the law of hardening (Armstrong and Frederick) ratchets "
-        "for ever, while the rate of rail steel falls: lives by ductility are lower limits",
-        net));
-  out_.profile = surface_.points();
 }
 
 }  // namespace

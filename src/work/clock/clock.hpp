@@ -10,6 +10,7 @@
 // Assumptions: those of passes (one patch after the other, an endless rail, the pressure of elastic bodies) and of the
 // wear laws; wheels of all loads come in any order, thoroughly mixed.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@
 #include "passes/metal.hpp"
 
 namespace railstrata {
+
+struct ClockState;  // clock/clock_state.hpp
 
 struct ClockOptions {
   BemOptions bem;
@@ -32,6 +35,10 @@ struct ClockOptions {
   double growth = 4;          ///< of the implicit steps of a stretch, from each to the next
   SettleLimits settle = {.tolerance = 0.05};
   const Control* control = nullptr;
+  /// Called at the beginning and after each stretch that the horizon has not cut: from such a state on a run to any
+  /// later horizon gives the bits of one in one go.
+  std::function<void(const ClockState&)> keep = {};
+  const ClockState* begun = nullptr;  ///< to go on from, of this case and these options; null: from the beginning
 };
 
 /// The rail at an instant.
@@ -60,7 +67,8 @@ struct ClockResult {
   std::vector<Vec2> profile;         ///< m, at the end, frame of the unworn one
 };
 
-/// Throws CaseError: no loads, nothing solved on the first profile; Interrupted.
+/// Throws CaseError: no loads, nothing solved on the first profile; Interrupted between two changes of the metal or
+/// solutions of the loads.
 ClockResult run_clock(const CaseSpec& spec, const std::filesystem::path& folder, const ClockOptions& options);
 
 }  // namespace railstrata

@@ -38,10 +38,10 @@ void write_history(const std::filesystem::path& file, const std::vector<std::str
 }
 
 void write_worn_rail(const std::filesystem::path& file, const std::vector<std::string>& origin,
-                     const ClockResult& result) {
+                     const std::vector<Vec2>& profile) {
   static const Columns<Vec2> columns{{"y", unit::kMillimetres, [](const Vec2& p) { return p.y; }},
                                      {"z", unit::kMillimetres, [](const Vec2& p) { return p.z; }}};
-  write_csv(file, origin, result.profile, columns);
+  write_csv(file, origin, profile, columns);
 }
 
 Json history_json(const ClockResult& result) {

@@ -31,7 +31,7 @@ GatheredDamage::GatheredDamage(std::vector<double> s, std::vector<double> feet, 
     const auto above = std::upper_bound(feet.begin(), feet.end(), z) - feet.begin();
     zone_.push_back(above < static_cast<std::ptrdiff_t>(feet.size()) ? static_cast<int>(above) + 1 : 0);
   }
-  damage_.assign(s_.size() * depth_.size() * kDamages, 0.0);
+  now_.damage.assign(s_.size() * depth_.size() * kDamages, 0.0);
 }
 
 void GatheredDamage::gather(std::size_t column, const std::vector<ZoneRates>& rates, const SinkingStep& step,
@@ -44,12 +44,12 @@ void GatheredDamage::gather(std::size_t column, const std::vector<ZoneRates>& ra
       if (rate.none()) continue;
       for (std::size_t p = 0; p < depth_.size(); ++p) {
         if (zone_[p] != zone.zone) continue;
-        double& damage = damage_[(column * depth_.size() + p) * kDamages + kind];
+        double& damage = now_.damage[(column * depth_.size() + p) * kDamages + kind];
         const std::optional<DamageReached> reached = railstrata::gather(rate, step, depth_[p], damage);
         if (!reached || reached->depth < kShallowest) continue;
-        const Key key{zone.zone, reached->depth <= kSkin, kind};
+        const DamageKey key{zone.zone, reached->depth <= kSkin, kind};
         const FirstFailure failure{since + reached->share * step.traffic, reached->depth, s_[column]};
-        const auto [first, fresh] = failures_.emplace(key, failure);
+        const auto [first, fresh] = now_.failures.emplace(key, failure);
         if (!fresh && failure.traffic < first->second.traffic) first->second = failure;
       }
     }

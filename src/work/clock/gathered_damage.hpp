@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "damage/metal_damage.hpp"
@@ -29,6 +30,23 @@ struct WorstPoint {
   double damage = 0, s = 0, depth = 0;  ///< m, of the unworn rail
 };
 
+/// The first failures by zone, by place (surface: kShallowest to 0.2 mm deep at that time) and by damage.
+struct DamageKey {
+  int zone = 0;
+  bool surface = false;
+  std::size_t damage = 0;  ///< of numbers_of
+  auto operator<=>(const DamageKey&) const = default;
+};
+struct FirstFailure {
+  double traffic = 0, depth = 0, s = 0;  ///< depth below the surface of that time
+};
+
+/// What changes of it.
+struct Gathered {
+  std::vector<double> damage;  ///< (column * points + point) * kDamages + kind
+  std::map<DamageKey, FirstFailure> failures;
+};
+
 class GatheredDamage {
  public:
   /// s: of columns; feet: of the layers, on the unworn rail; deepest: of the points. m.
@@ -45,17 +63,9 @@ class GatheredDamage {
   /// between). Points that fail are noted.
   void gather(std::size_t column, const std::vector<ZoneRates>& rates, const SinkingStep& step, double since);
 
-  /// The first failures by zone, by place (surface: kShallowest to 0.2 mm deep at that time) and by damage.
-  struct FirstFailure {
-    double traffic = 0, depth = 0, s = 0;  ///< depth below the surface of that time
-  };
-  struct Key {
-    int zone = 0;
-    bool surface = false;
-    std::size_t damage = 0;  ///< of numbers_of
-    auto operator<=>(const Key&) const = default;
-  };
-  const std::map<Key, FirstFailure>& failures() const { return failures_; }
+  const Gathered& gathered() const { return now_; }
+  /// What was gathered in the same points before.
+  void stand(Gathered before) { now_ = std::move(before); }
   /// Of the metal that lies kShallowest or deeper below a surface that has sunk by `removed` [m, of columns].
   WorstPoint worst(std::size_t damage, const std::vector<double>& removed) const;
   /// m, below that surface: so deep has all metal failed from it on, where that is deepest.
@@ -63,14 +73,13 @@ class GatheredDamage {
   /// By depth of the unworn rail.
   const std::vector<double>& depths() const { return depth_; }
   double damage(std::size_t column, std::size_t point, std::size_t kind) const {
-    return damage_[(column * depth_.size() + point) * kDamages + kind];
+    return now_.damage[(column * depth_.size() + point) * kDamages + kind];
   }
 
  private:
   std::vector<double> s_, depth_;
   std::vector<int> zone_;
-  std::vector<double> damage_;
-  std::map<Key, FirstFailure> failures_;
+  Gathered now_;
 };
 
 }  // namespace railstrata

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace railstrata {
 namespace {
@@ -27,37 +28,49 @@ WornProfile::WornProfile(const Placement& unworn, double cell)
   for (int i = 0; i <= n; ++i) {
     const double s = i < n ? unworn_.s_min() + length * i / n : unworn_.s_max();
     unworn_s_.push_back(s);
-    points_.push_back(unworn_.at(s).position);
+    now_.points.push_back(unworn_.at(s).position);
   }
-  day_s_ = unworn_s_;
-  removed_.assign(points_.size(), 0.0);
+  now_.day_s = unworn_s_;
+  now_.removed.assign(now_.points.size(), 0.0);
 }
 
-double WornProfile::day_s(double unworn_s) const { return between(unworn_s_, day_s_, unworn_s); }
-double WornProfile::unworn_s_of(double day_s) const { return between(day_s_, unworn_s_, day_s); }
-double WornProfile::removed_at(double unworn_s) const { return between(unworn_s_, removed_, unworn_s); }
+double WornProfile::day_s(double unworn_s) const { return between(unworn_s_, now_.day_s, unworn_s); }
+double WornProfile::unworn_s_of(double day_s) const { return between(now_.day_s, unworn_s_, day_s); }
+double WornProfile::removed_at(double unworn_s) const { return between(unworn_s_, now_.removed, unworn_s); }
 
 void WornProfile::wear(const ProfileWear& cells, const std::vector<double>& depth) {
   std::vector<double> of_points;
-  for (const double s : day_s_) of_points.push_back(between(cells.s, depth, s));
+  for (const double s : now_.day_s) of_points.push_back(between(cells.s, depth, s));
   of_points.front() = of_points.back() = 0;  // the ends stay
   move(of_points);
 }
 
-void WornProfile::grind(double depth) { move(std::vector<double>(points_.size(), depth)); }
+void WornProfile::grind(double depth) { move(std::vector<double>(now_.points.size(), depth)); }
 
-void WornProfile::move(const std::vector<double>& depth) {
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    points_[i] = points_[i] - depth[i] * profile_.at(day_s_[i]).outward;
-    removed_[i] += depth[i];
-  }
+/// Makes the profile through the points; they, in its frame.
+std::vector<Vec2> WornProfile::shape() {
   // a profile's frame has z = 0 at y = 0
-  const double crown = Profile::from_points(ProfileKind::rail, "worn", points_).height(0);
-  std::vector<Vec2> own = points_;
+  const double crown = Profile::from_points(ProfileKind::rail, "worn", now_.points).height(0);
+  std::vector<Vec2> own = now_.points;
   for (Vec2& p : own) p.z -= crown;
   profile_ = Profile::from_points(ProfileKind::rail, "worn", own);
-  for (std::size_t i = 0; i < own.size(); ++i) day_s_[i] = nearest_on(profile_, own[i], day_s_[i]);
-  if (has_gauge_) widening_ = 2 * (gauge_face_y(profile_, track_) - gauge_face_y(unworn_, track_));
+  return own;
+}
+
+void WornProfile::stand(WornSurface before) {
+  now_ = std::move(before);
+  if (now_.moved) shape();
+}
+
+void WornProfile::move(const std::vector<double>& depth) {
+  for (std::size_t i = 0; i < now_.points.size(); ++i) {
+    now_.points[i] = now_.points[i] - depth[i] * profile_.at(now_.day_s[i]).outward;
+    now_.removed[i] += depth[i];
+  }
+  now_.moved = true;
+  const std::vector<Vec2> own = shape();
+  for (std::size_t i = 0; i < own.size(); ++i) now_.day_s[i] = nearest_on(profile_, own[i], now_.day_s[i]);
+  if (has_gauge_) now_.gauge_widening = 2 * (gauge_face_y(profile_, track_) - gauge_face_y(unworn_, track_));
 }
 
 }  // namespace railstrata

@@ -8,6 +8,14 @@
 
 namespace railstrata {
 
+/// What changes of it. m
+struct WornSurface {
+  bool moved = false;
+  std::vector<Vec2> points;            ///< frame of the unworn profile
+  std::vector<double> day_s, removed;  ///< of the points
+  double gauge_widening = 0;
+};
+
 class WornProfile {
  public:
   /// Points at most `cell` [m] apart.
@@ -15,11 +23,11 @@ class WornProfile {
 
   const Profile& profile() const { return profile_; }
   /// m, that the gauge has become wider.
-  double gauge_widening() const { return widening_; }
+  double gauge_widening() const { return now_.gauge_widening; }
   /// m, of the points: arc length on the unworn profile and on that of the day, and the metal above them that is gone.
   const std::vector<double>& unworn_s() const { return unworn_s_; }
-  const std::vector<double>& removed() const { return removed_; }
-  const std::vector<Vec2>& points() const { return points_; }
+  const std::vector<double>& removed() const { return now_.removed; }
+  const std::vector<Vec2>& points() const { return now_.points; }
   /// m, of an arc length of the unworn profile, or the other way round.
   double day_s(double unworn_s) const;
   double unworn_s_of(double day_s) const;
@@ -31,15 +39,19 @@ class WornProfile {
   /// Takes so much off everywhere.
   void grind(double depth);
 
+  const WornSurface& worn() const { return now_; }
+  /// The surface of the same rail as it was before.
+  void stand(WornSurface before);
+
  private:
+  std::vector<Vec2> shape();
   void move(const std::vector<double>& depth);
 
   Profile unworn_, profile_;
   TrackGeometry track_;
   bool has_gauge_;
-  double widening_ = 0;
-  std::vector<Vec2> points_;  ///< frame of the unworn profile
-  std::vector<double> unworn_s_, day_s_, removed_;
+  std::vector<double> unworn_s_;
+  WornSurface now_;
 };
 
 }  // namespace railstrata

@@ -1,0 +1,94 @@
+#include "clock/clock_lives.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lives/life_section.hpp"
+#include "model/zone.hpp"
+#include "steady/pass_class.hpp"
+
+namespace railstrata {
+namespace {
+
+/// The key that a mechanism (0: ductility, 1: closed cycles, 2: fatigue) lacks in a zone; empty: none.
+std::string lacks(const CaseSpec& spec, const ClockState& at, int zone, std::size_t mechanism) {
+  if (mechanism < 2)
+    return !spec.passes.ductility ? "passes.ductility" : !at.followed ? "the strength of the rail" : "";
+  const FatigueSpec& f = zone_material(spec, BodyId::rail, zone).strength.fatigue;
+  const char* key = !f.limit ? "fatigue_limit" : !f.dang_van ? "dang_van_coefficient" : "fatigue_exponent";
+  return f.limit && f.dang_van && f.exponent ? "" : fmt::format("{}.{}", zone_key(spec, BodyId::rail, zone), key);
+}
+
+LifeRow life_row(const CaseSpec& spec, const ClockState& at, const Profile& unworn, const DamageKey& key) {
+  static constexpr std::array kMechanisms{"ductility exhausted", "low-cycle fatigue", "fatigue"};
+  const std::size_t mechanism = key.damage == 0 ? 0 : key.damage < 4 ? 1 : 2;
+  LifeRow row{.body = std::string(body_word(BodyId::rail)),
+              .zone = zone_name(spec, BodyId::rail, key.zone),
+              .place = key.surface ? "at the surface" : "below",
+              .mechanism = kMechanisms[mechanism]};
+  if (std::string lacking = lacks(spec, at, key.zone, mechanism); !lacking.empty()) {
+    row.place = "";
+    row.rests_on = std::move(lacking);
+    return row;
+  }
+  const std::size_t first = mechanism == 0 ? 0 : mechanism == 1 ? 1 : 4, count = mechanism == 0 ? 1 : 3;
+  constexpr std::array<double LifeRange::*, 3> kVariants{&LifeRange::low, &LifeRange::best, &LifeRange::high};
+  for (std::size_t v = 0; v < kVariants.size(); ++v) {
+    const auto found = at.damage.failures.find({key.zone, key.surface, first + (count == 1 ? 0 : v)});
+    const bool fails = found != at.damage.failures.end();
+    row.wheels.*kVariants[v] = fails ? found->second.traffic : kNever;
+    row.mgt.*kVariants[v] = fails ? 1e-9 * at.kilograms * found->second.traffic : kNever;
+    if (fails && (v == 1 || count == 1)) {
+      row.depth = found->second.depth;
+      row.y = unworn.at(found->second.s).position.y;
+    }
+  }
+  row.followed = 1e-9 * at.out.reached;
+  row.rests_on = fmt::format("followed to {:.3g} MGT", row.followed);
+  if (mechanism < 2) row.rests_on += fmt::format("; passes.ductility = {}", *spec.passes.ductility);
+  return row;
+}
+
+}  // namespace
+
+std::vector<LifeRow> clock_lives(const CaseSpec& spec, const ClockState& at, const Profile& unworn) {
+  std::vector<LifeRow> out;
+  const std::size_t zones = layers_on(spec, BodyId::rail).size();
+  for (std::size_t zone = 0; zone <= zones; ++zone)
+    for (const std::size_t damage : {std::size_t{0}, std::size_t{1}, std::size_t{4}})
+      for (const bool surface : {true, false}) {
+        if (surface && zone != (zones > 0 ? 1u : 0u)) continue;
+        out.push_back(life_row(spec, at, unworn, {static_cast<int>(zone), surface, damage}));
+        if (out.back().place.empty()) break;  // not known, wherever
+      }
+  if (zones > 0) {
+    const double when = at.out.ended.empty() ? kNever : 1e-9 * at.out.reached;
+    const double wheels = at.out.ended.empty() ? kNever : at.wheels;
+    out.push_back({.body = std::string(body_word(BodyId::rail)),
+                   .zone = zone_name(spec, BodyId::rail, 1),
+                   .place = "layer",
+                   .mechanism = kWornThrough,
+                   .wheels = {wheels, wheels, wheels},
+                   .mgt = {when, when, when},
+                   .rests_on = fmt::format("followed to {:.3g} MGT", 1e-9 * at.out.reached),
+                   .followed = 1e-9 * at.out.reached});
+  }
+  return out;
+}
+
+std::string ratchets_on(const std::vector<ClockMoment>& history) {
+  if (history.empty() || history.back().net < kNoFlow) return {};
+  const ClockMoment& end = history.back();
+  const auto half = std::find_if(history.begin(), history.end() - 1,
+                                 [&](const ClockMoment& m) { return m.net > 0 && m.kilograms >= 0.5 * end.kilograms; });
+  if (half == history.end() - 1 || end.net < half->net * std::sqrt(half->kilograms / end.kilograms)) return {};
+  return fmt::format(
+      "strain still grows by {:.2g} a wheel and hardly fades: the law of hardening (Armstrong and Frederick) ratchets "
+      "for ever, while the rate of rail steel falls; lives by ductility are lower limits",
+      end.net);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,16 @@
+#pragma once
+// Lives of a rail from what its traffic has done to it.
+#include <string>
+#include <vector>
+
+#include "clock/clock_state.hpp"
+
+namespace railstrata {
+
+/// Of all zones by all mechanisms; infinite where nothing has failed yet.
+std::vector<LifeRow> clock_lives(const CaseSpec& spec, const ClockState& at, const Profile& unworn);
+
+/// A note where the rate of strain falls by less than the root of the traffic in the second half of it; else empty.
+std::string ratchets_on(const std::vector<ClockMoment>& history);
+
+}  // namespace railstrata
