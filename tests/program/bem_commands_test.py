@@ -9,7 +9,7 @@ import sys
 import tomllib
 import xml.etree.ElementTree
 
-from outside import FromOutside, main, railstrata, slow, start, wait_for
+from outside import FromOutside, main, railstrata, rows, slow, start, wait_for
 
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 BASE = SOURCE / "cases" / "paper" / "base.toml"
@@ -547,6 +547,59 @@ young_ratio = 2.0
         end = json.loads(self.done(*loop, "--steps", 1, "--out", self.folder / "whole", "--force", "--json"))
         self.assertEqual(end["steps"], 1)
         self.assertFalse((self.folder / "whole" / "step_0002").exists())  # of the older loop
+
+    # A small rail that yields and wears under two loads, in seconds.
+    TRAFFIC = """
+[geometry]
+rail_profile = "arc:R=80 mm"
+wheel_profile = "arc:R=-400 mm"
+cant = 0
+[material.rail]
+grade = "R260"
+hardening = "R260"
+[passes]
+ductility = 3
+[drive]
+traction_coefficient = 0.1
+friction_coefficient = 0.35
+[[load]]
+name = "a"
+passages = 1000
+wheel_load = "50 kN"
+[[load]]
+name = "b"
+passages = 500
+wheel_load = "40 kN"
+"""
+
+    @slow
+    def test_traffic_that_is_stopped_or_killed_goes_on_to_the_same_bits(self):
+        traffic = ["collective", self.case(self.TRAFFIC), "--cell", "1 mm", "--until", "3 Mt", "-q", "--no-report"]
+        whole, parts = self.folder / "whole", self.folder / "parts"
+        self.done(*traffic, "--out", whole)
+        history = (whole / "history.csv").read_text()
+        self.assertGreater(rows(whole), 6)  # three lines of origin, one of names, the beginning, two stretches
+
+        def until(stretches, sent, *words):
+            process = start(*traffic, "--out", parts, *words)
+            wait_for(lambda: rows(parts) >= 5 + stretches, process)
+            process.send_signal(sent)
+            return process.communicate()[1], process.returncode
+
+        until(0, signal.SIGKILL)
+        self.assertTrue(history.startswith((parts / "history.csv").read_text()))
+        err, rc = until(1, signal.SIGINT, "--resume")
+        self.assertEqual(rc, 130, err)
+        self.assertIn("go on with --resume", err)
+        self.assertTrue(history.startswith((parts / "history.csv").read_text()))
+        self.assertFalse((parts / "life.csv").exists())
+        self.refused(2, [*traffic, "--set", "drive.speed=10 m/s", "--out", parts, "--resume"],
+                     'traffic.cbor: error: this traffic is of another case: drive.speed = "10 m/s" instead of',
+                     "begin anew with --force")
+        self.done(*traffic, "--out", parts, "--resume")
+        for name in ["history.csv", "worn_rail.csv", "life.csv", "collective.json", "traffic.cbor"]:
+            self.assertEqual((whole / name).read_bytes(), (parts / name).read_bytes(), name)
+        self.refused(2, [*traffic, "--out", self.folder / "none", "--resume"], "there is nothing to resume")
 
     # all
 

@@ -16,6 +16,7 @@
 #include "bem/bem_options.hpp"
 #include "clock/clock.hpp"
 #include "clock/clock_files.hpp"
+#include "clock/clock_state.hpp"
 #include "collective/collective.hpp"
 #include "collective/collective_files.hpp"
 #include "collective/life_files.hpp"
@@ -81,35 +82,83 @@ const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_
                                         {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
                                         {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};
 
-/// `collective --until --range`.
+/// `collective --until`.
 struct TrafficOptions {
-  std::string until;   ///< a mass
-  bool range = false;  ///< a run for each end of what is not known
+  std::string until;    ///< a mass
+  bool range = false;   ///< a run for each end of what is not known
+  bool resume = false;  ///< from the state that the folder has; of wear, too
 };
 
-/// Rail and metal through the traffic of --until [kg]; the rail's lives become those of it.
-std::optional<TrafficRange> follow_traffic(const CommandOptions& options, const LoadedCase& loaded, double horizon,
-                                           bool range, CollectiveDamage& damage) {
-  if (!(horizon > 0)) return {};
-  InfluenceCache cache;
-  ClockOptions how;
-  how.bem.cell = cell_size(options.cell);
-  how.bem.cache = &cache;
-  how.control = &control_by_signals();
-  how.horizon = horizon;
-  TrafficRange out = range ? run_range(loaded.spec, loaded.folder(), how, control_by_signals())
-                           : range_of({{"", "", run_clock(loaded.spec, loaded.folder(), how)}}, {});
-  how.control->progress("");
-  std::vector<LifeRow>& rows = damage.lives.rows;
-  std::erase_if(rows, [&](const LifeRow& row) {
-    return std::any_of(out.lives.begin(), out.lives.end(), [&](const LifeRow& other) {
-      return other.body == row.body && other.mechanism == row.mechanism;
+/// The rail through its traffic, in a folder.
+class Traffic {
+ public:
+  /// horizon: kg; resume: from the state that the folder has.
+  Traffic(const LoadedCase& loaded, std::filesystem::path folder, double cell, double horizon, bool resume)
+      : loaded_(loaded), folder_(std::move(folder)) {
+    how_.bem.cell = cell;
+    how_.bem.cache = &cache_;
+    how_.control = &control_by_signals();
+    how_.horizon = horizon;
+    how_.keep = [this](const ClockState& state) { keep(state); };
+    identity_ = clock_identity(loaded, how_);
+    if (resume)
+      how_.begun = &begun_.emplace(read_clock_state(file(), identity_, horizon));
+    else
+      std::filesystem::remove(file());
+  }
+  Traffic(const Traffic&) = delete;
+  Traffic& operator=(const Traffic&) = delete;
+
+  /// The rail's lives become those of the traffic. None: stopped.
+  std::optional<TrafficRange> follow(bool range, CollectiveDamage& damage) {
+    TrafficRange out;
+    try {
+      out = range ? run_range(loaded_.spec, loaded_.folder(), how_, control_by_signals())
+                  : range_of({{"", "", run_clock(loaded_.spec, loaded_.folder(), how_)}}, {});
+    } catch (const Interrupted&) {
+      how_.control->progress("");
+      warn_of_stop();
+      return {};
+    }
+    how_.control->progress("");
+    const ClockResult& best = out.runs.front().result;
+    write_history(folder_ / kHistory, table_origin(loaded_), best);
+    write_worn_rail(folder_ / kWornRail, table_origin(loaded_), best.profile);
+    if (range) write_range(folder_ / "range.csv", table_origin(loaded_), out);
+    std::vector<LifeRow>& rows = damage.lives.rows;
+    std::erase_if(rows, [&](const LifeRow& row) {
+      return std::any_of(out.lives.begin(), out.lives.end(), [&](const LifeRow& other) {
+        return other.body == row.body && other.mechanism == row.mechanism;
+      });
     });
-  });
-  rows.insert(rows.begin(), out.lives.begin(), out.lives.end());
-  damage.lives.curve = {};
-  return out;
-}
+    rows.insert(rows.begin(), out.lives.begin(), out.lives.end());
+    damage.lives.curve = {};
+    return out;
+  }
+  void warn_of_stop() const {
+    if (std::filesystem::exists(file()))
+      spdlog::warn("stopped; {} and {} hold the rail after its last whole stretch of traffic; go on with --resume",
+                   (folder_ / kHistory).string(), kWornRail);
+    else
+      spdlog::warn("stopped before the traffic began; start it again with --force");
+  }
+
+ private:
+  static constexpr const char *kHistory = "history.csv", *kWornRail = "worn_rail.csv";
+  std::filesystem::path file() const { return folder_ / "traffic.cbor"; }
+  void keep(const ClockState& state) {
+    write_clock_state(file(), identity_, state);
+    write_history(folder_ / kHistory, table_origin(loaded_), state.out);
+    write_worn_rail(folder_ / kWornRail, table_origin(loaded_), state.surface.points);
+  }
+
+  const LoadedCase& loaded_;
+  std::filesystem::path folder_;
+  InfluenceCache cache_;
+  ClockOptions how_;
+  std::string identity_;
+  std::optional<ClockState> begun_;
+};
 
 void print_collective(const std::vector<CollectiveRow>& rows, const std::vector<ReportAnswer>& answers,
                       const std::optional<MeasuredWear>& measured) {
@@ -141,13 +190,6 @@ struct MeasuredOptions {
   std::string tonnes;         ///< a mass
 };
 
-void write_traffic(const std::filesystem::path& out, const LoadedCase& loaded, const TrafficRange& traffic) {
-  const ClockResult& best = traffic.runs.front().result;
-  write_history(out / "history.csv", table_origin(loaded), best);
-  write_worn_rail(out / "worn_rail.csv", table_origin(loaded), best);
-  if (traffic.runs.size() > 1) write_range(out / "range.csv", table_origin(loaded), traffic);
-}
-
 nlohmann::ordered_json traffic_json(const TrafficRange& traffic) {
   nlohmann::ordered_json out = history_json(traffic.runs.front().result);
   if (traffic.runs.size() > 1) out["range"] = range_json(traffic);
@@ -160,35 +202,40 @@ ExitCode command_collective(const CommandOptions& options, const TrafficOptions&
   const double asked = followed.until.empty() ? 0 : mass_of("--until", followed.until);
   const LoadedCase loaded = load_case_of(options, uses::kCollective);
   const double horizon = asked > 0 ? asked : tonnes > 0 ? 0 : loaded.spec.life.until;
-  if (followed.range && !(horizon > 0))
-    throw CaseError("--range: the rail is not followed", "give --until \"50 Mt\", or life.until in the case");
+  if ((followed.range || followed.resume) && !(horizon > 0))
+    throw CaseError(fmt::format("{}: the rail is not followed", followed.range ? "--range" : "--resume"),
+                    "give --until \"50 Mt\", or life.until in the case; of wear, step by step, --steps");
   std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
   const double cell = cell_size(options.cell);
   const Placement placement = place(loaded.spec, loaded.folder());
   const std::filesystem::path out = output_folder_of(options, loaded, "-collective");
   require_apart(out, loaded);
-  const FolderHold hold = prepare_output_folder(out, options.force);
+  const FolderHold hold = prepare_output_folder(out, options.force || followed.resume);
+  std::optional<Traffic> traffic;
+  if (horizon > 0) traffic.emplace(loaded, out, cell, horizon, followed.resume);
   write_origin(out, loaded, options.command_line, options.threads);
   spdlog::info("{}: {} loads; results go to {}", loaded.spec.title, rows.size(), out.string());
   solve(loaded, cell, rows);
   write_collective_table(out / "collective.csv", table_origin(loaded), rows);
   if (control().stop) {
     spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
+    if (traffic) traffic->warn_of_stop();
     return ExitCode::interrupted;
   }
   CollectiveDamage damage{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
   damage.lives = collective_lives(loaded.spec, rows, damage.rail, damage.wheel);
-  const std::optional<TrafficRange> traffic = follow_traffic(options, loaded, horizon, followed.range, damage);
+  std::optional<TrafficRange> followed_to;
   CollectiveFront front;
   if (traffic) {
-    write_traffic(out, loaded, *traffic);
-    front = traffic_front({loaded.spec, rows, damage.rail, *traffic, horizon, cell});
+    followed_to = traffic->follow(followed.range, damage);
+    if (!followed_to) return ExitCode::interrupted;
+    front = traffic_front({loaded.spec, rows, damage.rail, *followed_to, horizon, cell});
   }
   write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage.rail);
   write_wheel_damage(out / "wheel_damage.csv", table_origin(loaded), damage.wheel);
   write_lives(out / "life.csv", table_origin(loaded), damage.lives);
   nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
-  if (traffic) json["traffic"] = traffic_json(*traffic);
+  if (followed_to) json["traffic"] = traffic_json(*followed_to);
   std::optional<MeasuredWear> measured;
   if (tonnes > 0) measured = measured_wear(rows, damage.rail, wanted.before, wanted.after, tonnes);
   if (measured) json["measured_wear"] = measured_json(*measured);
@@ -198,8 +245,8 @@ ExitCode command_collective(const CommandOptions& options, const TrafficOptions&
   else
     print_collective(rows, traffic ? front.answers : collective_answers(rows, damage), measured);
   const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage, front);
-  if (traffic)
-    for (const std::string& note : traffic->runs.front().result.notes) spdlog::warn("{}", note);
+  if (followed_to)
+    for (const std::string& note : followed_to->runs.front().result.notes) spdlog::warn("{}", note);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
   if (traffic && control().stop) return ExitCode::interrupted;
@@ -211,7 +258,6 @@ struct WearOptions {
   int steps = 0;                      ///< --steps; 0: no limit
   double passages = 0;                ///< --passages; 0: no limit
   std::string max_wear = "0.005 mm";  ///< --max-wear: a length
-  bool resume = false;                ///< --resume
 };
 
 double depth_option(const std::string& text) {
@@ -220,9 +266,9 @@ double depth_option(const std::string& text) {
   throw CaseError(fmt::format("--max-wear {}: must be above 0 and at most 1 mm", text), "take e.g. \"0.05 mm\"");
 }
 
-ExitCode collective_wear(const WearOptions& wanted, const CommandOptions& options) {
+ExitCode collective_wear(const WearOptions& wanted, bool resume, const CommandOptions& options) {
   LoadedCase loaded = load_case_of(options, uses::kWearLoop);
-  const WearLoopOrder order{job_order_of(options, output_folder_of(options, loaded, "-wear-loop"), wanted.resume),
+  const WearLoopOrder order{job_order_of(options, output_folder_of(options, loaded, "-wear-loop"), resume),
                             wanted.steps, wanted.passages, depth_option(wanted.max_wear), cell_size(options.cell)};
   return code_of(carry_out_wear_loop(std::move(loaded), order, control_by_signals(), [&](const WornRail& rail) {
     if (!options.json) return;
@@ -248,7 +294,7 @@ CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
   passages->check(CLI::Range(1.0, 1e15))->check(finite());
   auto* most = sub.add_option("--max-wear", wear->max_wear, "Of wear: depth at the deepest place in one step")
                    ->capture_default_str();
-  auto* resume = sub.add_flag("--resume", wear->resume, "Of wear: go on with the steps of the folder");
+  sub.add_flag("--resume", followed->resume, "Of wear and --until: go on with the steps or the traffic of the folder");
   const auto measured = std::make_shared<MeasuredOptions>();
   auto* before = sub.add_option("--measured-before", measured->before,
                                 "A measured profile of the rail: with the next two the wear factor of the line");
@@ -260,18 +306,18 @@ CommandWork declare_collective(CLI::App& sub, CommandOptions& options) {
   auto* traffic = sub.add_option("--until", followed->until,
                                  "Follow the rail through so much gross traffic: wear, grinding, strain and damage "
                                  "of the same metal on the profile of the day, e.g. \"50 Mt\"; not given: life.until");
-  for (auto* other : std::initializer_list<CLI::Option*>{steps, passages, most, resume, before})
-    traffic->excludes(other);
+  for (auto* other : std::initializer_list<CLI::Option*>{steps, passages, most, before}) traffic->excludes(other);
   sub.add_flag("--range", followed->range,
-               "Of the rail that is followed: one more run for each end of what is not known (life.ductility_scatter and its "
-               "neighbours), up to 11 in all; the lives have the range of all, and the answer names what decides");
+               "Of the rail that is followed: one more run for each end of what is not known (life.ductility_scatter "
+               "and its neighbours), up to 11 in all; the lives have the range of all, and the answer names what "
+               "decides");
   add_no_report(sub, options);
   return [=, &options] {
     if (*before && (*steps || *passages))
       throw CaseError("measured profiles belong to a collective without --steps", "leave --steps and --passages out");
-    if (*steps || *passages) return collective_wear(*wear, options);
-    if (*most || *resume)
-      throw CaseError(fmt::format("{} belongs to wear, step by step", *most ? "--max-wear" : "--resume"),
+    if (*steps || *passages) return collective_wear(*wear, followed->resume, options);
+    if (*most)
+      throw CaseError("--max-wear belongs to wear, step by step",
                       "give --steps 10, or --passages 2e6, or both with it");
     return command_collective(options, *followed, *measured);
   };
@@ -286,8 +332,8 @@ extern const Command kCollectiveCommand{
     "Examples:\n  railstrata collective cases/collective/mixed_traffic.toml\n  railstrata collective "
     "cases/collective/mixed_traffic.toml --set load.0.passages=1e6 --out results/more-freight\n  railstrata collective "
     "cases/collective/mixed_traffic.toml --passages 1e5 --max-wear \"0.002 mm\" --out results/worn\n  railstrata "
-    "collective cases/collective/mixed_traffic.toml --passages 2e5 --out results/worn --resume\n\nCtrl-C: of a load or "
-    "a step under way nothing is kept, everything before it is.\n",
+    "collective cases/collective/mixed_traffic.toml --passages 2e5 --out results/worn --resume\n\nCtrl-C: of a load, "
+    "a step or a stretch of traffic under way nothing is kept, everything before it is.\n",
     declare_collective};
 
 }  // namespace railstrata

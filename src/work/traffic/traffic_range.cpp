@@ -215,6 +215,8 @@ TrafficRange run_range(const CaseSpec& spec, const std::filesystem::path& folder
     numbered.begin(k, runs.size(), k == 0 ? "best values" : run.input + " " + run.value);
     try {
       run.result = run_clock(*specs[k], folder, how);
+      how.keep = {};  // of the best values alone
+      how.begun = nullptr;
     } catch (const CaseError& e) {
       if (k == 0) throw;
       run.fault = fault_line(e);
