@@ -55,5 +55,23 @@ TEST(WarmPatches, OfS1002OnUic60AreTheColdOnes) {
   EXPECT_LE(way.iterations_warm, way.iterations_cold);
 }
 
+// Apart, tread and flange press each other's cells by far: the trial of the state before shows it for the next one too,
+// but not for one of another load.
+TEST(WarmPatches, ATrialThatShowsSurelyOnePatchIsKept) {
+  BemNeighbour neighbour;
+  BemOptions options = coarse();
+  options.neighbour = &neighbour;
+  const auto trial_at = [&](double shift, double load) {
+    CaseSpec spec = european(shift);
+    spec.vehicle.set_load(load);
+    solve_bem(spec, place(spec, {}), options);
+    EXPECT_EQ(neighbour.smooth.size(), 1u);
+    return neighbour.smooth.empty() ? Plane{} : neighbour.smooth.front().front().solution.normal.pressure;
+  };
+  const Plane first = trial_at(5.300e-3, 80e3), next = trial_at(5.302e-3, 80e3), lighter = trial_at(5.302e-3, 60e3);
+  EXPECT_EQ(first, next);
+  EXPECT_NE(next, lighter);
+}
+
 }  // namespace
 }  // namespace railstrata

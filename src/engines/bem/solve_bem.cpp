@@ -142,16 +142,22 @@ void move_to_place(const PatchOnWheel& p, double from, BemPatch& r) {
   r.approach -= least;
 }
 
-BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& p,
-                      const RigidContact& place) {
+/// Its field, and the sums over it.
+BemPatch patch_totals(const CaseSpec& spec, const PatchOnWheel& p) {
   BemPatch r;
   r.contact = p.contact;
-  r.place = place;
   r.grid = p.patch.grid;
-  r.rigid_slip.spin = p.patch.contact.spin;
   fill_field(p.patch, p.solution, r.contact, spec.drive.speed, r.field);
   if (r.grid.line) spread_over_line(r.grid.dy, r.field);
   fill_totals(p.solution, spec.drive.speed, r);
+  return r;
+}
+
+BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& p,
+                      const RigidContact& place) {
+  BemPatch r = patch_totals(spec, p);
+  r.place = place;
+  r.rigid_slip.spin = p.patch.contact.spin;
   if (p.patch.contact.kind == RollingKind::steady) r.motion_power = motion_power(p, spec.drive.speed);
   const bool beside = place.rail_s != p.contact.rail_s;
   const double from = beside ? along_plane(p.contact, place.point) : 0.0;
@@ -171,7 +177,7 @@ std::vector<BemPatch> parts_of(const CaseSpec& spec, const Placement& placement,
   const std::vector<PatchPiece> pieces = pieces_of(p, placement, descent);
   std::vector<BemPatch> out;
   std::shared_ptr<const ContactField> together;
-  if (pieces.size() > 1) together = std::make_shared<ContactField>(patch_result(spec, placement, p, p.contact).field);
+  if (pieces.size() > 1) together = std::make_shared<ContactField>(patch_totals(spec, p).field);
   for (const PatchPiece& piece : pieces) {
     out.push_back(patch_result(spec, placement, piece.patch, piece.place));
     out.back().together = together;

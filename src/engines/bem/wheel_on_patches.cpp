@@ -70,7 +70,9 @@ WheelOnPatches::WheelOnPatches(const CaseSpec& spec, const Placement& placement,
 
 std::vector<BemStart> WheelOnPatches::settle(std::size_t trial, double most) {
   const BemNeighbour none, &near = options_.neighbour ? *options_.neighbour : none;
-  if (trial >= near.smooth.size() || !start_from(near.smooth[trial])) descent_ = first_descent();
+  const bool begun = trial < near.smooth.size() && start_from(near.smooth[trial]);
+  if (begun && surely_one()) return near.smooth[trial];
+  if (!begun) descent_ = first_descent();
   descend();
   std::vector<BemStart> smooth = starts();
   if (const auto meet = meeting(); meet && meet->reach > most) return smooth;
@@ -99,6 +101,21 @@ bool WheelOnPatches::start_from(const std::vector<BemStart>& patches) {
   for (std::size_t k = 0; k < members_.size(); ++k)
     if (of[k]) lay_start(members_[k], *of[k]);
   return true;
+}
+
+/// Whether the patches of the start, whose approaches are nearly those of this descent, meet by far more than patches
+/// that are one: a solution would show the same.
+bool WheelOnPatches::surely_one() const {
+  constexpr double kNearly = 0.05;  // of load and approach
+  constexpr double kByFar = 3;      // reach: pressures of the start are known to a few such shares
+  if (!spec_.vehicle.approach && !(std::abs(vertical() - weight_) <= kNearly * weight_)) return false;
+  const Eigen::VectorXd lacking = lacking_approaches(depressions());
+  for (std::size_t k = 0; k < members_.size(); ++k)
+    if (members_[k].solution.normal.pressure.empty() ||
+        !(std::abs(lacking(static_cast<Eigen::Index>(k))) <= kNearly * members_[k].approach))
+      return false;
+  const auto meet = meeting();
+  return meet && meet->reach > kByFar;
 }
 
 void WheelOnPatches::lay_start(Member& m, const BemStart& start) {
@@ -196,21 +213,31 @@ Eigen::MatrixXd WheelOnPatches::depressions() const {
   return out;
 }
 
+/// What the approaches lack of those of the normal forces as they are, m.
+Eigen::VectorXd WheelOnPatches::lacking_approaches(const Eigen::MatrixXd& bent) const {
+  const auto n = static_cast<Eigen::Index>(members_.size());
+  Eigen::VectorXd normal(n), out(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Member& m = members_[static_cast<std::size_t>(k)];
+    normal(k) = m.normal;
+    out(k) = (descent_ - m.below) * std::cos(m.contact().angle) - m.approach;
+  }
+  return out - bent * normal;
+}
+
 /// Newton's step of the descent. With the stiffnesses S and the depressions C by a unit force the normal forces move by
 /// dN = S (cos(delta) dd + r - C dN), r what the approach lacks of that of the forces N now. The forces expected after
 /// the step go into the next approaches.
 double WheelOnPatches::step(const Eigen::MatrixXd& bent) {
   const auto n = static_cast<Eigen::Index>(members_.size());
-  Eigen::VectorXd normal(n), lacking(n), cosine(n), share(n), stiff(n);
+  Eigen::VectorXd cosine(n), share(n), stiff(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const Member& m = members_[static_cast<std::size_t>(k)];
-    normal(k) = m.normal;
     cosine(k) = std::cos(m.contact().angle);
-    lacking(k) = (descent_ - m.below) * cosine(k) - m.approach;
     share(k) = m.loaded() ? m.vertical() / m.normal : 0.0;
     stiff(k) = m.stiffness();
   }
-  lacking -= bent * normal;
+  const Eigen::VectorXd lacking = lacking_approaches(bent);
   const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) + stiff.asDiagonal() * bent;
   const Eigen::PartialPivLU<Eigen::MatrixXd> solver(system);
   const Eigen::VectorXd as_is = solver.solve(stiff.cwiseProduct(lacking)),
@@ -218,8 +245,10 @@ double WheelOnPatches::step(const Eigen::MatrixXd& bent) {
   const double rise = std::max(share.dot(by_descent), 0.1 * cosine.dot(by_descent)),
                wanted = (weight_ - vertical() - share.dot(as_is)) / rise,
                step = spec_.vehicle.approach ? 0.0 : std::clamp(wanted, -0.5 * descent_, descent_);
-  for (Eigen::Index k = 0; k < n; ++k)
-    members_[static_cast<std::size_t>(k)].expected = std::max(0.0, normal(k) + as_is(k) + step * by_descent(k));
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Member& m = members_[static_cast<std::size_t>(k)];
+    m.expected = std::max(0.0, m.normal + as_is(k) + step * by_descent(k));
+  }
   return step;
 }
 

@@ -54,11 +54,13 @@ class WheelOnPatches {
   };
 
   bool start_from(const std::vector<BemStart>& patches);
+  bool surely_one() const;
   void lay_start(Member& m, const BemStart& start);
   std::vector<BemStart> starts() const;
   void descend();
   double vertical() const;
   Eigen::MatrixXd depressions() const;
+  Eigen::VectorXd lacking_approaches(const Eigen::MatrixXd& bent) const;
   double step(const Eigen::MatrixXd& bent);
   double lay(double descent);
   double first_descent();
