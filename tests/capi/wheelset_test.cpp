@@ -290,6 +290,26 @@ TEST(Wheelset, OnTheFlangeIsInEquilibriumOrRefused) {
   EXPECT_GE(answered, 4);
 }
 
+// As a vehicle code asks in its time steps: the sharing of tread and flange goes on as before, which saves a solution
+// of three, and forces are those of new wheelsets.
+TEST(Wheelset, OnTreadAndFlangeAStateTakesTwoSolutions) {
+  constexpr int kStates = 60;
+  Set set(kEuropeanCase);
+  int solutions = 0;
+  for (int k = 0; k < kStates; ++k) {
+    const rs_wheelset_state state = loaded(5.2e-3 + 2e-6 * k, 1e-3);
+    ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+    EXPECT_EQ(set.forces.wheel[RS_LEFT].patches, 2);
+    if (k > 2) solutions += set.forces.solutions;
+    if (k % 20 != 19) continue;
+    Set anew(kEuropeanCase);
+    ASSERT_EQ(anew.solve(state), RS_OK) << anew.error.message;
+    for (int i : {0, 1, 2}) EXPECT_NEAR(set.forces.force[i], anew.forces.force[i], 2e-5 * state.load);
+  }
+  EXPECT_LT(solutions, 2.5 * (kStates - 3));
+  RecordProperty("solutions", solutions);
+}
+
 /// Rates of force and moment, by y and yaw and by their rates, at rest in the middle of the track.
 struct Linear {
   double force[4], moment[4];

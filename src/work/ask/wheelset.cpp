@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "ask/wheelset_forces.hpp"
 #include "ask/wheelset_wheel.hpp"
@@ -60,6 +61,31 @@ void begin_stiffening(Wheelset& set) {
     const double descent = hertz_estimate(spec, touching).approach / std::cos(touching.angle);
     set.stiffening[k].scale = spec.vehicle.load() / std::pow(descent, 1.5);
   }
+}
+
+std::array<double, 2> shifts_of(const WheelsetState& s) { return {s.y - s.rail_y[kLeft], s.y - s.rail_y[kRight]}; }
+
+/// Of several patches of a wheel, whose shares change fast with the shift: descents under the same force and the left
+/// share of the load go on as from the solution before to the last one.
+void follow(Wheelset& set, const WheelsetState& state) {
+  constexpr double kFarthest = 2;  // steps
+  const auto& [last, before] = set.sunk;
+  if (!last || !before || !last->several || !before->several) return;
+  const std::array<double, 2> now = shifts_of(state);
+  for (std::size_t k : {0, 1}) {
+    const double share = (now[k] - last->shift[k]) / (last->shift[k] - before->shift[k]);
+    if (!(share > 0 && share <= kFarthest && last->stiffening[k].descent > 0)) continue;
+    Stiffening& s = set.stiffening[k];
+    s = last->stiffening[k];
+    s.scale *= std::pow(before->stiffening[k].descent_at(s.force) / s.descent, share * s.power);
+    s.descent = 0;  // the power stays
+    if (k == kLeft) set.left_share = last->left_share + share * (last->left_share - before->left_share);
+  }
+}
+
+void remember(Wheelset& set, const WheelsetState& state) {
+  const bool several = set.wheels[kLeft].forces.patches + set.wheels[kRight].forces.patches > 2;
+  set.sunk[1] = std::exchange(set.sunk[0], SunkWheelset{shifts_of(state), set.stiffening, set.left_share, several});
 }
 
 double tolerance_of(const Wheelset& set) {
@@ -294,7 +320,9 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
     out.z = *state.z;
     press(set, {descent_at(set.wheels[0], out.z), descent_at(set.wheels[1], out.z)}, state.extrapolate);
   } else {
+    follow(set, state);
     out.z = *state.load == 0 ? hang(set, state) : state.roll ? sink(set, *state.load) : lean(set, state);
+    remember(set, state);
   }
   out.roll = set.roll;
   out.solutions = set.solutions;
@@ -310,11 +338,8 @@ WheelsetForces solve(Wheelset& set, const WheelsetState& state) {
 }
 
 void keep(Wheelset& set) {
-  set.kept = {set.roll,
-              set.tilting,
-              set.left_share,
-              set.stiffening,
-              {set.wheels[0].contact.start, set.wheels[1].contact.start}};
+  set.kept = {set.roll,       set.tilting, set.left_share,
+              set.stiffening, set.sunk,    {set.wheels[0].contact.start, set.wheels[1].contact.start}};
 }
 
 void reset(Wheelset& set) {
@@ -322,6 +347,7 @@ void reset(Wheelset& set) {
   set.tilting = set.kept.tilting;
   set.left_share = set.kept.left_share;
   set.stiffening = set.kept.stiffening;
+  set.sunk = set.kept.sunk;
   for (std::size_t side : {kLeft, kRight}) set.wheels[side].contact.start = set.kept.contacts[side];
 }
 
@@ -329,6 +355,7 @@ void forget(Wheelset& set) {
   set.roll = set.tilting = 0;
   set.left_share = 0.5;
   set.stiffening = {};
+  set.sunk = {};
   for (Wheel& w : set.wheels) w.contact.start = {};
 }
 

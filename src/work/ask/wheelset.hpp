@@ -119,12 +119,21 @@ struct Wheel {
   const TrackGeometry& track() const { return contact.placement().track; }
 };
 
+/// What a solution under a load has found, by the wheels' shifts over their rails.
+struct SunkWheelset {
+  std::array<double, 2> shift{};  ///< m
+  std::array<Stiffening, 2> stiffening;
+  double left_share = 0.5;
+  bool several = false;  ///< patches of a wheel
+};
+
 /// Where the next solution starts from.
 struct WheelsetStart {
   double roll = 0;          ///< rad
   double tilting = 0;       ///< m, change of the wheels' difference in height with the roll; 0: of none
   double left_share = 0.5;  ///< of the load, on the left wheel
   std::array<Stiffening, 2> stiffening;
+  std::array<std::optional<SunkWheelset>, 2> sunk;  ///< the last one and that before
   std::array<NextStart, 2> contacts;
 };
 
@@ -142,6 +151,7 @@ struct Wheelset {
   std::array<Stiffening, 2> stiffening;
   double roll = 0;                       ///< rad, of the last solution
   double tilting = 0, left_share = 0.5;  ///< as WheelsetStart
+  std::array<std::optional<SunkWheelset>, 2> sunk;
   int solutions = 0;
   WheelsetStart kept;
   std::optional<SolvedWheelset> solved;  ///< none after an error
