@@ -272,6 +272,43 @@ TEST(Wheelset, ForcesAreContinuousWhereTwoPlanesBecomeOne) {
   EXPECT_LT(over_roll.roll_moment, 600);
 }
 
+/// Where the flange's patch, of 230 N beside 92 kN, comes to the ridge before the tread's.
+rs_wheelset_state beside_the_ridge(double y) {
+  rs_wheelset_state state = loaded(y);
+  state.pitch_rate = -0.04;
+  return state;
+}
+
+// A patch of its own cells, and of an approach that the large one leaves it: known so well that no state is refused.
+TEST(Wheelset, ALoadBesideTheRidgeHasAnAnswer) {
+  Set set(kBogie);
+  for (double y = 5.5294e-3; y < 5.5312e-3; y += 2e-7) {
+    const rs_wheelset_state state = beside_the_ridge(y);
+    ASSERT_EQ(set.solve(state), RS_OK) << y << ": " << set.error.message;
+    EXPECT_NEAR(set.forces.force[2], state.load, 1e-5 * state.load) << y;
+  }
+}
+
+// Over 70 nm of height the force grows by 500 N, the difference between both planes, by old and new solutions alike.
+TEST(Wheelset, BesideTheRidgeWarmSolutionsAreTheColdOnes) {
+  Set warm(kBogie), cold(kBogie);
+  rs_wheelset_state state = beside_the_ridge(5.53e-3);
+  state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
+  state.roll = 4.32669e-4;
+  double least = 1e9, most = 0;
+  for (int i = 0; i <= 14; ++i) {
+    state.z = 8.742e-5 - 5e-9 * i;
+    rs_wheelset_forget(cold.handle);
+    ASSERT_EQ(warm.solve(state), RS_OK) << warm.error.message;
+    ASSERT_EQ(cold.solve(state), RS_OK) << cold.error.message;
+    const double force = warm.forces.wheel[RS_LEFT].force[2];
+    EXPECT_NEAR(force, cold.forces.wheel[RS_LEFT].force[2], 50) << state.z;
+    least = std::min(least, force);
+    most = std::max(most, force);
+  }
+  EXPECT_GT(most - least, 450);
+}
+
 // Towards the flange and beyond what a load without a roll moment can hold: an answer is an equilibrium.
 TEST(Wheelset, OnTheFlangeIsInEquilibriumOrRefused) {
   Set set(kEuropeanCase);

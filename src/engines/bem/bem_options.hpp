@@ -52,8 +52,10 @@ struct BemOptions {
   BemNeighbour* neighbour = nullptr;  ///< may be null. Becomes this solution; numbers then depend on what it was,
                                       ///< within the tolerances of the solver
   double descent = 0;  ///< m, of the wheel, where the approach was made of it; 0: that of the approach (descent_of)
-  bool apart = true;   ///< parts of a patch of several contacts that are not connected become patches of the result;
-                       ///< false: one patch, as its plane was solved
+  bool keep_cells = false;  ///< patches keep the cells of the neighbour's where their sizes are within the double: for
+                            ///< the trials of one search, whose forces then have no steps
+  bool apart = true;  ///< parts of a patch of several contacts that are not connected become patches of the result;
+                      ///< false: one patch, as its plane was solved
   std::function<RailSurface(const PatchGrid&)> rail_surface = {};  ///< empty: the surface of its profile
 };
 

@@ -323,6 +323,7 @@ std::vector<SharedLoad> sink_under_load(const CaseSpec& spec, const Placement& p
     how.descent = descent;
     out = press_to_approach(pressed, placement, how);
     last = neighbour_of(out);
+    how.keep_cells = true;
     missed = -load;
     for (const SharedLoad& one : out)
       for (const PatchOnWheel& p : one.patches) missed += one.share * vertical_force(p);

@@ -16,12 +16,13 @@ namespace railstrata {
 
 namespace {
 
-constexpr double kLeastApproach = 1e-9;  // m
-constexpr double kClosure = 0.05;        // of BemOptions::balance
-constexpr double kRough = 1e-3;          // of the load, without friction: whether patches merge is seen
-constexpr double kRoughPressure = 1e-5;  // tolerance of the gap there
-constexpr double kSharpFriction = 0.01;  // of the same, of friction: forces are known better than they close
-constexpr double kNoWidth = 1e-13;       // of a creepage
+constexpr double kLeastApproach = 1e-9;         // m
+constexpr double kClosure = 0.05;               // of BemOptions::balance
+constexpr double kRough = 1e-3;                 // of the load, without friction: whether patches merge is seen
+constexpr double kRoughPressure = 1e-5;         // tolerance of the gap there
+constexpr double kSharpFriction = 0.01;         // of the same, of friction: forces are known better than they close
+constexpr double kNoWidth = 1e-13;              // of a creepage
+constexpr double kLaidFrom = 0.5, kLaidTo = 2;  // of the approach that a grid was laid for
 constexpr int kMostIterations = 60;
 
 }  // namespace
@@ -74,6 +75,7 @@ std::vector<BemStart> WheelOnPatches::settle(std::size_t trial, double most) {
   if (begun && surely_one()) return near.smooth[trial];
   if (!begun) descent_ = first_descent();
   descend();
+  if (!options_.keep_cells && !cells_suit()) descend();
   std::vector<BemStart> smooth = starts();
   if (const auto meet = meeting(); meet && meet->reach > most) return smooth;
   if (start_from(near.patches)) descend();  // under friction's forces as they were
@@ -109,11 +111,9 @@ bool WheelOnPatches::surely_one() const {
   constexpr double kNearly = 0.05;  // of load and approach
   constexpr double kByFar = 3;      // reach: pressures of the start are known to a few such shares
   if (!spec_.vehicle.approach && !(std::abs(vertical() - weight_) <= kNearly * weight_)) return false;
-  const Eigen::VectorXd lacking = lacking_approaches(depressions());
-  for (std::size_t k = 0; k < members_.size(); ++k)
-    if (members_[k].solution.normal.pressure.empty() ||
-        !(std::abs(lacking(static_cast<Eigen::Index>(k))) <= kNearly * members_[k].approach))
-      return false;
+  for (const Member& m : members_)
+    if (m.loaded() && m.solution.normal.pressure.empty()) return false;
+  if (!near_in(kNearly)) return false;
   const auto meet = meeting();
   return meet && meet->reach > kByFar;
 }
@@ -121,7 +121,13 @@ bool WheelOnPatches::surely_one() const {
 void WheelOnPatches::lay_start(Member& m, const BemStart& start) {
   m.approach = m.approach_before = m.laid_for = start.solution.normal.approach;
   m.normal = m.normal_before = m.expected = start.solution.normal.load;
-  const PatchGrid wanted = first_grid(spec_, m.placement, cells_for(m), {.approach = m.approach}, m.room);
+  BemOptions cells = cells_for(m, m.approach);
+  if (options_.keep_cells) {
+    const BemOptions finer = cells_for(m, kLaidFrom * m.approach), coarser = cells_for(m, kLaidTo * m.approach);
+    cells.cell = std::clamp(start.grid.dx, finer.cell, coarser.cell);
+    cells.across = std::clamp(start.grid.dy, finer.across, coarser.across);
+  }
+  const PatchGrid wanted = first_grid(spec_, m.placement, cells, {.approach = m.approach}, m.room);
   if (!suits(start, wanted)) {
     m.laid_for = 0;
     return;
@@ -180,7 +186,7 @@ void WheelOnPatches::descend() {
     const Eigen::MatrixXd bent = depressions();
     const double moved = solve_at(bent), load = pressed ? vertical() : weight_,
                  close = (rubs_ ? options_.balance : kRough) * load, closed = rubs_ ? kClosure * close : close;
-    if (moved <= close && (pressed || std::abs(vertical() - weight_) <= closed)) return;
+    if (moved <= close && (pressed || std::abs(vertical() - weight_) <= closed) && approaches_settled()) return;
     descent_ += step(bent);
   }
   if (pressed) throw NumericalError("no forces were found for a wheel with several contacts and a given approach");
@@ -223,6 +229,22 @@ Eigen::VectorXd WheelOnPatches::lacking_approaches(const Eigen::MatrixXd& bent) 
     out(k) = (descent_ - m.below) * std::cos(m.contact().angle) - m.approach;
   }
   return out - bent * normal;
+}
+
+/// Whether the approaches are within a share of those of the normal forces as they are.
+bool WheelOnPatches::near_in(double share) const {
+  const Eigen::VectorXd lacking = lacking_approaches(depressions());
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    const double lacks = lacking(static_cast<Eigen::Index>(k)), has = members_[k].approach;
+    if (members_[k].loaded() ? !(std::abs(lacks) <= share * has) : has + lacks > kLeastApproach) return false;
+  }
+  return true;
+}
+
+/// Whether they are known well enough to see how far patches meet, and by friction what share of the answer this is.
+bool WheelOnPatches::approaches_settled() const {
+  constexpr double kRoughly = 0.01, kOnTheWay = 1e-5;
+  return rubs_ ? !meeting() || near_in(kOnTheWay) : near_in(kRoughly);
 }
 
 /// Newton's step of the descent. With the stiffnesses S and the depressions C by a unit force the normal forces move by
@@ -326,21 +348,34 @@ double WheelOnPatches::cell_for(double semi_axis) const {
 
 /// An axis of a patch shorter than ten cells gets shorter ones: halves of halves, for which the influence of the last
 /// patch serves.
-BemOptions WheelOnPatches::cells_for(const Member& m) const {
-  const double scale = std::sqrt(m.approach / m.estimate.approach);
+BemOptions WheelOnPatches::cells_for(const Member& m, double approach) const {
+  const double scale = std::sqrt(approach / m.estimate.approach);
   BemOptions out = options_;
   out.cell = cell_for(scale * m.estimate.a);
   out.across = cell_for(scale * m.estimate.b);
   return out;
 }
 
+/// Whether the cells are those for the approaches that were found; grids of others are to be laid anew.
+bool WheelOnPatches::cells_suit() {
+  bool out = true;
+  for (Member& m : members_) {
+    if (!m.loaded()) continue;
+    const BemOptions wanted = cells_for(m, m.approach);
+    if (m.patch.grid.dx == wanted.cell && m.patch.grid.dy == wanted.across) continue;
+    m.laid_for = 0;
+    out = false;
+  }
+  return out;
+}
+
 void WheelOnPatches::lay_grid(Member& m) {
   const NormalTarget target{.approach = m.approach};
-  if (m.approach < 2 * m.laid_for && m.approach > 0.5 * m.laid_for) {
+  if (m.approach < kLaidTo * m.laid_for && m.approach > kLaidFrom * m.laid_for) {
     if (m.turned || !m.patch.influence)
       m.patch = case_patch_on(m.patch.grid, spec_, m.placement, options_, target, m.room);
   } else {
-    m.patch = make_case_patch(spec_, m.placement, cells_for(m), target, m.room);
+    m.patch = make_case_patch(spec_, m.placement, cells_for(m, m.approach), target, m.room);
     m.laid_for = m.approach;
     m.solution = {};
   }

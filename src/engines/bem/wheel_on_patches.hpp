@@ -55,6 +55,8 @@ class WheelOnPatches {
 
   bool start_from(const std::vector<BemStart>& patches);
   bool surely_one() const;
+  bool near_in(double share) const;
+  bool approaches_settled() const;
   void lay_start(Member& m, const BemStart& start);
   std::vector<BemStart> starts() const;
   void descend();
@@ -66,7 +68,8 @@ class WheelOnPatches {
   double first_descent();
   void stand();
   double solve_at(const Eigen::MatrixXd& bent);
-  BemOptions cells_for(const Member& m) const;
+  BemOptions cells_for(const Member& m, double approach) const;
+  bool cells_suit();
   void lay_grid(Member& m);
   double cell_for(double semi_axis) const;
   void solve(Member& m) const;

@@ -253,6 +253,7 @@ Forces Contact::pressed(const State& state) {
   BemNeighbour neighbour = start.of(here_.spec);
   options.neighbour = &neighbour;
   options.descent = state.descent;
+  options.keep_cells = state.keep_cells;
   constexpr double kFollowed = 1e-2;  // of a start's violation: the smallest change of a state counts
   if (!neighbour.empty()) options.rolling.normal.share_of_first = options.rolling.tangential.share_of_first = kFollowed;
   by_physics([&] { last_ = solve_bem(here_.spec, here, options); });

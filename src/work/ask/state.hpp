@@ -19,6 +19,7 @@ struct State {
   std::optional<double> force_x, force_y;              ///< N, on the wheel; lateral friction in the contact plane
   double descent = 0;        ///< m, of the wheel, where the approach was made of it; 0: it was not
   bool extrapolate = false;  ///< an approach that half-spaces do not bear has an answer (Forces::beyond)
+  bool keep_cells = false;   ///< as BemOptions
   double rolling_share = 1;  ///< of a wheelset (DriveSpec); callers do not give it
 };
 

@@ -20,11 +20,12 @@ namespace railstrata {
 double Stiffening::force_at(double d) const { return d > 0 ? scale * std::pow(d, power) : 0.0; }
 double Stiffening::descent_at(double q) const { return std::pow(q / scale, 1 / power); }
 
-void Stiffening::add(double d, double q) {
-  constexpr double kNear = 1e-4, kFar = 1, kLeast = 0.8, kMost = 3;
+void Stiffening::add(double d, double q, bool several) {
+  constexpr double kNear = 1e-4, kFar = 1, kLeast = 0.8;
+  const double most = several ? 30 : 3;  // on the way of two planes into one the force grows ten times as fast
   if (!(d > 0) || !(q > 0)) return;
   const double apart = descent > 0 ? std::abs(std::log(d / descent)) : 0;
-  if (apart > kNear && apart < kFar) power = std::clamp(std::log(q / force) / std::log(d / descent), kLeast, kMost);
+  if (apart > kNear && apart < kFar) power = std::clamp(std::log(q / force) / std::log(d / descent), kLeast, most);
   descent = d;
   force = q;
   scale = q / std::pow(d, power);
@@ -45,11 +46,15 @@ void place(Wheelset& set, const WheelsetState& state, double roll, bool hold = f
   set.roll = roll;
 }
 
+/// Whether its last solution has several patches or tried them apart.
+bool at_several_places(const Wheel& w) { return w.forces.patches > 1 || !w.contact.start.last().smooth.empty(); }
+
 void press(Wheelset& set, const std::array<double, 2>& descents, bool extrapolate = false) {
   ++set.solutions;
   for (std::size_t k : {0, 1}) {
-    press(set.wheels[k], descents[k], extrapolate);
-    if (!set.wheels[k].forces.beyond) set.stiffening[k].add(descents[k], set.wheels[k].force.z);
+    press(set.wheels[k], descents[k], extrapolate, set.solutions > 1);
+    const Wheel& w = set.wheels[k];
+    if (!w.forces.beyond) set.stiffening[k].add(descents[k], w.force.z, at_several_places(w));
   }
 }
 
@@ -65,8 +70,8 @@ void begin_stiffening(Wheelset& set) {
 
 std::array<double, 2> shifts_of(const WheelsetState& s) { return {s.y - s.rail_y[kLeft], s.y - s.rail_y[kRight]}; }
 
-/// Of several patches of a wheel, whose shares change fast with the shift: descents under the same force and the left
-/// share of the load go on as from the solution before to the last one.
+/// Where a wheel touches at several places, whose shares change fast with the shift: descents under the same force and
+/// the left share of the load go on as from the solution before to the last one.
 void follow(Wheelset& set, const WheelsetState& state) {
   constexpr double kFarthest = 2;  // steps
   const auto& [last, before] = set.sunk;
@@ -84,7 +89,7 @@ void follow(Wheelset& set, const WheelsetState& state) {
 }
 
 void remember(Wheelset& set, const WheelsetState& state) {
-  const bool several = set.wheels[kLeft].forces.patches + set.wheels[kRight].forces.patches > 2;
+  const bool several = at_several_places(set.wheels[kLeft]) || at_several_places(set.wheels[kRight]);
   set.sunk[1] = std::exchange(set.sunk[0], SunkWheelset{shifts_of(state), set.stiffening, set.left_share, several});
 }
 

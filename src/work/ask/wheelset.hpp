@@ -102,7 +102,7 @@ struct Stiffening {
   double force_at(double d) const;
   double descent_at(double q) const;
   double slope() const { return descent > 0 ? power * force / descent : 0; }  ///< there
-  void add(double d, double q);
+  void add(double d, double q, bool several);
 };
 
 /// One wheel as the left one of its motion, which rolls on.
@@ -124,7 +124,7 @@ struct SunkWheelset {
   std::array<double, 2> shift{};  ///< m
   std::array<Stiffening, 2> stiffening;
   double left_share = 0.5;
-  bool several = false;  ///< patches of a wheel
+  bool several = false;  ///< places of a wheel
 };
 
 /// Where the next solution starts from.

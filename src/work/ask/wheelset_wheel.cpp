@@ -59,9 +59,10 @@ State state_under(Wheel& w, double descent) {
   return out;
 }
 
-void press(Wheel& w, double descent, bool extrapolate) {
+void press(Wheel& w, double descent, bool extrapolate, bool keep_cells) {
   State state = state_under(w, descent);
   state.extrapolate = extrapolate;
+  state.keep_cells = keep_cells;
   w.forces = w.contact.solve(state);
   const Wrench carried = carried_by(w);
   w.force = carried.force;

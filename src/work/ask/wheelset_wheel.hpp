@@ -15,7 +15,7 @@ double descent_at(const Wheel& wheel, double z);
 /// The state of its contact where it is lowered by `descent` [m] below where it touches.
 State state_under(Wheel& wheel, double descent);
 
-/// Solves it so. Throws as Contact::solve.
-void press(Wheel& wheel, double descent, bool extrapolate);
+/// Solves it so. keep_cells: as of a state. Throws as Contact::solve.
+void press(Wheel& wheel, double descent, bool extrapolate, bool keep_cells = false);
 
 }  // namespace railstrata
