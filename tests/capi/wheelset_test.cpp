@@ -327,6 +327,29 @@ TEST(Wheelset, OnTheFlangeIsInEquilibriumOrRefused) {
   EXPECT_GE(answered, 4);
 }
 
+// Of two patches in planes of their own, too, the creepages are those of the state and not of the one before.
+TEST(Wheelset, OnTwoPlanesANewCreepageCounts) {
+  Set warm(kBogie), cold(kBogie);
+  BetweenPlanes near = kMeets;
+  near.y = 5.008e-3;
+  near.roll_moment = -970;
+  rs_wheelset_state state = near.state();
+  ASSERT_EQ(warm.solve(state), RS_OK) << warm.error.message;
+  const double before = warm.forces.force[0];
+  state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
+  state.z = warm.forces.z;
+  state.roll = warm.forces.roll;
+  state.pitch_rate += 0.01;
+  ASSERT_EQ(warm.solve(state), RS_OK) << warm.error.message;
+  ASSERT_EQ(cold.solve(state), RS_OK) << cold.error.message;
+  EXPECT_EQ(warm.forces.wheel[RS_LEFT].patches, 2);
+  EXPECT_GT(std::abs(warm.forces.force[0] - before), 500);
+  for (int i : {0, 1, 2}) {
+    EXPECT_NEAR(warm.forces.force[i], cold.forces.force[i], 2);
+    EXPECT_NEAR(warm.forces.moment[i], cold.forces.moment[i], 2);
+  }
+}
+
 // As a vehicle code asks in its time steps: the sharing of tread and flange goes on as before, which saves a solution
 // of three, and forces are those of new wheelsets.
 TEST(Wheelset, OnTreadAndFlangeAStateTakesTwoSolutions) {

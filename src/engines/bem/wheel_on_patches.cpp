@@ -97,9 +97,10 @@ bool WheelOnPatches::start_from(const std::vector<BemStart>& patches) {
     }
   const BemNeighbour& near = *options_.neighbour;
   descent_ = spec_.vehicle.approach ? pressed_ : near.descent;
+  stand();
   along_ = near.along;
   across_ = near.across;
-  stand();
+  take_given_creepages();
   for (std::size_t k = 0; k < members_.size(); ++k)
     if (of[k]) lay_start(members_[k], *of[k]);
   return true;
@@ -307,15 +308,20 @@ void WheelOnPatches::stand() {
   if (stood_ == descent_) return;
   stood_ = descent_;
   reference_ = reference_of(placement_, descent_);
-  const DriveSpec drive = drive_at_contact(spec_, reference_);
-  if (!drive.traction()) along_.creepage = drive.creepage.value_or(0);
-  if (!drive.lateral_traction_coefficient) across_.creepage = drive.lateral_creepage.value_or(yaw_creepage(reference_));
+  take_given_creepages();
   for (Member& m : members_) {
     const RigidContact plane = plane_of(placement_, m.place, descent_);
     m.turned = m.turned || !same_place(plane, m.contact());
     m.placement.contact = plane;
     m.room = room_of(placement_, m.place, plane);
   }
+}
+
+/// Those that are not sought.
+void WheelOnPatches::take_given_creepages() {
+  const DriveSpec drive = drive_at_contact(spec_, reference_);
+  if (!drive.traction()) along_.creepage = drive.creepage.value_or(0);
+  if (!drive.lateral_traction_coefficient) across_.creepage = drive.lateral_creepage.value_or(yaw_creepage(reference_));
 }
 
 /// Solves all patches at the descent, with the depressions of the normal forces that are expected. Returns by how much

@@ -67,6 +67,7 @@ class WheelOnPatches {
   double lay(double descent);
   double first_descent();
   void stand();
+  void take_given_creepages();
   double solve_at(const Eigen::MatrixXd& bent);
   BemOptions cells_for(const Member& m, double approach) const;
   bool cells_suit();
