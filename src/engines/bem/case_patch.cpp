@@ -293,6 +293,10 @@ bool reaches_edge(const PatchGrid& grid, const Plane& pressure) {
   return edge.x || edge.y;
 }
 
+bool holds(const PatchGrid& grid, const PatchRoom& room) {
+  return grid.y(0) <= room.held_low && grid.y(grid.ny - 1) >= room.held_high;
+}
+
 bool suits(const BemStart& start, const PatchGrid& wanted) {
   const PatchGrid& grid = start.grid;
   if (grid.line != wanted.line || grid.dx != wanted.dx || grid.dy != wanted.dy) return false;

@@ -84,6 +84,9 @@ void place_cells(const CasePatch& patch, const RigidContact& contact, ContactFie
 /// Whether the patch touches the outermost ring of cells.
 bool reaches_edge(const PatchGrid& grid, const Plane& pressure);
 
+/// Whether the grid reaches over what it has to hold.
+bool holds(const PatchGrid& grid, const PatchRoom& room);
+
 /// Whether the grid of a solution is a suitable start where another one would be laid first: large enough, and not much
 /// larger than that or than its patch.
 bool suits(const BemStart& start, const PatchGrid& wanted);

@@ -131,6 +131,7 @@ std::vector<PatchPlace> patch_places(const Placement& p, const std::vector<Conta
     out[left].stretch.high = out[right].stretch.low = ridge.rail_s;
     out[left].beside_high = right;
     out[right].beside_low = left;
+    out[left].touched_high = out[right].touched_low = ridge.gap + p.contact.wheel_offset_z;
   }
   return out;
 }
@@ -150,7 +151,7 @@ RigidContact plane_of(const Placement& p, const PatchPlace& place, double descen
   return overlap_place(p.wheel, p.rail, p.track, place.first(), place.stretch, p.contact.wheel_offset_z - descent);
 }
 
-PatchRoom room_of(const Placement& p, const PatchPlace& place, const RigidContact& plane) {
+PatchRoom room_of(const Placement& p, const PatchPlace& place, const RigidContact& plane, double descent) {
   PatchRoom out;
   for (const RigidContact& c : place.contacts) {
     const double t = along_plane(plane, c.point);
@@ -160,6 +161,8 @@ PatchRoom room_of(const Placement& p, const PatchPlace& place, const RigidContac
   const auto along = [&](double s) { return along_plane(plane, rail_to_model(p.track, p.rail.at(s).position)); };
   if (place.beside_low) out.low = along(place.stretch.low);
   if (place.beside_high) out.high = along(place.stretch.high);
+  if (place.touched_low < descent) out.held_low = std::min(out.held_low, out.low);
+  if (place.touched_high < descent) out.held_high = std::max(out.held_high, out.high);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The places where a wheel touches its rail when it is lowered, and which of them are one patch.
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -56,6 +57,8 @@ struct PatchPlace {
   std::vector<RigidContact> contacts;
   RailStretch stretch;
   std::optional<std::size_t> beside_low, beside_high;  ///< the patches beyond its ends
+  double touched_low = kNever, touched_high = kNever;  ///< m, descents from which the wheel overlaps the rail there
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
   /// The contact that touches first.
   const RigidContact& first() const;
   bool same_as(const PatchPlace& other) const;
@@ -70,8 +73,9 @@ PatchPlace first_place(const CaseSpec& spec, const Placement& placement, double 
 /// (overlap_place).
 RigidContact plane_of(const Placement& placement, const PatchPlace& place, double descent);
 
-/// What the grid in a plane has to hold, and where it ends.
-PatchRoom room_of(const Placement& placement, const PatchPlace& place, const RigidContact& plane);
+/// What the grid in a plane has to hold under a descent [m], and where it ends: as far as where the wheel overlaps the
+/// rail at the ridge to a neighbour.
+PatchRoom room_of(const Placement& placement, const PatchPlace& place, const RigidContact& plane, double descent);
 
 /// The place that a wheel's creepages and its approach are of, where it is lowered by `descent` [m]: that of the whole
 /// overlap. It is the plane's of a wheel that touches at one place.

@@ -15,7 +15,7 @@ bool OnePatch::lower(double descent) {
   const RigidContact before = plane();
   if (!spec_->geometry.in_line()) placement_.contact = plane_of(*touching_, place_, descent);
   reference_ = place_.beside_low || place_.beside_high ? reference_of(*touching_, descent) : plane();
-  room_ = room_of(*touching_, place_, plane());
+  room_ = room_of(*touching_, place_, plane(), descent);
   return !same_place(before, plane());
 }
 
@@ -42,9 +42,7 @@ CasePatch OnePatch::lay_on(const PatchGrid& grid, const NormalTarget& target, co
 bool OnePatch::starts_from_neighbour(const BemOptions& options) const {
   const PatchRoom whole;
   if (!options.neighbour || !options.neighbour->alone()) return false;
-  const PatchGrid& g = options.neighbour->alone()->grid;
-  return room_.low == whole.low && room_.high == whole.high && g.y(0) <= room_.held_low &&
-         g.y(g.ny - 1) >= room_.held_high &&
+  return room_.low == whole.low && room_.high == whole.high && holds(options.neighbour->alone()->grid, room_) &&
          suits(*options.neighbour->alone(), first_grid(*spec_, placement_, options, {}, room_));
 }
 

@@ -129,7 +129,7 @@ void WheelOnPatches::lay_start(Member& m, const BemStart& start) {
     cells.across = std::clamp(start.grid.dy, finer.across, coarser.across);
   }
   const PatchGrid wanted = first_grid(spec_, m.placement, cells, {.approach = m.approach}, m.room);
-  if (!suits(start, wanted)) {
+  if (!suits(start, wanted) || !holds(start.grid, m.room)) {
     m.laid_for = 0;
     return;
   }
@@ -313,7 +313,7 @@ void WheelOnPatches::stand() {
     const RigidContact plane = plane_of(placement_, m.place, descent_);
     m.turned = m.turned || !same_place(plane, m.contact());
     m.placement.contact = plane;
-    m.room = room_of(placement_, m.place, plane);
+    m.room = room_of(placement_, m.place, plane, descent_);
   }
 }
 
@@ -377,7 +377,7 @@ bool WheelOnPatches::cells_suit() {
 
 void WheelOnPatches::lay_grid(Member& m) {
   const NormalTarget target{.approach = m.approach};
-  if (m.approach < kLaidTo * m.laid_for && m.approach > kLaidFrom * m.laid_for) {
+  if (m.approach < kLaidTo * m.laid_for && m.approach > kLaidFrom * m.laid_for && holds(m.patch.grid, m.room)) {
     if (m.turned || !m.patch.influence)
       m.patch = case_patch_on(m.patch.grid, spec_, m.placement, options_, target, m.room);
   } else {
