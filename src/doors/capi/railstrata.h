@@ -222,8 +222,8 @@ typedef struct rs_patch {
 } rs_patch;
 
 /* A patch of the last solution. about: the point [m, model axes] that moments are about; NULL: the origin. Forces of
- * all patches add up to those of rs_forces. Errors: RS_CASE without a solution, of a lifted wheel (it has no patch),
- * for a patch that is not there. */
+ * all patches add up to those of rs_forces, as in rs_wheelset_patch. Errors: RS_CASE without a solution, of a lifted
+ * wheel (it has no patch), for a patch that is not there. */
 RS_API int rs_patch_forces(const rs_contact* contact, int patch, const double* about, rs_patch* out, rs_error* error);
 
 /* Stresses [Pa] at n points below (rail) or above (wheel) the patch of the largest pressure. xyz: n times x, y from the
@@ -396,7 +396,9 @@ RS_API int rs_wheelset_jacobian(rs_wheelset* wheelset, const int* inputs, int co
 
 /* A patch of the last solution as rs_patch_forces gives it, but in the track's axes, signs as in rs_wheel. about: the
  * point [m, track axes] that moments are about; NULL: the centre of the wheelset. Patches of a wheel add up to its
- * force and moment. Errors: RS_CASE without a solution, of a lifted wheel, for a side or a patch that is not there. */
+ * force and moment; where two places are on the way into one plane (a remark says so) within 1 %, for the wheel has
+ * means of solutions and the patches are those of one. Errors: RS_CASE without a solution, of a lifted wheel, for a
+ * side or a patch that is not there. */
 RS_API int rs_wheelset_patch(const rs_wheelset* wheelset, int side, int patch, const double* about, rs_patch* out,
                              rs_error* error);
 
