@@ -117,6 +117,23 @@ TEST(SlowWheelsetDerivatives, AreThoseOfColdSolutions) {
   expect_slopes(kChinese, 4e-3, 1e-3);
 }
 
+// Tread and gauge corner, tried apart and in one plane.
+TEST(SlowWheelsetDerivatives, OfPlacesInOnePlaneAreThoseOfColdSolutions) { expect_slopes(kEuropeanCase, 5.3e-3, 1e-3); }
+
+TEST(WheelsetDerivatives, OfPlacesInOnePlaneAreThoseOfColdSolutions) {
+  Set set(kEuropeanCase), cold(kEuropeanCase);
+  sharpen(set, 1e-8);
+  sharpen(cold, 1e-11);
+  rs_wheelset_state state = running(5.27e-3, 1e-3);
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  EXPECT_EQ(set.forces.wheel[RS_LEFT].patches, 2);
+  state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
+  state.z = set.forces.z;
+  state.roll = set.forces.roll;
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  for (const Input& input : kPressed) expect_differences(set, cold, state, input);
+}
+
 TEST(WheelsetDerivatives, UnderALoadKeepLoadAndMoment) {
   Set set(kEuropeanCase);
   ASSERT_EQ(set.solve(running(2e-3, 1e-3)), RS_OK) << set.error.message;

@@ -35,6 +35,7 @@ struct BemNeighbour {
   double descent = 0;                           ///< m, of the wheel below the place where it touches first
   double power = kPowerOfHertz;                 ///< of the descent in the vertical force, of one patch
   SoughtCreepage along{}, across{};             ///< of the wheel's reference, of several patches
+  bool whole = false;                           ///< of one patch: all places of the wheel are in its plane
   std::vector<std::vector<BemStart>> smooth{};  ///< without friction: of each trial which patches merge
   std::vector<BemNeighbour> others{};           ///< where the answer is a mean of several: those after the first
   bool empty() const { return patches.empty(); }

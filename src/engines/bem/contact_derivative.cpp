@@ -11,23 +11,24 @@ double descent_in(const CaseSpec& spec, const Placement& placement, double desce
   return spec.vehicle.approach ? descent_of(placement, *spec.vehicle.approach) : descent;
 }
 
-OnePatch lowered(const CaseSpec& spec, const Placement& placement, double descent) {
-  OnePatch out(spec, placement, first_place(spec, placement, descent));
-  out.lower(descent);
-  return out;
-}
-
 }  // namespace
 
 ContactDerivatives::ContactDerivatives(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                                       const BemStart& solved, double descent)
+                                       const BemStart& solved, double descent, bool whole)
     : spec_(spec),
       placement_(placement),
       options_(options),
       solved_(solved),
+      whole_(whole),
       one_(lowered(spec, placement, descent_in(spec, placement, descent))),
       patch_(one_.lay_on(solved.grid, {{}, solved.solution.normal.approach}, options)) {
   one_.drive(spec.vehicle.load(), patch_.contact);
+}
+
+OnePatch ContactDerivatives::lowered(const CaseSpec& spec, const Placement& placement, double descent) const {
+  OnePatch out(spec, placement, whole_ ? whole_place(spec, placement, descent) : first_place(spec, placement, descent));
+  out.lower(descent);
+  return out;
 }
 
 bool ContactDerivatives::linear() const {

@@ -35,9 +35,9 @@ struct PlaneTractions {
 /// Geometry changes by differences, all else by one solution of the linear equations.
 class ContactDerivatives {
  public:
-  /// solved: the patch of the case under a descent [m] of the wheel, kept by reference.
+  /// solved: the patch of the case under a descent [m] of the wheel, kept by reference; whole: as of its BemNeighbour.
   ContactDerivatives(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                     const BemStart& solved, double descent);
+                     const BemStart& solved, double descent, bool whole);
   /// Whether the case has these equations: steady rolling, friction that neither slip nor heat changes, no force over a
   /// load that is a result, one place or several that hang together.
   bool linear() const;
@@ -55,6 +55,7 @@ class ContactDerivatives {
     RigidContact plane;
   };
   Beside beside(const PlacedCase& there, double descent) const;
+  OnePatch lowered(const CaseSpec& spec, const Placement& placement, double descent) const;
   RollingDerivative rolling(const Beside& more, const Beside& less, double step);
   PlaneTractions moved(const Beside& there, const RollingDerivative& slope, double step) const;
   ContactDerivative between(const Beside& more, const Beside& less, double step);
@@ -64,6 +65,7 @@ class ContactDerivatives {
   const Placement& placement_;
   const BemOptions& options_;
   const BemStart& solved_;
+  bool whole_;
   OnePatch one_;
   CasePatch patch_;
   std::optional<RollingDerivatives> rolling_;

@@ -147,6 +147,13 @@ PatchPlace first_place(const CaseSpec& spec, const Placement& placement, double 
   return patch_places(placement, places).front();
 }
 
+PatchPlace whole_place(const CaseSpec& spec, const Placement& placement, double descent) {
+  std::vector<ContactPlace> places = places_of(spec, placement, descent);
+  for (ContactPlace& place : places) place.patch = 0;
+  put_in_order(places);
+  return patch_places(placement, places).front();
+}
+
 RigidContact plane_of(const Placement& p, const PatchPlace& place, double descent) {
   return overlap_place(p.wheel, p.rail, p.track, place.first(), place.stretch, p.contact.wheel_offset_z - descent);
 }

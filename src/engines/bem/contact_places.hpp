@@ -68,6 +68,8 @@ std::vector<PatchPlace> patch_places(const Placement& placement, const std::vect
 
 /// The patch of the contact that touches first, under a wheel that is lowered by `descent` [m].
 PatchPlace first_place(const CaseSpec& spec, const Placement& placement, double descent);
+/// All contacts there as one patch.
+PatchPlace whole_place(const CaseSpec& spec, const Placement& placement, double descent);
 
 /// The place and plane of a patch under a wheel that is lowered by `descent` [m] from the placement's contact
 /// (overlap_place).

@@ -383,7 +383,9 @@ std::vector<SharedLoad> loaded_wheel(const CaseSpec& spec, const Placement& plac
 BemNeighbour neighbour_of(std::vector<SharedLoad> solved) {
   BemNeighbour out;
   for (SharedLoad& one : solved) {
-    BemNeighbour n{{}, one.descent, one.power, one.along, one.across, std::move(one.smooth), {}};
+    const RailStretch all, &stretch = one.patches.front().stretch;
+    const bool whole = one.patches.size() == 1 && stretch.low == all.low && stretch.high == all.high;
+    BemNeighbour n{{}, one.descent, one.power, one.along, one.across, whole, std::move(one.smooth), {}};
     for (PatchOnWheel& p : one.patches) n.patches.push_back({p.patch.grid, std::move(p.solution), p.contact.rail_s});
     if (&one == &solved.front())
       out = std::move(n);

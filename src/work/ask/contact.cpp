@@ -270,7 +270,7 @@ std::unique_ptr<ContactEquations> Contact::equations() {
   auto out = std::make_unique<ContactEquations>();
   out->options = options_;
   if (const BemStart* solved = start.last().alone(); solved && start.last().others.empty())
-    out->of.emplace(here.spec, here.placement, out->options, *solved, start.last().descent);
+    out->of.emplace(here.spec, here.placement, out->options, *solved, start.last().descent, start.last().whole);
   if (out->of && !out->of->linear()) out->of.reset();
   return out;
 }
