@@ -396,7 +396,7 @@ RS_API int rs_wheelset_jacobian(rs_wheelset* wheelset, const int* inputs, int co
 
 /* A patch of the last solution as rs_patch_forces gives it, but in the track's axes, signs as in rs_wheel. about: the
  * point [m, track axes] that moments are about; NULL: the centre of the wheelset. Patches of a wheel add up to its
- * force and moment; where two places are on the way into one plane (a remark says so) within 1 %, for the wheel has
+ * force and moment; where two places are on the way into one plane (a remark reports it) within 1 %, for the wheel has
  * means of solutions and the patches are those of one. Errors: RS_CASE without a solution, of a lifted wheel, for a
  * side or a patch that is not there. */
 RS_API int rs_wheelset_patch(const rs_wheelset* wheelset, int side, int patch, const double* about, rs_patch* out,
