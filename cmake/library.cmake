@@ -27,7 +27,7 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(PUBLIC_HEADERS core/faults.hpp reader/case_file.hpp io/provenance.hpp ask/library.hpp)
 set(C_HEADER capi/railstrata.h)
 set(ROOMS_OF_THE_PROGRAM many collective creep study validate wear clock traffic explore app batch usetab export)
-set(ROOMS_OF_PYTHON many bridge)
+set(ROOMS_OF_PYTHON many collective clock bridge)
 set(ROOM_OF_CONTACT cntc)
 set(ROOM_OF_HDF5 hdf5)
 # The mark by which the loader refuses a processor that is too old, in words instead of an illegal instruction.

@@ -66,7 +66,7 @@ TEST(Ask, WhatIsWantedLaterIsAddedToTheSameBits) {
   how.bem.cell = 0.5e-3;
   Answer in_steps = ask(loaded.spec, placement, kContactAlone, how);
   EXPECT_FALSE(judgement_of(in_steps.summary));
-  judge(loaded.spec, placement, {.rail = false, .wheel = false}, in_steps, how);
+  judge(loaded.spec, {.rail = false, .wheel = false}, in_steps, how);
   const Answer at_once = solve(overrides);
   expect_same_bits(in_steps, at_once);
   EXPECT_EQ(judgement_of(in_steps.summary)->reason, judgement_of(at_once.summary)->reason);

@@ -91,4 +91,20 @@ std::string ratchets_on(const std::vector<ClockMoment>& history) {
       end.net);
 }
 
+std::string wearing_in(const std::vector<ClockMoment>& history, const std::vector<LifeRow>& lives) {
+  constexpr double kWornIn = 1.25;  // largest pressure over that at the end
+  const LifeRow* first = shortest(lives);
+  if (!first || !(first->mgt.best < kNever) || history.empty()) return {};
+  const auto worn = std::find_if(history.begin(), history.end(),
+                                 [&](const ClockMoment& m) { return m.p_max <= kWornIn * history.back().p_max; });
+  const double until = 1e-9 * worn->kilograms;
+  if (worn == history.end() || first->mgt.best >= until) return {};
+  return fmt::format(
+      "the first crack comes while the profile wears in, which takes {:.3g} MGT: the pressure of elastic bodies, "
+      "{:.0f} "
+      "MPa at first and {:.0f} MPa in the end, is more than the metal bears, so this life is a lower limit; give the "
+      "worn rail (worn_rail.csv) as rail_profile for the life from then on",
+      until, 1e-6 * history.front().p_max, 1e-6 * history.back().p_max);
+}
+
 }  // namespace railstrata

@@ -13,4 +13,7 @@ std::vector<LifeRow> clock_lives(const CaseSpec& spec, const ClockState& at, con
 /// A note where the rate of strain falls by less than the root of the traffic in the second half of it; else empty.
 std::string ratchets_on(const std::vector<ClockMoment>& history);
 
+/// A note where the first failure comes before the largest pressure has fallen to near that of the end; else empty.
+std::string wearing_in(const std::vector<ClockMoment>& history, const std::vector<LifeRow>& lives);
+
 }  // namespace railstrata
