@@ -102,7 +102,7 @@ def command_for(case):
     by_half_spaces = (case.absolute().parent.name == "contact" or "transient" in tables or yawed_on_roller or
                       geometry.get("contact") == "line")
     if "collective" in tables:
-        return ["collective", "--set", "life.until=0", "--cell", "1 mm"]
+        return ["collective", "--set", "life.until=0 Mt", "--cell", "1 mm"]
     if "passes" in tables:
         return ["passes", "--passes", "8", "--cell", "1 mm"]
     return ["collective" if "load" in tables else "bem" if by_half_spaces else "run"]

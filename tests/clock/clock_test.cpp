@@ -95,7 +95,7 @@ TEST(Clock, TheLifeOfOneWheelIsThatOfItsCollective) {
   EXPECT_DOUBLE_EQ(life.best, 1e9 * shortest(collective.lives)->mgt.best);
   EXPECT_TRUE(std::isfinite(life.best));
   how.life_of = {};
-  EXPECT_TRUE(ask(alone, place(alone, {}), {}, how).summary.life.text.empty()) << "nobody says how long it lasts";
+  EXPECT_TRUE(ask(alone, place(alone, {}), {}, how).summary.life.text.empty()) << "nothing gives a life";
 }
 
 }  // namespace

@@ -311,16 +311,20 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
 PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact_strain,
                                        const std::vector<StrainBall>& balls, PassState& state,
                                        const PassLimits& limits) const {
-  constexpr double kNear = 0.05;  // of the strength: what neighbours that flow in this pass may add
+  constexpr double kNear = 0.05;  // of the strength, beside what neighbours that flow in this pass have added so far
   Work work;
   work.before = before;
   work.balls = balls;
-  work.rows.assign(rows_.size(), false);
-  for (std::size_t n = 0; n < grid().points(); ++n)
+  work.rows.assign(rows_.size(), state.passes == 0);
+  double added = 0;
+  for (const double e : state.residual_strain) added = std::max(added, std::abs(e));
+  for (std::size_t n = 0; n < grid().points() && state.passes > 0; ++n)
     if (const std::size_t r = n / static_cast<std::size_t>(grid().ny);
-        !work.rows[r] && std::isfinite(rows_[r].law.yield))
+        !work.rows[r] && std::isfinite(rows_[r].law.yield)) {
+      const double near = kNear + 3 * rows_[r].law.mu * added / rows_[r].law.yield;
       work.rows[r] = !(largest_excess(n, balls[n], before, state.residual_strain,
-                                      state.history.data() + n * kStreamlineHistory) <= -kNear);
+                                      state.history.data() + n * kStreamlineHistory) <= -near);
+    }
   PassResult out;
   if (std::find(work.rows.begin(), work.rows.end(), true) == work.rows.end()) {
     out.before = state.history;

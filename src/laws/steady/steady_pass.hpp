@@ -99,9 +99,10 @@ class SteadyBody {
   /// Interrupted when it is given up, the state is then as it was.
   PassResult run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits = {}) const;
   /// The same within a wider body that is uniform along x: `before` (six components by point of the section) is the
-  /// strain there by what earlier passes have left; `balls` those of the contact's strain. Rows where no point comes
-  /// near its yield strength are left out. Without iterations the first guess is taken as it is and stays; else that of
-  /// the next pass is of one more iteration. What the result has beyond histories and strains is empty.
+  /// strain there by what earlier passes have left; `balls` those of the contact's strain. After the first pass
+  /// rows where no point comes near its yield strength are left out. Without iterations the first guess is taken as it
+  /// is and stays; else that of the next pass is of one more iteration. What the result has beyond histories and
+  /// strains is empty.
   PassResult run_pass_within(const Field& before, const Field& contact_strain, const std::vector<StrainBall>& balls,
                              PassState& state, const PassLimits& limits = {}) const;
   /// Of every point of the section.

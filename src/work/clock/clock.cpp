@@ -438,6 +438,7 @@ void Clock::note(const ClockMoment& of_stretch) {
   const auto most = std::max_element(removed.begin(), removed.end());
   m.removed = *most;
   m.removed_y = unworn_.rail.at(surface_.unworn_s()[static_cast<std::size_t>(most - removed.begin())]).position.y;
+  m.gauge_widening = surface_.gauge_widening();
   m.p_max = largest_pressure();
   if (!feet_.empty()) m.layer_left = std::max(0.0, day_feet().front());
   const std::vector<double> gone = removed_of_columns();

@@ -45,6 +45,7 @@ struct ClockOptions {
 struct ClockMoment {
   double kilograms = 0;                                        ///< gross traffic since the beginning
   double removed = 0, removed_y = 0;                           ///< m, where most has gone
+  double gauge_widening = 0;                                   ///< m, of worn gauge faces, both rails alike
   double p_max = 0;                                            ///< Pa, largest of all loads
   double layer_left = kNotApplicable;                          ///< m, of the uppermost layer where least is left
   double ductility = 0, ductility_y = 0, ductility_depth = 0;  ///< largest share used from kShallowest on;

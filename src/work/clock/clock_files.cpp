@@ -16,6 +16,7 @@ const Columns<ClockMoment>& moment_columns() {
   static const Columns<M> columns{{"traffic", kMGT, [](const M& m) { return m.kilograms; }},
                                   {"removed", kMillimetres, [](const M& m) { return m.removed; }},
                                   {"removed_y", kMillimetres, [](const M& m) { return m.removed_y; }},
+                                  {"gauge_widening", kMillimetres, [](const M& m) { return m.gauge_widening; }},
                                   {"p_max", kMPa, [](const M& m) { return m.p_max; }},
                                   {"layer_left", kMillimetres, [](const M& m) { return m.layer_left; }},
                                   {"ductility_used", kNone, [](const M& m) { return m.ductility; }},

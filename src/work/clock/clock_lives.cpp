@@ -102,9 +102,9 @@ std::string wearing_in(const std::vector<ClockMoment>& history, const std::vecto
   return fmt::format(
       "the first crack comes while the profile wears in, which takes {:.3g} MGT: the pressure of elastic bodies, "
       "{:.0f} "
-      "MPa at first and {:.0f} MPa in the end, is more than the metal bears, so this life is a lower limit; give the "
-      "worn rail (worn_rail.csv) as rail_profile for the life from then on",
-      until, 1e-6 * history.front().p_max, 1e-6 * history.back().p_max);
+      "MPa at first and {:.0f} MPa in the end, is more than the metal bears, so this life is a lower limit; give "
+      "worn_rail.csv as geometry.rail_profile, and geometry.gauge wider by {:.2f} mm, for the life from then on",
+      until, 1e-6 * history.front().p_max, 1e-6 * history.back().p_max, 1e3 * history.back().gauge_widening);
 }
 
 }  // namespace railstrata

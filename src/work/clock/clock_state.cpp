@@ -23,8 +23,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WornSurface, moved, points, day_s, removed, g
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DamageKey, zone, surface, damage)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstFailure, traffic, depth, s)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Gathered, damage, failures)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClockMoment, kilograms, removed, removed_y, p_max, layer_left, ductility,
-                                   ductility_y, ductility_depth, exhausted, cycles, fatigue, net, unsettled, changes)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClockMoment, kilograms, removed, removed_y, gauge_widening, p_max, layer_left,
+                                   ductility, ductility_y, ductility_depth, exhausted, cycles, fatigue, net, unsettled,
+                                   changes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClockResult, history, wheels, tonnes, reached, ended, notes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClockState, grid, metal, metal_removed, surface, damage, kilograms, wheels,
                                    next_grinding, followed, noted, out)

@@ -8,7 +8,7 @@
 namespace railstrata {
 
 /// For AskOptions::life_of: the rail through spec.life.until [kg] of traffic (clock/clock.hpp), the files of the case
-/// in `folder`. Says why instead where it cannot be followed. Throws Interrupted.
+/// in `folder`. Gives the reason instead where it cannot be followed. Throws Interrupted.
 LifeOf life_of_wheels(std::filesystem::path folder, const Control* control = nullptr);
 
 }  // namespace railstrata
