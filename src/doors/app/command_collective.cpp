@@ -245,8 +245,6 @@ ExitCode command_collective(const CommandOptions& options, const TrafficOptions&
   else
     print_collective(rows, traffic ? front.answers : collective_answers(rows, damage), measured);
   const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage, front);
-  if (followed_to)
-    for (const std::string& note : followed_to->runs.front().result.notes) spdlog::warn("{}", note);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
   if (traffic && control().stop) return ExitCode::interrupted;

@@ -33,7 +33,7 @@ struct ClockOptions {
   double apart = 0.5e-3;      ///< m, of the metal's columns
   double first_row = 0.1e-3;  ///< m, thickness of the metal's first row
   double growth = 4;          ///< of the implicit steps of a stretch, from each to the next
-  SettleLimits settle = {.tolerance = 0.05};
+  SettleLimits settle = {.tolerance = 0.02};
   const Control* control = nullptr;
   /// Called at the beginning and after each stretch that the horizon has not cut: from such a state on a run to any
   /// later horizon gives the bits of one in one go.

@@ -88,6 +88,7 @@ std::vector<ReportAnswer> traffic_answers(const FollowedTraffic& traffic) {
   for (const ReportAnswer& answer : {crack_answer(traffic), layer_answer(traffic), deciding_answer(traffic),
                                      removed_answer(traffic), unknown_answer(traffic)})
     if (!answer.text.empty()) out.push_back(answer);
+  for (const std::string& note : traffic.best().notes) out.push_back({"open", "Note", note});
   return out;
 }
 
