@@ -41,7 +41,7 @@ OnMetal on_metal(const CaseSpec& spec, double share) {
   constexpr double kApart = 1.5e-3;
   OnMetal out{metal_grid(0, 1e-3, kApart, 0.4e-3, 12e-3), {}};
   const PassLattice lattice{kApart, 0, out.grid.thickness};
-  out.wheel = {.rail = rail_passes(spec, {result}, 1, &lattice), .share = share};
+  out.wheel = {.rail = rail_passes(spec, {result}, &lattice), .share = share};
   out.grid.columns = out.wheel.rail.grid.ny;
   out.grid.from = out.wheel.rail.grid.y0;
   return out;

@@ -5,12 +5,8 @@
 namespace railstrata {
 
 PassRunner::PassRunner(const CaseSpec& spec, std::vector<BemResult> solutions, FollowingContact* following,
-                       const Control* control, double strength)
-    : spec_(spec),
-      solutions_(std::move(solutions)),
-      following_(following),
-      strength_(strength),
-      rail_(rail_passes(spec_, solutions_, strength_)) {
+                       const Control* control)
+    : spec_(spec), solutions_(std::move(solutions)), following_(following), rail_(rail_passes(spec_, solutions_)) {
   renew_body();
   limits_.control = control;
 }
@@ -47,7 +43,7 @@ bool PassRunner::lengthen(double late_flow, PassState& state) {
   if (!window) return false;
   CaseSpec longer = spec_;
   longer.passes.window = window;
-  rail_ = rail_passes(longer, solutions_, strength_);
+  rail_ = rail_passes(longer, solutions_);
   renew_body();
   strain_.clear();
   state = body_->virgin();

@@ -20,10 +20,10 @@ class PassRunner {
     bool operator==(const Place&) const = default;
   };
 
-  /// solutions, strength: as of rail_passes; following: null where the pressure is that of the elastic bodies. Throws
+  /// solutions: as of rail_passes; following: null where the pressure is that of the elastic bodies. Throws
   /// CaseError as rail_passes.
   PassRunner(const CaseSpec& spec, std::vector<BemResult> solutions, FollowingContact* following,
-             const Control* control, double strength = 1);
+             const Control* control);
 
   const RailPasses& rail() const { return rail_; }
   const SteadyBody& body() const { return *body_; }
@@ -50,7 +50,6 @@ class PassRunner {
   CaseSpec spec_;
   std::vector<BemResult> solutions_;
   FollowingContact* following_;
-  double strength_;
   RailPasses rail_;
   std::optional<SteadyBody> body_;  ///< of rail_
   Field strain_;

@@ -149,7 +149,7 @@ RowModuli moduli_of(const HalfSpaceMaterial& m) {
 /// Rows with their material from the case.
 class Rows {
  public:
-  Rows(const CaseSpec& spec, const LayeredHalfSpace& body, double strength) : body_(body), strength_(strength) {
+  Rows(const CaseSpec& spec, const LayeredHalfSpace& body) : body_(body) {
     const int layers = static_cast<int>(layer_extents(body).size());
     for (int zone = 0; zone <= layers; ++zone) {
       const MaterialSpec& material = zone_material(spec, BodyId::rail, zone);
@@ -175,8 +175,7 @@ class Rows {
     row.law.yield = kInfinite;
     if (const auto& law = laws_.at(static_cast<std::size_t>(zone))) {
       const auto extents = layer_extents(body_);
-      row.law = scaled(law->at(zone == 0 ? depth : depth - extents[static_cast<std::size_t>(zone - 1)].top).plastic,
-                       strength_);
+      row.law = law->at(zone == 0 ? depth : depth - extents[static_cast<std::size_t>(zone - 1)].top).plastic;
     }
     row.law.mu = row.moduli.mu;
     return row;
@@ -184,7 +183,6 @@ class Rows {
 
  private:
   const LayeredHalfSpace& body_;
-  const double strength_;
   std::vector<std::optional<PlasticLaw>> laws_;
   std::vector<std::string> notes_;
 };
@@ -294,10 +292,9 @@ double sinking_at(const SteadyGrid& grid, const PassResult& last, double y) {
 
 }  // namespace
 
-RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, double strength,
-                       const PassLattice* lattice) {
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, const PassLattice* lattice) {
   const BemResult& result = solutions.front();
-  const Rows rows(spec, result.rail, strength);
+  const Rows rows(spec, result.rail);
   const Footprint f = footprint_of(result);
   require_known(spec, solutions, rows, f);
   RailPasses out;

@@ -259,7 +259,7 @@ void Clock::put_wheels() {
       const double line = g.s(static_cast<int>(std::lround((at - g.from) / g.apart))) - at;
       const PassLattice lattice{g.apart, line, g.thickness};
       try {
-        MetalWheel wheel{.rail = rail_passes(row.spec, {alone(*row.result, *patch)}, 1, &lattice),
+        MetalWheel wheel{.rail = rail_passes(row.spec, {alone(*row.result, *patch)}, &lattice),
                          .share = row.passages / now_.out.wheels};
         wheel.column = static_cast<int>(std::lround((at + wheel.rail.grid.y0 - g.from) / g.apart));
         wheels.push_back(std::move(wheel));
