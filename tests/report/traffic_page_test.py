@@ -117,7 +117,7 @@ class TrafficPage(unittest.TestCase):
                           "[...r.children].map(c => c.textContent))")
         keys = " ".join(row[-1] for row in rows)
         for key in ["drive.friction_coefficient", "passes.ductility", "layer.0.hardening",
-                    "material.rail.fatigue_limit", "collective.wear_law", "grinding.every", "--until"]:
+                    "material.rail.fatigue_limit", "collective.wear_law", "grinding.every", "life.until"]:
             self.assertIn(key, keys)
         self.assertIn("0.21 to 0.39 (life.friction_scatter)", [row[2] for row in rows])
 

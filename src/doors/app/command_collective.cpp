@@ -196,12 +196,20 @@ nlohmann::ordered_json traffic_json(const TrafficRange& traffic) {
   return out;
 }
 
+/// The case with --until as its life.until.
+LoadedCase case_until(CommandOptions options, const std::string& until) {
+  if (!until.empty()) {
+    mass_of("--until", until);
+    options.overrides.push_back("life.until=" + until);
+  }
+  return load_case_of(options, uses::kCollective);
+}
+
 ExitCode command_collective(const CommandOptions& options, const TrafficOptions& followed,
                             const MeasuredOptions& wanted) {
   const double tonnes = wanted.before.empty() ? 0 : 1e-3 * mass_of("--tonnes", wanted.tonnes);
-  const double asked = followed.until.empty() ? 0 : mass_of("--until", followed.until);
-  const LoadedCase loaded = load_case_of(options, uses::kCollective);
-  const double horizon = asked > 0 ? asked : tonnes > 0 ? 0 : loaded.spec.life.until;
+  const LoadedCase loaded = case_until(options, followed.until);
+  const double horizon = tonnes > 0 ? 0 : loaded.spec.life.until;
   if ((followed.range || followed.resume) && !(horizon > 0))
     throw CaseError(fmt::format("{}: the rail is not followed", followed.range ? "--range" : "--resume"),
                     "give --until \"50 Mt\", or life.until in the case; of wear, step by step, --steps");

@@ -23,7 +23,7 @@ constexpr double kRoughPressure = 1e-5;         // tolerance of the gap there
 constexpr double kSharpFriction = 0.01;         // of the same, of friction: forces are known better than they close
 constexpr double kNoWidth = 1e-13;              // of a creepage
 constexpr double kLaidFrom = 0.5, kLaidTo = 2;  // of the approach that a grid was laid for
-constexpr int kMostIterations = 60;
+constexpr int kMostRounds = 60;
 
 }  // namespace
 
@@ -183,7 +183,7 @@ SharedLoad WheelOnPatches::take() {
 
 void WheelOnPatches::descend() {
   const bool pressed = spec_.vehicle.approach.has_value();
-  for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
+  for (iterations_ = 1; iterations_ <= kMostRounds; ++iterations_) {
     const Eigen::MatrixXd bent = depressions();
     const double moved = solve_at(bent), load = pressed ? vertical() : weight_,
                  close = (rubs_ ? options_.balance : kRough) * load, closed = rubs_ ? kClosure * close : close;

@@ -94,7 +94,7 @@ std::string ratchets_on(const std::vector<ClockMoment>& history) {
 std::string wearing_in(const std::vector<ClockMoment>& history, const std::vector<LifeRow>& lives) {
   constexpr double kWornIn = 1.25;  // largest pressure over that at the end
   const LifeRow* first = shortest(lives);
-  if (!first || !(first->mgt.best < kNever) || history.empty()) return {};
+  if (!first || !(first->mgt.best < kNever) || first->mechanism == "fatigue" || history.empty()) return {};
   const auto worn = std::find_if(history.begin(), history.end(),
                                  [&](const ClockMoment& m) { return m.p_max <= kWornIn * history.back().p_max; });
   const double until = 1e-9 * worn->kilograms;

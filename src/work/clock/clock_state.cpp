@@ -51,7 +51,7 @@ std::map<std::string, std::string> values_of(const std::string& text) {
       out[table + line.substr(0, equals)] = line.substr(equals + 3);
     }
   }
-  for (const char* key : {"case.title", "run.device"}) out.erase(key);  // no number depends on them
+  for (const char* key : {"case.title", "run.device", "life.until"}) out.erase(key);  // no number depends on them
   return out;
 }
 
