@@ -25,7 +25,7 @@ struct Wanted {
   bool shakedown = true;
   bool single_track = false;  ///< with shakedown: the limit for traffic on one line, in some seconds
   bool maps = false;          ///< with shakedown: the limits over traction
-  bool life = true;           ///< of the rail through life.until if every wheel were this one
+  bool life = true;           ///< of the rail through life.until if all wheels are this one; not of a case with loads
 };
 inline constexpr Wanted kContactAlone{
     .rail = false, .wheel = false, .shakedown = false, .single_track = false, .maps = false, .life = false};

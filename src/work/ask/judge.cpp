@@ -56,7 +56,9 @@ void judge(const CaseSpec& given, const Wanted& wanted, Answer& out, const AskOp
     if (wanted.single_track) add_single_track(spec, out.result, out.shakedown);
     if (wanted.maps) out.sliding = sliding_maps(out.result, out.shakedown);
     judge_sections(spec, out.shakedown, s);
-    if (wanted.life && how.life_of && spec.life.until > 0 && spec.run.rolling) s.life = how.life_of(spec, how.bem);
+    const bool alone = spec.loads.empty();  // else a collective is asked
+    if (wanted.life && alone && how.life_of && spec.life.until > 0 && spec.run.rolling)
+      s.life = how.life_of(spec, how.bem);
   }
   s.warnings = bem_warnings(s, spec, out.result, out.coarsest);
 }
