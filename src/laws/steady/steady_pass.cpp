@@ -7,6 +7,7 @@
 
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "material/strain_claim.hpp"
 #include "steady/anderson.hpp"
 #include "steady/pass_class.hpp"
 
@@ -39,8 +40,6 @@ void advance(const PlasticParameters<double>& law, int terms, const double (&str
   }
 }
 
-/// √(2/3 e:e) of the deviator of a strain, and the deviator of one.
-double size_of(const double (&e)[6]) { return std::sqrt(2.0 / 3 * double_contraction(e, e)); }
 void take_deviator(double (&e)[6]) {
   const double mean = (e[0] + e[1] + e[2]) / 3;
   for (int c = 0; c < 3; ++c) e[c] -= mean;
@@ -173,7 +172,7 @@ std::vector<StrainBall> SteadyBody::balls_of(const Field& contact_strain) const 
     for (int i = 0; i < g.active_stations(); ++i) {
       deviator(i, e);
       for (std::size_t c = 0; c < 6; ++c) e[c] -= ball.middle[c];
-      const double size = size_of(e);
+      const double size = equivalent_strain(e);
       if (!(size <= ball.radius)) ball.radius = size;  // NaN too
     }
   });
@@ -198,7 +197,7 @@ double SteadyBody::largest_excess(std::size_t point, const StrainBall& ball, con
     for (int k = 0; k < terms_[r]; ++k) e[c] -= history[7 + 6 * k + static_cast<int>(c)] / (2 * law.mu);
   }
   const double strength = law.yield + law.saturation * saturated_share(law.rate * history[6]);
-  return 3 * law.mu * (size_of(e) + ball.radius + std::sqrt(2.0 / 3 * largest)) / strength - 1;
+  return 3 * law.mu * (equivalent_strain(e) + ball.radius + std::sqrt(2.0 / 3 * largest)) / strength - 1;
 }
 
 void SteadyBody::follow(const Field& contact_strain, const PassState& state, Work& work) const {

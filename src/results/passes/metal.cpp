@@ -108,19 +108,19 @@ void Metal::put(std::vector<MetalWheel> wheels) {
   pace_.clear();
 }
 
-/// Of the plastic strain of a state: what is compatible, six components by point; surface as of PlasticStrainResponse.
-std::vector<double> Metal::compatible(const std::vector<double>& state, Field* surface) const {
+/// Of the plastic strain of a state: what is compatible, six components by point.
+std::vector<double> Metal::compatible(const std::vector<double>& state) const {
   const std::size_t points = grid_.points();
   Field strain(6 * points);
   for (std::size_t n = 0; n < points; ++n)
     for (std::size_t c = 0; c < 6; ++c) strain[c * points + n] = state[n * kHistory + c];
-  section_->apply(strain, surface);
+  section_->apply(strain);
   return {strain.begin(), strain.end()};
 }
 
-void Metal::strip(std::vector<double>& state, Field* surface) const {
+void Metal::strip(std::vector<double>& state) const {
   const std::size_t points = grid_.points();
-  const std::vector<double> strain = compatible(state, surface);
+  const std::vector<double> strain = compatible(state);
   for (std::size_t n = 0; n < points; ++n)
     for (std::size_t c = 0; c < 6; ++c) state[n * kHistory + c] -= strain[c * points + n];
 }
@@ -166,10 +166,7 @@ void Metal::add_pace(const std::vector<double>& flowing, StateChange& change) co
 StateChange Metal::change(const std::vector<double>& given) {
   StateChange out{.mean = std::vector<double>(given.size(), 0.0), .pace = std::vector<double>(given.size(), 0.0)};
   const std::size_t points = grid_.points();
-  flow_ = {std::vector<double>(points, 0.0),
-           std::vector<std::array<double, 3>>(points),
-           {},
-           std::vector<double>(static_cast<std::size_t>(grid_.columns), 0.0)};
+  flow_ = {std::vector<double>(points, 0.0), std::vector<std::array<double, 3>>(points), {}};
   if (kinds_.empty()) return out;
   const std::vector<double> strain = compatible(given);
   std::vector<std::exception_ptr> faults(kinds_.size());
@@ -208,9 +205,7 @@ StateChange Metal::change(const std::vector<double>& given) {
     for (std::size_t c = 0; c < 6; ++c) sum += std::pow(two_mu(n) * norm_weight(c) * out.mean[n * kHistory + c], 2);
   }
   out.flow = std::sqrt(sum);
-  Field surface;
-  strip(out.mean, &surface);
-  flow_.sinking.assign(surface.end() - grid_.columns, surface.end());  // the last of x, y, z (down)
+  strip(out.mean);
   return out;
 }
 

@@ -31,7 +31,6 @@ struct MetalFlow {
   std::vector<double> net;                    ///< equivalent plastic strain that stays: √(2/3 E:E), E of all kinds
   std::vector<std::array<double, 3>> cycles;  ///< Miner's sum of closed cycles, exponents of kLowCycleExponents
   std::vector<std::vector<double>> flowed;    ///< of each wheel: plastic strain p of its own pass
-  std::vector<double> sinking;                ///< m, of columns: of the surface, by the flow below it; < 0: it rises
 };
 
 /// Columns and rows of the metal.
@@ -73,8 +72,8 @@ class Metal {
   struct Kind;
   StateChange change(const std::vector<double>& given);
   void pass(Kind& kind, const std::vector<double>& state, const std::vector<double>& strain) const;
-  std::vector<double> compatible(const std::vector<double>& state, Field* surface = nullptr) const;
-  void strip(std::vector<double>& state, Field* surface) const;
+  std::vector<double> compatible(const std::vector<double>& state) const;
+  void strip(std::vector<double>& state) const;
   void add_pace(const std::vector<double>& flowing, StateChange& change) const;
   double two_mu(std::size_t point) const;
 

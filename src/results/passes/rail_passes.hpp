@@ -36,9 +36,8 @@ struct PassLattice {
 };
 
 /// solutions: of cases_of_tractions (passes/pass_plan.hpp), the grid is that of the first one's patch, as wide as the
-/// wheels wander. lattice: of the columns and rows;
-/// null: those of the patch. Throws CaseError: no strength of rail or layers, several patches, wheels that wander too
-/// far.
+/// wheels wander. lattice: of the columns and rows; null: those of the patch. Throws CaseError: no strength of rail or
+/// layers, several patches, wheels that wander too far.
 RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions,
                        const PassLattice* lattice = nullptr);
 
