@@ -77,6 +77,9 @@ TEST(PassText, ALawIsDescribedByWhatItAllows) {
   law.modulus[0] = 60e9;
   law.recall[0] = 250;
   EXPECT_NE(describe_law(law).find("Armstrong"), std::string::npos);
+  law.power = 3;
+  EXPECT_NE(describe_law(law).find("Ohno"), std::string::npos);
+  law.power = 0;
   law.modulus[1] = 1e9;  // without recall: its backstress grows without limit
   EXPECT_NE(describe_law(law).find("linear kinematic"), std::string::npos);
   law.yield = std::numeric_limits<double>::infinity();

@@ -42,7 +42,7 @@ initial_stress_table = [["0 mm", "-300 MPa", "-200 MPa"], ["2 mm", "0 MPa", "10 
   EXPECT_EQ(first.yield_strength, 900e6);
   EXPECT_EQ(first.initial_stress, (std::vector<double>{-344e6, -200e6}));
   EXPECT_EQ(first.fracture_toughness, 15e6);
-  EXPECT_EQ(first.bond_shear, 200e6);
+  EXPECT_EQ(first.bond.shear, 200e6);
   EXPECT_EQ(second.initial_stress_table, (std::vector<StressPoint>{{0, -300e6, -200e6}, {2e-3, 0, 10e6}}));
 }
 

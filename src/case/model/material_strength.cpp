@@ -61,6 +61,12 @@ class LawOf {
     else
       ready(hardening_set(s_.hardening));
     out_.top.plastic.mu = e.mu;
+    out_.top.plastic.power = s_.recall_power;
+    if (s_.recall_power > 0 && !s_.hardening.empty())
+      out_.notes.push_back(
+          fmt::format("hardening of {}: the set was fitted with recall_power = 0, with {} its cycles are "
+                      "stiffer",
+                      name_, s_.recall_power));
     return std::move(out_);
   }
 

@@ -153,6 +153,10 @@ OptionTable life_table() {
            "yield. 0: the rail is not followed. `railstrata collective --until` sets it. Without [[load]] every wheel "
            "is that of the case",
            kMass, {0, 1e13}),
+       option("first_cracks", at<&CaseSpec::life, &LifeSpec::first_cracks>,
+              "Gross traffic after which this rail had its first cracks, at most until: the answer then names the "
+              "passes.ductility that gives this",
+              kMass, above(0, 1e13)),
        option("strength_scatter", at<&CaseSpec::life, &LifeSpec::strength_scatter>,
               "Coefficient of variation of the strengths of rail, wheel and layers. The range of a life by fatigue or "
               "by a first wheel covers strengths two deviations lower and higher. Not given: 0; with `collective "

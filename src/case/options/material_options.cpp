@@ -104,6 +104,10 @@ std::vector<Option> hardening_options() {
           .with_rows(RowForm::named,
                      {column("modulus", "", kPressure, {0, 1e13}), column("recall", "", kNumber, {0, 1e6})},
                      R"([{ modulus = "60 GPa", recall = 250 }, { modulus = "5 GPa", recall = 10 }])"),
+      option("recall_power", Place::template slot<&S::recall_power>,
+             "Ohno and Wang's power m of the recall of every backstress: the larger it is, the less strain a repeated "
+             "load adds with each cycle; 0 is Armstrong-Frederick",
+             kNumber, {0, 100}),
       option("elastic", Place::template slot<&S::elastic>,
              "The material never yields, whatever its strength; for brittle layers")
           .where(elastic_on_purpose<Place>)};
@@ -186,10 +190,10 @@ std::vector<Option> strength_options(std::string_view top) {
 }
 
 std::vector<Option> bond_options() {
-  return {option("bond_tension", OfLayer::slot<&S::bond_tension>, "Tensile strength of the layer's lower interface",
-                 kPressure, {0.1 * kMega, 1e4 * kMega}),
-          option("bond_shear", OfLayer::slot<&S::bond_shear>, "Shear strength of the layer's lower interface",
-                 kPressure, {0.1 * kMega, 1e4 * kMega})};
+  return {option("bond_tension", OfLayer::slot<&S::bond, &BondSpec::tension>,
+                 "Tensile strength of the layer's lower interface", kPressure, {0.1 * kMega, 1e4 * kMega}),
+          option("bond_shear", OfLayer::slot<&S::bond, &BondSpec::shear>,
+                 "Shear strength of the layer's lower interface", kPressure, {0.1 * kMega, 1e4 * kMega})};
 }
 
 /// Keys for the same quantity of a strength.

@@ -290,7 +290,7 @@ constexpr Clash kClashes[] = {
      "give track.preset = \"delft\", \"medium\" or \"cn60\"; it supplies the defaults of the other keys"},
     {"geometry.block_width | geometry.block_height", idle_without, "geometry.rail_shape = \"block\"", "", ""},
     {kGpu, idle_with, "run.rolling = false", "only rolling is computed on a GPU", ""},
-    {"*.hardening | *.isotropic_hardening | *.kinematic_hardening", idle_with, kElastic,
+    {"*.hardening | *.isotropic_hardening | *.kinematic_hardening | *.recall_power", idle_with, kElastic,
      "`run` and `bem` compute elastically, `railstrata passes` and `railstrata material` use it",
      "give run.plasticity = true to `run`"},
     {"drive.creepage", idle_with, kAtRest, kNoFriction, kLetRoll},

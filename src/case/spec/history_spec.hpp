@@ -78,6 +78,7 @@ struct GrindingSpec {
 /// What lives are computed from beside the strengths (lives/zone_life.hpp, clock/clock.hpp).
 struct LifeSpec {
   double until = 0;  ///< kg of gross traffic through which rail and metal are followed; 0: they are not
+  std::optional<double> first_cracks;  ///< kg, gross traffic after which a rail had its first cracks
   // What is not known of a number that holds for all wheels and all metal: coefficients of variation, of the place a
   // standard deviation [m]. A range covers two of them to both sides.
   std::optional<double> strength_scatter;  ///< not given: none, in a range of the traffic kStrengthScatter

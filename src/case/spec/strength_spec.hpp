@@ -55,6 +55,10 @@ struct FatigueSpec {
   std::optional<double> ductility_exponent;     ///< c, negative
 };
 
+struct BondSpec {
+  std::optional<double> tension, shear;  ///< Pa
+};
+
 struct HeatSpec {
   double conductivity = 50;                    ///< W/(m K)
   double capacity = 460;                       ///< J/(kg K)
@@ -69,6 +73,7 @@ struct StrengthSpec {
   std::string hardening;  ///< a name of material/steels.hpp, or "estimated": of the tensile strength
   std::optional<IsotropicHardening> isotropic_hardening;
   std::vector<KinematicHardening> kinematic_hardening;
+  int recall_power = 0;            ///< m of Ohno and Wang; 0: Armstrong and Frederick
   bool elastic = false;            ///< on purpose, whatever its strength: a brittle layer
   double yield_to_tensile = 0.55;  ///< of a strength that is estimated from hardness
   std::optional<double> hardness;  ///< HV
@@ -78,9 +83,9 @@ struct StrengthSpec {
   std::optional<double> tensile_strength;         ///< Pa
   std::optional<double> fracture_toughness;       ///< Pa √m, K_Ic
   FatigueSpec fatigue;
-  std::optional<double> wear_coefficient;          ///< Archard's k, volume = k force distance / hardness
-  std::optional<double> wear_factor;               ///< over the steel of the wear law's tests (fatigue/steel_wear.hpp)
-  std::optional<double> bond_tension, bond_shear;  ///< Pa, of a layer's lower interface
+  std::optional<double> wear_coefficient;  ///< Archard's k, volume = k force distance / hardness
+  std::optional<double> wear_factor;       ///< over the steel of the wear law's tests (fatigue/steel_wear.hpp)
+  BondSpec bond;                           ///< of a layer's lower interface
   HeatSpec heat;
 };
 

@@ -81,6 +81,7 @@ std::string law_text(const PlasticMaterial& m) {
   for (int k = 0; k < kMostBackstresses; ++k)
     if (p.modulus[k] > 0)
       out += fmt::format(", C{0} = {1:.0f} MPa with gamma{0} = {2:g}", k + 1, kToMega * p.modulus[k], p.recall[k]);
+  if (p.power > 0) out += fmt::format(", recall_power = {}", p.power);
   return out;
 }
 

@@ -46,11 +46,8 @@ Json law_json(double young, const PlasticParameters<double>& law) {
   Json terms = Json::array();
   for (int k = 0; k < kMostBackstresses; ++k)
     if (law.modulus[k] > 0) terms.push_back(Json::array({law.modulus[k], law.recall[k]}));
-  return {{"young", young},
-          {"yield_strength", law.yield},
-          {"saturation", law.saturation},
-          {"rate", law.rate},
-          {"backstresses", terms}};
+  return {{"young", young},   {"yield_strength", law.yield}, {"saturation", law.saturation},
+          {"rate", law.rate}, {"backstresses", terms},       {"recall_power", law.power}};
 }
 
 /// A view of one member of every state: so many numbers from `first` on; one number: a row of them.

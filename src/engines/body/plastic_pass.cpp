@@ -48,10 +48,11 @@ PackStrain pack_strain(const Body& body, int block, int quad, int first, const R
 template <int terms>
 Pack yield_share(const PlasticParameters<double>& law, const Pack (&strain)[6], const Pack* history) {
   const Pack mean = (strain[0] + strain[1] + strain[2]) * (1.0 / 3);
-  Pack elastic[6], theta[kMostBackstresses];
+  Pack elastic[6];
+  RecalledShare<Pack> nothing_recalled[kMostBackstresses];
   for (int i = 0; i < 6; ++i) elastic[i] = 2 * law.mu * (strain[i] - (i < 3 ? mean : Pack{}) - history[i]);
-  for (Pack& t : theta) t = Pack{} + 1.0;
-  const PlasticTrial<Pack> at = plastic_trial<terms>(law, elastic, history, Pack{}, theta);
+  for (RecalledShare<Pack>& share : nothing_recalled) share = {Pack{} + 1.0, Pack{}, Pack{} + 1.0};
+  const PlasticTrial<Pack> at = plastic_trial<terms>(law, elastic, history, Pack{}, nothing_recalled);
   return at.norm / (at.norm - at.excess);
 }
 

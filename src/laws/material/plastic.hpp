@@ -1,10 +1,13 @@
 #pragma once
-// J2 plasticity with Voce isotropic hardening and Armstrong–Frederick backstresses, as pointwise functions.
-// [Chaboche1989; SimoHughes1998]
+// J2 plasticity with Voce isotropic hardening and backstresses of Armstrong and Frederick or of Ohno and Wang, as
+// pointwise functions. [Chaboche1989; OhnoWang1993; SimoHughes1998]
 //
 //   S = lambda tr(E) I + 2 mu (E − E^p),   s = dev S
 //   f = √(3/2) |s − Σ α_i| − (σ_y0 + R(p)) <= 0,   R = Q (1 − e^{−b p})
-//   dE^p = (3/2) (s − Σ α_i)/(σ_y0 + R) dp,        dα_i = (2/3) C_i dE^p − γ_i α_i dp
+//   dE^p = (3/2) (s − Σ α_i)/(σ_y0 + R) dp,        dα_i = (2/3) C_i dE^p − γ_i φ_i α_i dp
+// Armstrong and Frederick: φ_i = 1. Ohno and Wang: φ_i = (|α_i| γ_i/C_i)^m <dE^p/dp : α_i/|α_i|>, |α|² = (3/2) α:α: a
+// backstress recalls only near its saturation C_i/γ_i, and only what flow along it adds. Under a load that repeats, the
+// first adds the same strain with every cycle for ever, the second a strain that falls with m.
 // E: Green–Lagrange strain, S: second Piola–Kirchhoff stress, both in the frame of the undeformed body: nothing
 // rotates, the law is objective. γ_i = 0: linear (Prager) kinematic hardening; no term: isotropic; Q = 0 besides:
 // perfect plasticity. The additive split holds for small strains: the error against logarithmic strain is of the order
@@ -26,6 +29,7 @@ struct PlasticParameters {
   Real saturation, rate;            ///< Q [Pa], σ_y0 + Q > 0, 3 mu + Q b > 0; b >= 0
   Real modulus[kMostBackstresses];  ///< C_i [Pa], >= 0; 0: no term
   Real recall[kMostBackstresses];   ///< γ_i, >= 0
+  int power = 0;                    ///< m of Ohno and Wang's recall; 0: that of Armstrong and Frederick
 
   template <class Other>
   PlasticParameters<Other> rounded_to() const {
@@ -39,6 +43,7 @@ struct PlasticParameters {
       other.modulus[k] = static_cast<Other>(modulus[k]);
       other.recall[k] = static_cast<Other>(recall[k]);
     }
+    other.power = power;
     return other;
   }
 };
@@ -94,20 +99,77 @@ RAILSTRATA_POINTWISE bool any_positive(const T& x) {
   }
 }
 
+/// x^n, n >= 0.
+template <class T>
+RAILSTRATA_POINTWISE T whole_power(T x, int n) {
+  T out = T{} + ScalarOf<T>(1);
+  for (; n > 0; n /= 2) {
+    if (n % 2 == 1) out = out * x;
+    x = x * x;
+  }
+  return out;
+}
+
+/// What is left of a backstress at the end of a step: α = θ (α_before + (2/3) C ΔE^p), with its derivatives.
+template <class T>
+struct RecalledShare {
+  T theta;    ///< θ = 1/(1 + γ φ Δp)
+  T fall;     ///< −dθ/dΔp
+  T tangent;  ///< d(θ Δp)/dΔp
+};
+
+/// Armstrong and Frederick.
+template <class T, class Real>
+RAILSTRATA_POINTWISE RecalledShare<T> recalled_share(const Real& recall, const T& increment) {
+  const T theta = 1 / (1 + recall * increment);
+  const T square = theta * theta;
+  return {theta, recall * square, square};
+}
+
+/// Ohno and Wang: y = |α| γ/C at the end of the step satisfies y (1 + γ Δp c y^m) = s, where s is that of
+/// α_before + (2/3) C ΔE^p and c the cosine between it and the flow. Newton's method from min(s, 1), which lies above
+/// the root of a convex function. `flow`: dE^p/dp.
+template <class T, class Real>
+RAILSTRATA_POINTWISE RecalledShare<T> recalled_share(const PlasticParameters<Real>& p, int k, const T* alpha,
+                                                     const T (&flow)[6], const T& increment) {
+  constexpr int kSteps = 6;
+  if (!(p.modulus[k] > 0)) return {T{} + Real(1), T{}, T{} + Real(1)};
+  const Real modulus = Real(2) / 3 * p.modulus[k], power = static_cast<Real>(p.power);
+  T grown[6];
+  RAILSTRATA_UNROLL
+  for (int j = 0; j < 6; ++j) grown[j] = alpha[j] + modulus * increment * flow[j];
+  const T size = square_root(Real(1.5) * double_contraction(grown, grown)) + std::numeric_limits<Real>::min();
+  const T along = double_contraction(flow, grown) / size;
+  const T cosine = along > T{} ? along : T{};
+  const T full = size * (p.recall[k] / p.modulus[k]);
+  const T gain = p.recall[k] * increment * cosine;
+  const T one = T{} + Real(1);
+  T y = full < one ? full : one;
+  for (int step = 0; step < kSteps; ++step) {
+    const T part = gain * whole_power(y, p.power);
+    y = (full + power * part * y) / (1 + (power + 1) * part);
+  }
+  const T recall = p.recall[k] * cosine * whole_power(y, p.power);
+  const T theta = 1 / (1 + recall * increment);
+  const T share = recall / (1 + (power + 1) * recall * increment);
+  return {theta, theta * share, theta * (1 - share * increment)};
+}
+
 /// The yield condition at the end of a step, for a plastic increment Δp that is tried:
-///   g(Δp) = √(3/2) |z| − σ_y(p + Δp) − (3 mu + Σ θ_i C_i) Δp,   z = s* − Σ θ_i α_i,   θ_i = 1/(1 + γ_i Δp)
+///   g(Δp) = √(3/2) |z| − σ_y(p + Δp) − (3 mu + Σ θ_i C_i) Δp,   z = s* − Σ θ_i α_i,   θ_i = 1/(1 + γ_i φ_i Δp)
 /// s*: the deviatoric stress if nothing flowed. With Q >= 0 g falls with a slope below −3 mu.
 template <class T>
 struct PlasticTrial {
   T direction[6];  ///< z
   T norm;          ///< √(3/2) |z|, > 0
   T excess;        ///< g
-  T slope;         ///< dg/dΔp = (3/2) z : Σ γ_i θ_i² α_i / norm − R' − 3 mu − Σ θ_i² C_i
+  T slope;         ///< dg/dΔp = −(3/2) z : Σ θ_i' α_i / norm − R' − 3 mu − Σ C_i d(θ_i Δp)/dΔp
 };
 
 template <int terms, class T, class Real>
 RAILSTRATA_POINTWISE PlasticTrial<T> plastic_trial(const PlasticParameters<Real>& p, const T (&elastic)[6],
-                                                   const T* history, const T& increment, const T* theta) {
+                                                   const T* history, const T& increment,
+                                                   const RecalledShare<T>* shares) {
   PlasticTrial<T> at;
   T recalled[6];
   RAILSTRATA_UNROLL
@@ -119,14 +181,13 @@ RAILSTRATA_POINTWISE PlasticTrial<T> plastic_trial(const PlasticParameters<Real>
   RAILSTRATA_UNROLL
   for (int k = 0; k < terms; ++k) {
     const T* alpha = history + 7 + 6 * k;
-    const T square = theta[k] * theta[k];
     RAILSTRATA_UNROLL
     for (int j = 0; j < 6; ++j) {
-      at.direction[j] -= theta[k] * alpha[j];
-      recalled[j] += p.recall[k] * square * alpha[j];
+      at.direction[j] -= shares[k].theta * alpha[j];
+      recalled[j] += shares[k].fall * alpha[j];
     }
-    hardening += theta[k] * p.modulus[k];
-    tangent += square * p.modulus[k];
+    hardening += shares[k].theta * p.modulus[k];
+    tangent += shares[k].tangent * p.modulus[k];
   }
   T yield = T{} + p.yield;
   if (p.saturation != 0) {  // of the material: all lanes go the same way
@@ -148,7 +209,8 @@ RAILSTRATA_POINTWISE PlasticTrial<T> plastic_trial(const PlasticParameters<Real>
 ///
 /// Newton's method on g (plastic_trial), a fixed number of times: a first one from Δp = 0, then `iterations`. What is
 /// left of |g|/σ_y after 1 and 2 iterations: 5e-15 and nothing for steps of strain of 1e-6, 1e-9 and 5e-14 for 1e-4,
-/// 1e-3 and 3e-7 for 1e-3 (three backstresses). An explicit step takes 1, a static increment 4, a coarse path 8.
+/// 1e-3 and 3e-7 for 1e-3 (three backstresses). An explicit step takes 1, a static increment 4, a coarse path 8. With
+/// Ohno and Wang's recall the direction of flow in φ_i is that of the iteration before.
 ///
 /// No branches over lanes: a lane that does not flow keeps its history to the last bit, whatever its neighbours do.
 /// T: double, float or a pack of one of them; Real: its scalar. Scalars and packs of doubles agree to rounding, to the
@@ -162,21 +224,29 @@ RAILSTRATA_POINTWISE void advance_plastic(const PlasticParameters<Real>& p, cons
   for (int j = 0; j < 3; ++j) elastic[j] = 2 * p.mu * (strain[j] - mean - history[j]);
   RAILSTRATA_UNROLL
   for (int j = 3; j < 6; ++j) elastic[j] = 2 * p.mu * (strain[j] - history[j]);
-  T theta[kMostBackstresses];
+  RecalledShare<T> shares[kMostBackstresses];
   RAILSTRATA_UNROLL
-  for (int k = 0; k < terms; ++k) theta[k] = T{} + Real(1);
+  for (int k = 0; k < terms; ++k)
+    shares[k] = {T{} + Real(1), T{} + (p.power == 0 ? p.recall[k] : Real(0)), T{} + Real(1)};
   T increment{};
-  PlasticTrial<T> at = plastic_trial<terms>(p, elastic, history, increment, theta);
+  PlasticTrial<T> at = plastic_trial<terms>(p, elastic, history, increment, shares);
   if (!any_positive(at.excess)) return;
+  T flow[6];
   RAILSTRATA_UNROLL
   for (int step = 0; step <= iterations; ++step) {
     const T next = increment - at.excess / at.slope;
     increment = next > T{} ? next : T{};
-    RAILSTRATA_UNROLL
-    for (int k = 0; k < terms; ++k) theta[k] = 1 / (1 + p.recall[k] * increment);
-    at = plastic_trial<terms>(p, elastic, history, increment, theta);
+    if (p.power == 0) {
+      RAILSTRATA_UNROLL
+      for (int k = 0; k < terms; ++k) shares[k] = recalled_share(p.recall[k], increment);
+    } else {
+      RAILSTRATA_UNROLL
+      for (int j = 0; j < 6; ++j) flow[j] = Real(1.5) / at.norm * at.direction[j];
+      RAILSTRATA_UNROLL
+      for (int k = 0; k < terms; ++k) shares[k] = recalled_share(p, k, history + 7 + 6 * k, flow, increment);
+    }
+    at = plastic_trial<terms>(p, elastic, history, increment, shares);
   }
-  T flow[6];
   RAILSTRATA_UNROLL
   for (int j = 0; j < 6; ++j) {
     flow[j] = Real(1.5) * increment / at.norm * at.direction[j];
@@ -188,7 +258,7 @@ RAILSTRATA_POINTWISE void advance_plastic(const PlasticParameters<Real>& p, cons
     T* alpha = history + 7 + 6 * k;
     const Real modulus = Real(2) / 3 * p.modulus[k];
     RAILSTRATA_UNROLL
-    for (int j = 0; j < 6; ++j) alpha[j] = theta[k] * (alpha[j] + modulus * flow[j]);
+    for (int j = 0; j < 6; ++j) alpha[j] = shares[k].theta * (alpha[j] + modulus * flow[j]);
   }
 }
 
@@ -215,8 +285,8 @@ RAILSTRATA_POINTWISE T backstress_energy(const PlasticParameters<Real>& p, const
   return energy;
 }
 
-/// Dissipation of a step, (S − Σ α_i) : ΔE^p + Σ 3 γ_i/(2 C_i) α_i:α_i Δp >= 0 [J/m³], with the stress and history at
-/// its end and the history at its start; isotropic hardening counts as dissipated. With the free energies it is the
+/// Dissipation of a step, (S − Σ α_i) : ΔE^p + Σ 3 γ_i φ_i/(2 C_i) α_i:α_i Δp >= 0 [J/m³], with the stress and history
+/// at its end and the history at its start; isotropic hardening counts as dissipated. With the free energies it is the
 /// work done, S : ΔE, to the second order of the step (backward Euler dissipates (1/2) |Δ|² of each more: > 0).
 template <int terms, class T, class Real>
 RAILSTRATA_POINTWISE T plastic_dissipation(const PlasticParameters<Real>& p, const T (&stress)[6], const T* before,
@@ -234,8 +304,16 @@ RAILSTRATA_POINTWISE T plastic_dissipation(const PlasticParameters<Real>& p, con
     const T* alpha = after + 7 + 6 * k;
     RAILSTRATA_UNROLL
     for (int j = 0; j < 6; ++j) relative[j] -= alpha[j];
-    if (p.modulus[k] > 0)
-      recalled += Real(1.5) * p.recall[k] / p.modulus[k] * double_contraction(alpha, alpha) * increment;
+    if (!(p.modulus[k] > 0)) continue;
+    const T square = Real(1.5) * double_contraction(alpha, alpha);
+    if (p.power == 0) {
+      recalled += square * (p.recall[k] / p.modulus[k]) * increment;
+    } else {
+      const T size = square_root(square);
+      const T along = double_contraction(flow, alpha);
+      recalled += (along > T{} ? along : T{}) * size * (p.recall[k] / p.modulus[k]) *
+                  whole_power(size * (p.recall[k] / p.modulus[k]), p.power);
+    }
   }
   return double_contraction(relative, flow) + recalled;
 }

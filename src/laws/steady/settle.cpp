@@ -8,6 +8,8 @@
 namespace railstrata {
 namespace {
 
+constexpr double kGrown = 1.5;  // of the squared residual over the least since a restart
+
 double square(double v) { return v * v; }
 
 }  // namespace
@@ -17,7 +19,7 @@ SettledState settle(const std::vector<double>& from, const StateChange& first, d
   const std::size_t n = from.size();
   SettledState out{.state = from, .change = first};
   std::vector<double> before = from, next(n), pace = first.pace;
-  double momentum = 1;
+  double momentum = 1, least = 0;
   for (;;) {
     double excess = 0, turn = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -32,7 +34,11 @@ SettledState settle(const std::vector<double>& from, const StateChange& first, d
       return out;
     }
     if (asked_to_stop(limits.control)) throw Interrupted("stopped while the rail settles");
-    if (turn < 0) momentum = 1;
+    if (out.changes == 0 || excess < least) least = excess;
+    if (turn < 0 || excess > kGrown * least) {
+      momentum = 1;
+      least = excess;
+    }
     const double then = 0.5 * (1 + std::sqrt(1 + 4 * momentum * momentum)), on = (momentum - 1) / then;
     momentum = then;
     for (std::size_t i = 0; i < n; ++i) {

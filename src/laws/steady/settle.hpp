@@ -13,7 +13,8 @@
 // which is stable for any N; its error is of first order in N, and a decay that is faster than N has ended. Points that
 // only just yield make D kinked as in an obstacle problem, where Newton's method cycles between two sets of yielding
 // points and Anderson's acceleration stalls (both measured). Nesterov's accelerated descent with a restart where it
-// turns against the residual does not. [ODonoghueCandes2015]
+// turns against the residual does not. [ODonoghueCandes2015] It restarts too where the residual has grown: D is not the
+// gradient of a function where a backstress recalls with a power of its size, and momentum then drives a rotation.
 #include <functional>
 #include <span>
 #include <vector>

@@ -158,8 +158,8 @@ std::vector<BondStrength> bonds_of(const CaseSpec& spec, BodyId body) {
   std::vector<BondStrength> out;
   for (const std::size_t layer : layers_on(spec, body)) {
     const StrengthSpec& s = spec.layers[layer].material.strength;
-    if (!s.bond_tension || !s.bond_shear) return {};
-    out.push_back({*s.bond_tension, *s.bond_shear});
+    if (!s.bond.tension || !s.bond.shear) return {};
+    out.push_back({*s.bond.tension, *s.bond.shear});
   }
   return out;
 }
@@ -263,7 +263,7 @@ RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory&
 
 bool fatigue_given(const CaseSpec& spec, BodyId body) {
   return any_zone(spec, body, [](const StrengthSpec& s) {
-    return s.fatigue.limit || s.fracture_toughness || s.tensile_strength || s.bond_shear || s.bond_tension ||
+    return s.fatigue.limit || s.fracture_toughness || s.tensile_strength || s.bond.shear || s.bond.tension ||
            s.fatigue.fatemi_socie || s.fatigue.jiang_sehitoglu;
   });
 }

@@ -27,6 +27,16 @@ SteadyGrid section_grid(const MetalGrid& g) {
   return out;
 }
 
+/// Share of an excess of a backstress that a pass of so much plastic strain takes away, at most: γ Δp of Armstrong and
+/// Frederick; Ohno and Wang's recall grows with (m + 1) y^m, y the share of the saturation with half of the pass added,
+/// and takes no more than the excess.
+double recalled_share_of_pass(const PlasticParameters<double>& law, std::size_t k, const double* alpha, double flow) {
+  const double all = law.recall[k] * flow;
+  if (law.power == 0 || !(law.modulus[k] > 0)) return all;
+  const double size = std::sqrt(1.5 * double_contraction(alpha, alpha)) * law.recall[k] / law.modulus[k];
+  return -std::expm1(-all * (law.power + 1) * std::pow(std::min(1.0, size + 0.5 * all), law.power));
+}
+
 double norm_weight(std::size_t component) { return component < 3 ? 1 : std::numbers::sqrt2; }
 
 }  // namespace
@@ -145,7 +155,7 @@ void Metal::pass(Kind& kind, const std::vector<double>& state, const std::vector
   for (std::size_t i = 0; i < own.history.size(); ++i) kind.changes[i] = own.history[i] - result.before[i];
 }
 
-void Metal::add_pace(const std::vector<double>& flowing, StateChange& change) const {
+void Metal::add_pace(const std::vector<double>& state, const std::vector<double>& flowing, StateChange& change) const {
   // one pace for all plastic strain, else a step would tear what is compatible
   const double fastest = *std::max_element(flowing.begin(), flowing.end());
   for (std::size_t n = 0; n < flowing.size(); ++n) {
@@ -153,12 +163,13 @@ void Metal::add_pace(const std::vector<double>& flowing, StateChange& change) co
     const auto terms =
         std::count_if(row.law.modulus, row.law.modulus + kMostBackstresses, [](double c) { return c > 0; });
     double* pace = change.pace.data() + n * kHistory;
-    for (std::size_t c = 0; c < 6; ++c) {
-      pace[c] = fastest;
-      for (std::size_t k = 0; k < kMostBackstresses; ++k) {
-        const double slow = static_cast<double>(terms + 1) * row.law.modulus[k] / (3 * row.moduli.mu);
-        pace[7 + 6 * k + c] = flowing[n] * std::min(1.0, slow) + row.law.recall[k] * change.mean[n * kHistory + 6];
-      }
+    std::fill_n(pace, 6, fastest);
+    if (!(flowing[n] > 0)) continue;
+    const double flow = change.mean[n * kHistory + 6] / flowing[n];
+    for (std::size_t k = 0; k < kMostBackstresses; ++k) {
+      const double slow = static_cast<double>(terms + 1) * row.law.modulus[k] / (3 * row.moduli.mu);
+      const double recalled = recalled_share_of_pass(row.law, k, state.data() + n * kHistory + 7 + 6 * k, flow);
+      std::fill_n(pace + 7 + 6 * k, 6, flowing[n] * (std::min(1.0, slow) + recalled));
     }
   }
 }
@@ -198,7 +209,7 @@ StateChange Metal::change(const std::vector<double>& given) {
             kind->wheel.share / std::max(low_cycle_life(changes[6], ductility_, kLowCycleExponents[v]), 1.0);
     }
   }
-  add_pace(flowing, out);
+  add_pace(given, flowing, out);
   double sum = 0;
   for (std::size_t n = 0; n < points; ++n) {
     flow_.net[n] = equivalent_strain(out.mean.data() + n * kHistory);

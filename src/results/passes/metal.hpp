@@ -74,7 +74,7 @@ class Metal {
   void pass(Kind& kind, const std::vector<double>& state, const std::vector<double>& strain) const;
   std::vector<double> compatible(const std::vector<double>& state) const;
   void strip(std::vector<double>& state) const;
-  void add_pace(const std::vector<double>& flowing, StateChange& change) const;
+  void add_pace(const std::vector<double>& state, const std::vector<double>& flowing, StateChange& change) const;
   double two_mu(std::size_t point) const;
 
   MetalGrid grid_;

@@ -170,6 +170,8 @@ std::string describe_law(const PlasticParameters<double>& law) {
     if (law.modulus[k] > 0) (law.recall[k] > 0 ? recalls : linear) = true;
   if (linear)
     return "linear kinematic hardening: cannot ratchet indefinitely; at any load it ends in shakedown or closed cycles";
+  if (recalls && law.power > 0)
+    return "Ohno–Wang hardening: above its limit it ratchets at a rate that falls, the more the larger recall_power is";
   if (recalls)
     return "Armstrong–Frederick hardening: above its limit it ratchets indefinitely at a constant rate, which the law "
            "tends to overestimate";
