@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "clock/clock_lives.hpp"
 #include "clock/wheel_life.hpp"
 #include "core/faults.hpp"
 #include "reader/case_file.hpp"
@@ -83,6 +84,25 @@ TEST(Clock, WithoutAHorizonNothingIsFollowed) {
 }
 
 // bem, sweep and study give the life of their one load: that of a collective of it.
+// Used shares 0, 0.4 and 1.2 after 0, 10 and 20 MGT: between the last two 0.8 of a ductility of 5 after 15.
+TEST(Clock, ADateOfFirstCracksNamesTheDuctilityThatGivesIt) {
+  std::vector<ClockMoment> history(3);
+  history[1].kilograms = 10e9;
+  history[1].ductility = 0.4;
+  history[2].kilograms = 20e9;
+  history[2].ductility = 1.2;
+  CaseSpec spec;
+  EXPECT_EQ(fitted_ductility(spec, history), "");
+  spec.passes.ductility = 5;
+  spec.life.first_cracks = 15e9;
+  EXPECT_NE(fitted_ductility(spec, history).find("passes.ductility = 4 gives this"), std::string::npos);
+  spec.life.first_cracks = 21e9;
+  EXPECT_NE(fitted_ductility(spec, history).find("not followed so far"), std::string::npos);
+  history[1].ductility = history[2].ductility = 0;
+  spec.life.first_cracks = 20e9;
+  EXPECT_NE(fitted_ductility(spec, history).find("no metal has yielded"), std::string::npos);
+}
+
 TEST(Clock, TheLifeOfOneWheelIsThatOfItsCollective) {
   const std::string horizon = "[life]\nuntil = \"1000 Mt\"\n";
   const CaseSpec alone = parse_case(fatigued(horizon + "[vehicle]\nwheel_load = \"100 kN\"\n"), "a.toml").spec;

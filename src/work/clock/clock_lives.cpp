@@ -79,6 +79,23 @@ std::vector<LifeRow> clock_lives(const CaseSpec& spec, const ClockState& at, con
   return out;
 }
 
+std::string fitted_ductility(const CaseSpec& spec, const std::vector<ClockMoment>& history) {
+  const std::optional<double> cracked = spec.life.first_cracks;
+  if (!cracked || !spec.passes.ductility || history.empty()) return {};
+  constexpr double kReached = 1 - 1e-12;
+  const auto after = std::find_if(history.begin(), history.end(),
+                                  [&](const ClockMoment& m) { return m.kilograms >= *cracked * kReached; });
+  const double date = 1e-9 * *cracked;
+  if (after == history.begin() || after == history.end())
+    return fmt::format("first cracks after {:.3g} MGT: the rail was not followed so far", date);
+  const ClockMoment& before = *(after - 1);
+  const double share = (*cracked - before.kilograms) / (after->kilograms - before.kilograms);
+  const double used = before.ductility + share * (after->ductility - before.ductility);
+  if (!(used > 0)) return fmt::format("first cracks after {:.3g} MGT: no metal has yielded by then", date);
+  return fmt::format("first cracks after {:.3g} MGT: passes.ductility = {:.3g} gives this, with {:.3g} now", date,
+                     used * *spec.passes.ductility, *spec.passes.ductility);
+}
+
 std::string ratchets_on(const std::vector<ClockMoment>& history) {
   if (history.empty() || history.back().net < kNoFlow) return {};
   const ClockMoment& end = history.back();
@@ -86,8 +103,9 @@ std::string ratchets_on(const std::vector<ClockMoment>& history) {
                                  [&](const ClockMoment& m) { return m.net > 0 && m.kilograms >= 0.5 * end.kilograms; });
   if (half == history.end() - 1 || end.net < half->net * std::sqrt(half->kilograms / end.kilograms)) return {};
   return fmt::format(
-      "strain still grows by {:.2g} a wheel and hardly fades: the law of hardening (Armstrong and Frederick) ratchets "
-      "for ever, while the rate of rail steel falls; lives by ductility are lower limits",
+      "strain still grows by {:.2g} a wheel and hardly fades: the law of hardening ratchets for ever, while the rate "
+      "of rail steel falls, so lives by ductility are lower limits; the traffic after which a rail of this line had "
+      "its first cracks gives their scale (life.first_cracks)",
       end.net);
 }
 

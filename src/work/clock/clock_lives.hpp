@@ -10,6 +10,9 @@ namespace railstrata {
 /// Of all zones by all mechanisms; infinite where nothing has failed yet.
 std::vector<LifeRow> clock_lives(const CaseSpec& spec, const ClockState& at, const Profile& unworn);
 
+/// A note with the ductility that gives first cracks at spec.life.first_cracks; empty without that key.
+std::string fitted_ductility(const CaseSpec& spec, const std::vector<ClockMoment>& history);
+
 /// A note where the rate of strain falls by less than the root of the traffic in the second half of it; else empty.
 std::string ratchets_on(const std::vector<ClockMoment>& history);
 
