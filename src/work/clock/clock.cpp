@@ -61,7 +61,8 @@ class Clock {
       if (!at_horizon()) keep();
     }
     now_.out.lives = clock_lives(spec_, state(), unworn_.rail);
-    for (const std::string& note : {fitted_ductility(spec_, now_.out.history), ratchets_on(now_.out.history),
+    for (const std::string& note : {now_.out.worn_through ? std::string() : now_.out.ended,
+                                    fitted_ductility(spec_, now_.out.history), ratchets_on(now_.out.history),
                                     wearing_in(now_.out.history, now_.out.lives)})
       if (!note.empty()) now_.out.notes.push_back(note);
     now_.out.profile = surface_.points();
@@ -142,7 +143,10 @@ void Clock::solve(bool with_stresses) {
       now_.out.notes.push_back(fmt::format("{}: left out from {:.3g} MGT on for as long as it cannot be solved: {}",
                                            row.name, 1e-9 * now_.out.reached, row.fault));
   }
-  if (left_out == wheels) throw CaseError("no load of the collective can be solved", rows_.front().fault);
+  if (left_out != wheels) return;
+  if (now_.out.history.empty()) throw CaseError("no load of the collective can be solved", rows_.front().fault);
+  now_.out.ended =
+      fmt::format("after {:.3g} MGT no load can be solved any more: {}", 1e-9 * now_.out.reached, rows_.front().fault);
 }
 
 void Clock::begin() {
@@ -317,10 +321,11 @@ void Clock::wear_until_changed() {
     if (at_horizon()) return;
     if (!feet_.empty() && day_feet().front() < kThinnest) {
       now_.out.ended = fmt::format("layer worn through after {:.3g} MGT", 1e-9 * now_.out.reached);
+      now_.out.worn_through = true;
       return;
     }
     solve(false);
-    if (changed(from)) return;
+    if (!now_.out.ended.empty() || changed(from)) return;
   }
 }
 
@@ -415,6 +420,7 @@ void Clock::roll_metal() {
 
 void Clock::stretch() {
   if (rows_.empty()) solve(true);
+  if (!now_.out.ended.empty()) return;
   const std::vector<CollectiveRow> before = [&] {
     put_wheels();
     return rows_;

@@ -64,6 +64,7 @@ struct ClockResult {
   double wheels = 0, tonnes = 0;     ///< of one collective
   double reached = 0;                ///< kg, gross traffic that was followed
   std::string ended;                 ///< why before the horizon; empty: at it
+  bool worn_through = false;         ///< because of a layer
   std::vector<std::string> notes;    ///< loads that were left out or could not yield
   std::vector<Vec2> profile;         ///< m, at the end, frame of the unworn one
 };

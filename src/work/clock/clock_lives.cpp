@@ -65,8 +65,8 @@ std::vector<LifeRow> clock_lives(const CaseSpec& spec, const ClockState& at, con
         if (out.back().place.empty()) break;  // not known, wherever
       }
   if (zones > 0) {
-    const double when = at.out.ended.empty() ? kNever : 1e-9 * at.out.reached;
-    const double wheels = at.out.ended.empty() ? kNever : at.wheels;
+    const double when = at.out.worn_through ? 1e-9 * at.out.reached : kNever;
+    const double wheels = at.out.worn_through ? at.wheels : kNever;
     out.push_back({.body = std::string(body_word(BodyId::rail)),
                    .zone = zone_name(spec, BodyId::rail, 1),
                    .place = "layer",
