@@ -62,6 +62,8 @@ TEST_F(CTable, InScaledCreepagesIsAskedForPlainOnes) {
                       {"creep_stiffness_y", "N^(1/3)", {4e3, 5e3}},
                       {"creep_stiffness_spin", "m", {0.2, 0.3}}}},
                     0.8,
+                    -0.7,
+                    0.7,
                     0,
                     0.3};
   for (std::size_t k = 0; k < scaled.points(); ++k) {

@@ -279,6 +279,18 @@ rs_wheelset_state beside_the_ridge(double y) {
   return state;
 }
 
+// The force of a wheel grows with up to the 16th power of its descent there, over 50 nm, and its arm of the moment with
+// it.
+TEST(Wheelset, OnTheWayOfTwoPlanesIntoOneHeightAndRollAreSoonFound) {
+  Set set(kEuropeanCase);
+  int solutions = 0;
+  for (int k = 0; k < 60; ++k) {
+    ASSERT_EQ(set.solve(loaded(5.52e-3 + 0.2e-6 * k)), RS_OK) << set.error.message;
+    solutions += set.forces.solutions;
+  }
+  EXPECT_LE(solutions, 250);
+}
+
 // A patch of its own cells, and of an approach that the large one leaves it: known so well that no state is refused.
 TEST(Wheelset, ALoadBesideTheRidgeHasAnAnswer) {
   Set set(kBogie);

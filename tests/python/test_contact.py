@@ -210,7 +210,7 @@ def test_a_scaled_creep_table_is_asked_as_a_plain_one_is(program, tmp_path):
                     "2 mm", "--places", "0", "--out", tmp_path / "out"], check=True, capture_output=True)
     table = rs.open_table(tmp_path / "out/creep_table.h5")
     assert list(table.axes) == ["creepage_x", "creepage_y", "spin"] and table.axes["spin"] == pytest.approx([-0.2, 0.2])
-    assert list(table.grid) == ["creepage_angle", "spin_angle", "creepage_size"]
+    assert list(table.grid) == ["creepage_angle", "spin_share", "creepage_size"]
     assert table.numbers["force_x"].shape == (4, 5, 4)
     forces = table.at(creepage_x=[-0.001, 0.001], creepage_y=0, spin=0)["force_x"]
     assert forces[0] > 1000 and forces[1] < -1000

@@ -77,7 +77,10 @@ namespace {
 
 constexpr double kPlaces[][4] = {{1e-3, -2e-3, 0.1, 70e3}, {-4e-3, 5e-4, 0, 55e3}, {3e-3, 6e-3, -0.3, 98e3}};
 
-/// Similar at any load: |F| = f N tanh(r) against the creepage, whatever its direction, and a patch area as N^(2/3).
+/// Similar at any load: |F| = f N tanh(rho)/sqrt(1 + psi²) against the creepage, whatever its direction, and a patch
+/// area as N^(2/3).
+double size_of_similar(double load, double rho, double psi) { return 0.3 * load * std::tanh(rho) / std::hypot(1, psi); }
+
 ForceTable similar(int angles = 12) {
   ForceTable t{scaled_axes(angles, 17, 13),
                {{"patch_area", "m2", {}}, {"lateral_force", "N", {}}, {"force_x", "N", {}}}};
@@ -85,11 +88,15 @@ ForceTable similar(int angles = 12) {
   t.scaling = {{{{"creepage_x", "", {-0.01, 0.01}}, {"creepage_y", "", {-0.01, 0.01}}, {"spin", "1/m", {-1, 1}}}},
                {{{"x", "", {4e3, 4e3}}, {"y", "", {5e3, 5e3}}, {"spin", "", {0.2, 0.2}}}},
                0.8,
+               -0.7,
+               0.7,
                0,
                0.3};
   for (std::size_t k = 0; k < t.points(); ++k) {
     const std::vector<double> place = grid_place(t, k);
-    const double force = -0.3 * place[3] * std::tanh(creep_radius(0.8 * place[2]));
+    const ScaledPlace there{place[0], -0.7 + 1.4 * place[1], 0.8 * place[2]};
+    const double psi = std::sinh(there.spin), r = creep_radius(there),
+                 force = -size_of_similar(place[3], std::sqrt(r * r - psi * psi), psi);
     t.numbers[0].values.push_back(1e-7 * std::pow(place[3], 2.0 / 3));
     t.numbers[1].values.push_back(force * std::sin(place[0]));
     t.numbers[2].values.push_back(force * std::cos(place[0]));
@@ -101,7 +108,7 @@ ForceTable similar(int angles = 12) {
 
 TEST(CreepScaling, UnitsAreThoseOfKalkerAndPlacesGoBothWays) {
   const CreepUnits units = creep_units({4e3, 5e3, 0.2}, 64e3, 0.3);
-  EXPECT_DOUBLE_EQ(units.x, 4e3 * std::pow(64e3, 2.0 / 3) / (3 * 0.3 * 64e3)) << "k_x / (3 f N)";
+  EXPECT_DOUBLE_EQ(units.plane, std::sqrt(4e3 * 5e3) * std::pow(64e3, 2.0 / 3) / (3 * 0.3 * 64e3)) << "k / (3 f N)";
   EXPECT_DOUBLE_EQ(units.spin, 0.2 * 64e3 / (0.3 * 64e3)) << "k_s / (f N)";
   for (const auto& place : kPlaces) {
     const Creepages back = creepages_at(scaled_place({place[0], place[1], place[2]}, units), units);
@@ -126,13 +133,42 @@ TEST(ScaledTable, IsExactForAnyLoadWhereContactsAreSimilarAndForAnyDirectionOfTh
     double out[3], fewer[3];
     EXPECT_EQ(TableInterpolation(t).at(place, out), 0);
     TableInterpolation(fewer_angles).at(place, fewer);
-    const double r_x = 4e3 / std::cbrt(place[3]) / 0.9 * place[0], r_y = 5e3 / std::cbrt(place[3]) / 0.9 * place[1];
+    const double rho = std::sqrt(4e3 * 5e3) / std::cbrt(place[3]) / 0.9 * std::hypot(place[0], place[1]);
     EXPECT_NEAR(out[0], 1e-7 * std::pow(place[3], 2.0 / 3), 1e-12);
-    EXPECT_NEAR(out[1] * r_x, out[2] * r_y, 1e-10 * 30e3) << "against the creepage";
-    const double r = std::hypot(r_x, r_y, 0.2 / 0.3 * place[2]);
-    EXPECT_NEAR(std::hypot(out[1], out[2]), 0.3 * place[3] * std::tanh(r), 1e-3 * 0.3 * place[3]) << "a cubic of r";
+    EXPECT_NEAR(out[1] * place[0], out[2] * place[1], 1e-13 * 30e3) << "against the creepage";
+    EXPECT_NEAR(std::hypot(out[1], out[2]), size_of_similar(place[3], rho, 0.2 / 0.3 * place[2]), 1e-3 * 0.3 * place[3])
+        << "cubics";
     EXPECT_NEAR(fewer[1], out[1], 1e-10 * 30e3);
     EXPECT_NEAR(fewer[2], out[2], 1e-10 * 30e3);
+  }
+}
+
+// Three waves around are within what seven angles and more have.
+TEST(ScaledTable, HasTheWavesOfTheAnglesOfCreepage) {
+  for (const int angles : {7, 8}) {
+    ForceTable t = similar(angles);
+    const auto wave = [](double angle) { return 2 + std::sin(angle) - 0.3 * std::cos(3 * angle); };
+    for (std::size_t k = 0; k < t.points(); ++k) t.numbers[0].values[k] = wave(grid_place(t, k)[0]);
+    t.numbers[0].name = "slip";
+    const TableInterpolation between(t);
+    for (const auto& place : kPlaces) {
+      double out[3];
+      between.at(place, out);
+      EXPECT_NEAR(out[0], wave(std::atan2(place[1], place[0])), 0.02 * 0.3) << "cubics between four points of each";
+    }
+  }
+}
+
+TEST(ScaledTable, HasTheBoundOfItsForces) {
+  ForceTable t = similar();
+  t.numbers.push_back({"normal_force", "N", std::vector<double>(t.points(), 60e3)});
+  t.numbers.push_back({"bound", "", std::vector<double>(t.points(), 0.0)});
+  const TableInterpolation between(t);
+  for (const auto& place : kPlaces) {
+    double out[5];
+    between.at(place, out);
+    EXPECT_NEAR(out[4], std::hypot(out[1], out[2]) / (0.3 * out[3]), 1e-14);
+    EXPECT_GT(out[4], 0.1);
   }
 }
 
@@ -148,6 +184,12 @@ TEST(ScaledTable, TakesWhatLiesBeyondAtTheEndsOfCreepages) {
 TEST(ScaledTable, WithoutItsOwnAxesStiffnessesOrFrictionIsRefused) {
   ForceTable t = similar();
   t.axes[1].at[3] += 0.01;
+  EXPECT_THROW(check(t), CaseError);
+  t = similar();
+  t.axes[1].name = "spin_angle";  // of a table of before
+  EXPECT_THROW(check(t), CaseError);
+  t = similar();
+  t.scaling->spin_high = t.scaling->spin_low;
   EXPECT_THROW(check(t), CaseError);
   t = similar();
   t.scaling->stiffness[2].values.pop_back();

@@ -106,7 +106,7 @@ ExitCode creep_curve_in_folder(const CreepOptions& own, const CommandOptions& op
   return ExitCode::ok;
 }
 
-/// "12:17:13"
+/// "10:7:9"
 std::optional<ScaledCounts> scaled_counts(const std::string& text) {
   if (text.empty()) return std::nullopt;
   ScaledCounts out;
@@ -114,7 +114,7 @@ std::optional<ScaledCounts> scaled_counts(const std::string& text) {
   if (std::sscanf(text.c_str(), "%d:%d:%d%c", &out.angles, &out.spins, &out.sizes, &rest) == 3)
     if (std::min({out.angles, out.spins, out.sizes}) >= 4 && std::max({out.angles, out.spins, out.sizes}) <= 1000)
       return out;
-  throw CaseError(fmt::format("--scaled {}", text), "give three numbers from 4 to 1000: --scaled 12:17:13");
+  throw CaseError(fmt::format("--scaled {}", text), "give three numbers from 4 to 1000: --scaled 10:7:9");
 }
 
 void print(const CreepTable& table, const TableError& error) {
@@ -190,7 +190,7 @@ void declare_curve(CLI::App& sub, CreepOptions& own, CLI::Option* axis) {
 void declare_table(CLI::App& sub, CreepOptions& own, CLI::Option* axis) {
   sub.add_option(
          "--scaled", own.scaled,
-         "A table in scaled creepages, with so many angles of creepage, angles of spin and sizes (12:17:13); of "
+         "A table in scaled creepages, with so many angles of creepage, spins and sizes of creepage (10:7:9); of "
          "the axes creepage_x, creepage_y and spin the ends count")
       ->type_name("ANGLES:SPINS:SIZES")
       ->needs(axis);
@@ -231,7 +231,7 @@ extern const Command kCreepCommand{
     "Examples:\n  railstrata creep cases/paper/base.toml\n  railstrata creep cases/paper/layer_3mm_2E0.toml --of "
     "lateral_creepage --both-sides --set drive.traction_coefficient=0\n  railstrata creep cases/paper/base.toml --axis "
     "creepage_x=+-0.02:21 --axis creepage_y=+-0.02:21 --axis load=\"40 kN,80 kN,120 kN\" --out results/table\n  "
-    "railstrata creep cases/paper/base.toml --scaled 12:17:13 --axis creepage_x=-0.02,0.02 --axis "
+    "railstrata creep cases/paper/base.toml --scaled 10:7:9 --axis creepage_x=-0.02,0.02 --axis "
     "creepage_y=-0.02,0.02 --axis spin=\"-0.5,0.5 1/m\" --out results/scaled-table\n  railstrata creep --usetab "
     "--out results/usetab\n\nCtrl-C: a table keeps what is solved, --resume goes on with it.\n",
     declare_creep};

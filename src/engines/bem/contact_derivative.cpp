@@ -40,7 +40,8 @@ bool ContactDerivatives::linear() const {
 }
 
 ContactDerivatives::Beside ContactDerivatives::beside(const PlacedCase& there, double descent) const {
-  const OnePatch one = lowered(there.spec, there.placement, descent);
+  const bool here = &there.placement == &placement_ && descent == one_.descent();
+  const OnePatch one = here ? one_.in_case(there.spec) : lowered(there.spec, there.placement, descent);
   Beside out;
   out.plane = one.plane();
   if (same_place(one.plane(), one_.plane())) {
@@ -111,7 +112,8 @@ const ContactDerivative& ContactDerivatives::by_descent() {
 
 ContactDerivative ContactDerivatives::by(const PlacedCase& more, const PlacedCase& less, double step) {
   const auto at = [&](const PlacedCase& there) {
-    return beside(there, descent_in(there.spec, there.placement, one_.descent()));
+    const bool here = &there.placement == &placement_ && there.spec.vehicle.approach == spec_.vehicle.approach;
+    return beside(there, here ? one_.descent() : descent_in(there.spec, there.placement, one_.descent()));
   };
   ContactDerivative out = between(at(more), at(less), step);
   if (spec_.vehicle.approach) return out;

@@ -12,6 +12,13 @@ class OnePatch {
   /// spec and touching are kept by reference.
   OnePatch(const CaseSpec& spec, const Placement& touching, PatchPlace place);
 
+  /// The same of a case with this placement and wheel, which is kept by reference, too.
+  OnePatch in_case(const CaseSpec& spec) const {
+    OnePatch out = *this;
+    out.spec_ = &spec;
+    return out;
+  }
+
   /// Lowers the wheel by a descent [m]. Returns whether the plane is another one than before.
   bool lower(double descent);
   double descent() const { return descent_; }

@@ -6,6 +6,7 @@ namespace railstrata {
 namespace {
 
 constexpr double kThird = 1.0 / 3;
+constexpr double kMiddle = 1.25;  // c
 
 struct Growth {
   std::string_view number;
@@ -20,24 +21,27 @@ constexpr Growth kGrowths[] = {{"force_x", 1, 1, 0},
                                {"patch_area", 0, 2 * kThird, 0},
                                {"dissipation", 2, 4 * kThird, 1}};
 
+double rho_of(const ScaledPlace& place) { return kMiddle * place.size / std::sqrt(1 - place.size * place.size); }
+
 }  // namespace
 
 CreepUnits creep_units(const CreepStiffness& stiffness, double load, double friction) {
   const double translation = 1 / (3 * friction * std::cbrt(load));
-  return {stiffness[0] * translation, stiffness[1] * translation, stiffness[2] / friction};
+  return {std::sqrt(stiffness[0] * stiffness[1]) * translation, stiffness[2] / friction};
 }
 
 ScaledPlace scaled_place(const Creepages& creepages, const CreepUnits& units) {
-  const double xi = units.x * creepages[0], eta = units.y * creepages[1], psi = units.spin * creepages[2];
-  const double r = std::hypot(xi, eta, psi);
-  return {std::atan2(eta, xi), std::atan2(psi, std::hypot(xi, eta)), r / (1 + r)};
+  const double rho = units.plane * std::hypot(creepages[0], creepages[1]);
+  return {std::atan2(creepages[1], creepages[0]), std::asinh(units.spin * creepages[2]),
+          rho / std::hypot(kMiddle, rho)};
 }
 
 Creepages creepages_at(const ScaledPlace& place, const CreepUnits& units) {
-  const double r = creep_radius(place.size), in_plane = r * std::cos(place.spin_angle);
-  return {in_plane * std::cos(place.angle) / units.x, in_plane * std::sin(place.angle) / units.y,
-          r * std::sin(place.spin_angle) / units.spin};
+  const double size = rho_of(place) / units.plane;
+  return {size * std::cos(place.angle), size * std::sin(place.angle), std::sinh(place.spin) / units.spin};
 }
+
+double creep_radius(const ScaledPlace& place) { return std::hypot(rho_of(place), std::sinh(place.spin)); }
 
 double growth_of(std::string_view number, double friction, double load, double radius) {
   for (const Growth& g : kGrowths)

@@ -1,24 +1,24 @@
 #pragma once
 // Creepages and spin of a contact in units of what its own creep stiffness and friction make of them.
 //
-//   xi = k_x v_x / (3 f N),   eta = k_y v_y / (3 f N),   psi = k_s phi / (f N)                  [Kalker1990 ch. 2]
+//   rho = sqrt(k_x k_y) |v| / (3 f N),   psi = k_s phi / (f N)                                  [Kalker1990 ch. 2]
 //
-// with friction f, load N, creepages v_x, v_y, spin phi (1/m), and k_x = |dF_x/dv_x|, k_y = |dF_y/dv_y|, k_s =
+// with friction f, load N, creepages v = (v_x, v_y), spin phi (1/m), and k_x = |dF_x/dv_x|, k_y = |dF_y/dv_y|, k_s =
 // |dF_y/dphi| about no creepage: G c² C11, G c² C22 and G c³ C23 on Hertz's ellipse, where c³ grows as N. There F/(f N)
-// depends on xi, eta, psi alone for any load, friction and modulus; of profiles and layers little is left to other
-// axes.
+// depends on these and the angle of v alone for any load, friction and modulus; of profiles and layers little is left
+// to other axes.
 //
-// A place has three numbers instead: the angle of (xi, eta), the angle of psi off their plane, and the size
-// s = r / (1 + r), r² = xi² + eta² + psi². Forces change smoothly along each, also into full sliding, where only the
-// angles count.
+// A place has three numbers: the angle of v, opposite to which a sliding patch pulls; arsinh(psi); and the size
+// rho / sqrt(c² + rho²) with c = 1.25, even where the patch begins to slide and dense far from there, where the force
+// follows the direction alone.
 #include <array>
 #include <string_view>
 
 namespace railstrata {
 
-/// What one creepage v_x, v_y and one unit of spin are in xi, eta and psi.
+/// What one creepage and one unit of spin are in rho and psi.
 struct CreepUnits {
-  double x = 0, y = 0, spin = 0;
+  double plane = 0, spin = 0;
 };
 
 /// Stiffnesses k_x / N^(2/3), k_y / N^(2/3), k_s / N: the same for every load on Hertz's ellipse.
@@ -29,15 +29,15 @@ CreepUnits creep_units(const CreepStiffness& stiffness, double load, double fric
 using Creepages = std::array<double, 3>;
 
 struct ScaledPlace {
-  double angle = 0;       ///< [-pi, pi]
-  double spin_angle = 0;  ///< [-pi/2, pi/2]
-  double size = 0;        ///< [0, 1)
+  double angle = 0;  ///< [-pi, pi]
+  double spin = 0;   ///< arsinh(psi)
+  double size = 0;   ///< [0, 1)
 };
 ScaledPlace scaled_place(const Creepages& creepages, const CreepUnits& units);
 Creepages creepages_at(const ScaledPlace& place, const CreepUnits& units);
 
-/// r of a size.
-inline double creep_radius(double size) { return size / (1 - size); }
+/// r² = rho² + psi²
+double creep_radius(const ScaledPlace& place);
 
 /// What a number of creep tables, by its name, grows with on Hertz's ellipse: a product of powers of friction, load (N)
 /// and r. 1 of a number that is not known.

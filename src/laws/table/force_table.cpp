@@ -51,7 +51,8 @@ void check_scaling(const ForceTable& table, const TableScaling& scaling) {
   std::size_t others = table.points();
   for (std::size_t k = 0; k < kScaledAxes; ++k) {
     const auto same = [](double a, double b) { return std::abs(a - b) < 1e-12; };
-    if (count(k) < 4 || !std::equal(own[k].at.begin(), own[k].at.end(), table.axes[k].at.begin(), same))
+    if (count(k) < 4 || own[k].name != table.axes[k].name ||
+        !std::equal(own[k].at.begin(), own[k].at.end(), table.axes[k].at.begin(), same))
       throw CaseError(fmt::format("the axis {} of a scaled table does not have its fixed values", own[k].name), remedy);
     check_axis(scaling.asked[k]);
     others /= table.axes[k].at.size();
@@ -59,13 +60,27 @@ void check_scaling(const ForceTable& table, const TableScaling& scaling) {
   for (const TableNumber& k : scaling.stiffness) check_number(k, others);
   const bool load = index_of(table.axes, "load") || scaling.load > 0,
              friction = index_of(table.axes, "friction") || scaling.friction > 0;
-  if (!load || !friction || !(scaling.largest_size > 0 && scaling.largest_size < 1))
-    throw CaseError("a scaled table needs load, friction and largest size", remedy);
+  if (!load || !friction || !(scaling.largest_size > 0 && scaling.largest_size < 1) ||
+      !(scaling.spin_low < scaling.spin_high))
+    throw CaseError("a scaled table needs load, friction, largest size and the ends of its spin", remedy);
 }
 
 /// A stiffness at a point of the axes after the third.
 CreepStiffness stiffness_at(const TableScaling& scaling, std::size_t outer) {
   return {scaling.stiffness[0].values[outer], scaling.stiffness[1].values[outer], scaling.stiffness[2].values[outer]};
+}
+
+/// The place of a point of the first three axes.
+ScaledPlace place_of(const TableScaling& scaling, const std::vector<double>& point) {
+  return {point[0], scaling.spin_low + point[1] * (scaling.spin_high - scaling.spin_low),
+          point[2] * scaling.largest_size};
+}
+
+/// Of the sum of waves through `count` even points around a turn: the weight of the one that is an angle away.
+double weight_around(double away, std::size_t count) {
+  const auto n = static_cast<double>(count);
+  const double half = 0.5 * away;
+  return std::sin(n * half) / (n * (count % 2 == 0 ? std::tan(half) : std::sin(half)));
 }
 
 /// A force in the direction of an angle and across it; by the negative angle, back.
@@ -88,9 +103,9 @@ const TableAxis& ForceTable::asked(std::size_t axis) const {
 }
 
 std::vector<TableAxis> scaled_axes(int angles, int spins, int sizes) {
-  std::vector<TableAxis> out{{"creepage_angle", "", {}}, {"spin_angle", "", {}}, {"creepage_size", "", {}}};
+  std::vector<TableAxis> out{{"creepage_angle", "", {}}, {"spin_share", "", {}}, {"creepage_size", "", {}}};
   for (int k = 0; k < angles; ++k) out[0].at.push_back(kTurn * (static_cast<double>(k) / angles - 0.5));
-  for (int k = 0; k < spins; ++k) out[1].at.push_back(0.5 * kTurn * (static_cast<double>(k) / (spins - 1) - 0.5));
+  for (int k = 0; k < spins; ++k) out[1].at.push_back(static_cast<double>(k) / (spins - 1));
   for (int k = 0; k < sizes; ++k) out[2].at.push_back(static_cast<double>(k) / (sizes - 1));
   return out;
 }
@@ -116,7 +131,7 @@ std::vector<double> asked_place(const ForceTable& table, std::size_t point) {
   const TableScaling& scaling = *table.scaling;
   const ScaledLoad at = load_at(table, out.data());
   const Creepages creepages = creepages_at(
-      {out[0], out[1], out[2] * scaling.largest_size},
+      place_of(scaling, out),
       creep_units(stiffness_at(scaling, point % scaling.stiffness[0].values.size()), at.load, at.friction));
   std::copy(creepages.begin(), creepages.end(), out.begin());
   return out;
@@ -141,15 +156,36 @@ TableInterpolation::TableInterpolation(const ForceTable& table) : table_(&table)
 void TableInterpolation::divide() {
   divided_ = table_->numbers;
   force_ = {index_of(divided_, "force_x"), index_of(divided_, "lateral_force")};
+  normal_ = index_of(divided_, "normal_force");
+  bound_ = index_of(divided_, "bound");
   for (std::size_t point = 0; point < table_->points(); ++point) {
     const std::vector<double> place = grid_place(*table_, point);
     const ScaledLoad at = load_at(*table_, place.data());
-    const double radius = creep_radius(place[2] * table_->scaling->largest_size);
+    const double radius = creep_radius(place_of(*table_->scaling, place));
     for (TableNumber& number : divided_) {
       const double growth = growth_of(number.name, at.friction, at.load, radius);
       number.values[point] = growth > 0 ? number.values[point] / growth : 0;
     }
     if (force_[0] && force_[1]) turn(divided_[*force_[0]].values[point], divided_[*force_[1]].values[point], place[0]);
+  }
+  refine_angles();
+}
+
+/// Puts points of the waves between those of the table, so near that cubics do for them.
+void TableInterpolation::refine_angles() {
+  constexpr std::size_t kFiner = 4, kMany = 64;  // angles that are fine already
+  const std::size_t count = table_->axes[0].at.size(), plane = stride_[0], finer = count < kMany ? kFiner : 1;
+  angles_ = finer * count;
+  for (TableNumber& number : divided_) {
+    std::vector<double> fine(angles_ * plane, 0.0);
+    for (std::size_t i = 0; i < angles_; ++i)
+      for (std::size_t j = 0; j < count; ++j) {
+        const double steps = static_cast<double>(i) / static_cast<double>(finer) - static_cast<double>(j);
+        if (i % finer == 0 && i != finer * j) continue;
+        const double weight = i == finer * j ? 1.0 : weight_around(kTurn * steps / static_cast<double>(count), count);
+        for (std::size_t k = 0; k < plane; ++k) fine[i * plane + k] += weight * number.values[j * plane + k];
+      }
+    number.values = std::move(fine);
   }
 }
 
@@ -166,13 +202,13 @@ TableInterpolation::Place TableInterpolation::cubic(const std::vector<double>& a
   return out;
 }
 
-/// The same on an axis of a whole turn at equal steps, whose first value is -pi.
-TableInterpolation::Place TableInterpolation::around(const std::vector<double>& at, double value, std::size_t stride) {
-  const std::size_t n = at.size();
-  const double steps = (value / kTurn + 0.5) * static_cast<double>(n), k = std::floor(steps);
+/// The same around the turn, whose first angle is -pi.
+TableInterpolation::Place TableInterpolation::around(double value) const {
+  const double steps = (value / kTurn + 0.5) * static_cast<double>(angles_), k = std::floor(steps);
   constexpr double kPoints[]{-1, 0, 1, 2};
   Place out{{}, lagrange_stencil(kPoints, 4, steps - k).weight, 4};
-  for (std::size_t i = 0; i < 4; ++i) out.index[i] = (static_cast<std::size_t>(k) + n + i - 1) % n * stride;
+  for (std::size_t i = 0; i < 4; ++i)
+    out.index[i] = (static_cast<std::size_t>(k) + angles_ + i - 1) % angles_ * stride_[0];
   return out;
 }
 
@@ -194,17 +230,20 @@ void TableInterpolation::scaled(const double* point, Places& places, double* out
   CreepStiffness stiffness{};
   add_corners(scaling.stiffness, places, kScaledAxes, 0, 1, stiffness.data());
   const ScaledLoad at = load_at(*table_, point);
-  const ScaledPlace place = scaled_place({point[0], point[1], point[2]}, creep_units(stiffness, at.load, at.friction));
-  if (!std::isfinite(place.size)) return void(std::fill_n(out, divided_.size(), NAN));
+  ScaledPlace place = scaled_place({point[0], point[1], point[2]}, creep_units(stiffness, at.load, at.friction));
+  if (!std::isfinite(place.size + place.spin)) return void(std::fill_n(out, divided_.size(), NAN));
+  place.size = std::min(place.size, scaling.largest_size);
+  place.spin = std::clamp(place.spin, scaling.spin_low, scaling.spin_high);
   const std::vector<TableAxis>& axes = table_->axes;
-  const double size = std::min(place.size, scaling.largest_size);
-  places[0] = around(axes[0].at, place.angle, stride_[0]);
-  places[1] = cubic(axes[1].at, place.spin_angle, stride_[1]);
-  places[2] = cubic(axes[2].at, size / scaling.largest_size, stride_[2]);
+  places[0] = around(place.angle);
+  places[1] = cubic(axes[1].at, (place.spin - scaling.spin_low) / (scaling.spin_high - scaling.spin_low), stride_[1]);
+  places[2] = cubic(axes[2].at, place.size / scaling.largest_size, stride_[2]);
   add_corners(divided_, places, 0, 0, 1, out);
   if (force_[0] && force_[1]) turn(out[*force_[0]], out[*force_[1]], -place.angle);
   for (std::size_t n = 0; n < divided_.size(); ++n)
-    out[n] *= growth_of(divided_[n].name, at.friction, at.load, creep_radius(size));
+    out[n] *= growth_of(divided_[n].name, at.friction, at.load, creep_radius(place));
+  if (force_[0] && force_[1] && normal_ && bound_)  // not smooth where the forces are zero
+    out[*bound_] = std::hypot(out[*force_[0]], out[*force_[1]]) / (at.friction * out[*normal_]);
 }
 
 int TableInterpolation::at(const double* point, double* out) const {

@@ -5,9 +5,9 @@
 // points, stays within the values around a place, and rises where they rise.
 //
 // The first three axes of a scaled table are a place of table/creep_scaling.hpp. Its numbers are divided by what they
-// grow with, its forces are turned into the direction of (xi, eta). What is left is cubic along these three, by the
-// four points around, and linear along the others. Whoever asks gives plain creepages, spin, load and so on, and has
-// plain numbers.
+// grow with, its forces are turned into the direction of the creepage. What is left is a sum of waves around the angles
+// and cubic along the other two, by the four points around; it is linear along further axes. Whoever asks gives plain
+// creepages, spin, load and so on, and has plain numbers.
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -34,6 +34,7 @@ struct TableScaling {
   std::array<TableAxis, kScaledAxes> asked;        ///< creepage_x, creepage_y, spin: what may be asked for, two ends
   std::array<TableNumber, kScaledAxes> stiffness;  ///< a CreepStiffness, over the axes after the third
   double largest_size = 0;                         ///< size is the third axis' value, in [0, 1], times this
+  double spin_low = 0, spin_high = 0;              ///< ScaledPlace::spin at 0 and 1 of the second axis
   double load = 0, friction = 0;                   ///< N, where they are no axes of the table
 };
 
@@ -48,7 +49,7 @@ struct ForceTable {
 
 inline constexpr std::size_t kMostAxes = 8;
 
-/// The three axes of a scaled table: `angles` around, `spins` from pole to pole, `sizes`; four of each or more.
+/// The three axes of a scaled table: `angles` around, `spins` and `sizes` from 0 to 1; four of each or more.
 std::vector<TableAxis> scaled_axes(int angles, int spins, int sizes);
 
 /// Throws CaseError: no axis or more than kMostAxes, an axis that does not ascend, values that are not as many as the
@@ -86,8 +87,9 @@ class TableInterpolation {
   using Places = std::array<Place, kMostAxes>;
   static Place linear(const std::vector<double>& at, double value, std::size_t stride);
   static Place cubic(const std::vector<double>& at, double value, std::size_t stride);
-  static Place around(const std::vector<double>& at, double value, std::size_t stride);
+  Place around(double value) const;
   void divide();
+  void refine_angles();
   void scaled(const double* point, Places& places, double* out) const;
   template <class Numbers>
   void add_corners(const Numbers& numbers, const Places& places, std::size_t axis, std::size_t index, double weight,
@@ -96,7 +98,9 @@ class TableInterpolation {
   const ForceTable* table_;
   std::vector<std::size_t> stride_;
   std::vector<TableNumber> divided_;  ///< the numbers of a scaled table by what they grow with, forces turned
+  std::size_t angles_ = 0;            ///< of these
   std::array<std::optional<std::size_t>, 2> force_;  ///< which numbers are force_x and lateral_force, if both are there
+  std::optional<std::size_t> normal_, bound_;        ///< and normal_force and bound
 };
 
 }  // namespace railstrata

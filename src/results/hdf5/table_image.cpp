@@ -58,17 +58,23 @@ std::string text_of(hid_t at, const char* name) {
   return out.c_str();
 }
 
-void add_values(hid_t at, const char* name, const std::array<double, 3>& values) {
+/// Largest size, load, friction, and the ends of the spin.
+using ScalingValues = std::array<double, 5>;
+
+void add_values(hid_t at, const char* name, const ScalingValues& values) {
   const hsize_t size = values.size();
   const TableHandle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
   const TableHandle attribute(H5Acreate2(at, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   checked(H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data()));
 }
 
-std::array<double, 3> values_of(hid_t at, const char* name) {
+/// Of a table of before, the spins of which are not known: without the last two.
+ScalingValues values_of(hid_t at, const char* name) {
   const TableHandle attribute(H5Aopen(at, name, H5P_DEFAULT), H5Aclose), space(H5Aget_space(attribute), H5Sclose);
-  std::array<double, 3> out{};
-  if (H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(out.size())) throw Refused{};
+  constexpr hssize_t kBefore = 3;
+  ScalingValues out{};
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (count != kBefore && count != static_cast<hssize_t>(out.size())) throw Refused{};
   checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, out.data()));
   return out;
 }
@@ -90,10 +96,10 @@ void add_axis(hid_t file, const TableAxis& axis) {
   checked(H5DSset_scale(set, axis.name.c_str()));
 }
 
-/// What a scaled table has besides: ends of the asked axes, stiffnesses, in the attribute the largest size, load and
-/// friction.
+/// What a scaled table has besides: ends of the asked axes, stiffnesses, in the attribute the ScalingValues.
 void fill_scaling(hid_t file, const ForceTable& table, const TableScaling& scaling) {
-  add_values(file, kScaled, {scaling.largest_size, scaling.load, scaling.friction});
+  add_values(file, kScaled,
+             {scaling.largest_size, scaling.load, scaling.friction, scaling.spin_low, scaling.spin_high});
   for (const TableAxis& axis : scaling.asked) add_axis(file, axis);
   std::vector<hsize_t> size;
   for (std::size_t k = kScaledAxes; k < table.axes.size(); ++k) size.push_back(table.axes[k].at.size());
@@ -159,10 +165,12 @@ TableNumber number_in(hid_t file, const std::string& name) {
 
 void read_scaling(hid_t file, ForceTable& table) {
   TableScaling& scaling = table.scaling.emplace();
-  const auto [largest_size, load, friction] = values_of(file, kScaled);
+  const auto [largest_size, load, friction, spin_low, spin_high] = values_of(file, kScaled);
   scaling.largest_size = largest_size;
   scaling.load = load;
   scaling.friction = friction;
+  scaling.spin_low = spin_low;
+  scaling.spin_high = spin_high;
   constexpr const char *kAsked[] = {"creepage_x", "creepage_y", "spin"}, *kOf[] = {"x", "y", "spin"};
   for (std::size_t k = 0; k < kScaledAxes; ++k) {
     const TableHandle set(H5Dopen2(file, kAsked[k], H5P_DEFAULT), H5Dclose);

@@ -155,11 +155,14 @@ const Placement& Contact::place(InState& out) const {
   const GeometrySpec& now = out.spec.geometry;
   if (stands_at(now, placement_.track)) return placement_;
   TrackGeometry& track = out.moved.track;
+  if (out.placed && stands_at(now, track)) return out.moved;
+  out.placed = false;
   track = placement_.track;
   track.lateral_shift = now.lateral_shift;
   track.yaw = now.yaw;
   track.roll = now.roll;
   by_physics([&] { out.moved.contact = place_wheel(out.moved.wheel, out.moved.rail, track); });
+  out.placed = true;
   return out.moved;
 }
 
@@ -336,7 +339,10 @@ void Contact::set_profile(BodyId body, std::vector<Vec2> points) {
                                                              std::move(points), body_word(body), &changed.notes);
   changed.contact = place_wheel(changed.wheel, changed.rail, changed.track);
   placement_ = std::move(changed);
-  for (InState* state : {&here_, &more_, &less_}) state->moved = placement_;
+  for (InState* state : {&here_, &more_, &less_}) {
+    state->moved = placement_;
+    state->placed = false;
+  }
   drop_solution();
 }
 

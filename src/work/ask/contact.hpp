@@ -134,6 +134,7 @@ class Contact {
   struct InState {
     CaseSpec spec;
     Placement moved;
+    bool placed = false;  ///< `moved` stands where its track says
   };
   const Placement& set(const State& state, InState& out) const;
   const Placement& place(InState& out) const;

@@ -21,11 +21,12 @@ double Stiffening::force_at(double d) const { return d > 0 ? scale * std::pow(d,
 double Stiffening::descent_at(double q) const { return std::pow(q / scale, 1 / power); }
 
 void Stiffening::add(double d, double q, bool several) {
-  constexpr double kNear = 1e-4, kFar = 1, kLeast = 0.8;
-  const double most = several ? 30 : 3;  // on the way of two planes into one the force grows ten times as fast
+  constexpr double kFar = 1, kLeast = 0.8;
+  // on the way of two planes into one, some 50 nm, the force grows ten times as fast
+  const double near = several ? 2e-5 : 1e-4, most = several ? 30 : 3;
   if (!(d > 0) || !(q > 0)) return;
   const double apart = descent > 0 ? std::abs(std::log(d / descent)) : 0;
-  if (apart > kNear && apart < kFar) power = std::clamp(std::log(q / force) / std::log(d / descent), kLeast, most);
+  if (apart > near && apart < kFar) power = std::clamp(std::log(q / force) / std::log(d / descent), kLeast, most);
   descent = d;
   force = q;
   scale = q / std::pow(d, power);
@@ -196,24 +197,72 @@ std::optional<double> tilt(Wheelset& set, const WheelsetState& state, const std:
   return {};
 }
 
+/// The force of a wheel that is the one wanted, by the two last solutions, where what is wanted follows the force
+/// nearly as fast: of a wheel on the way of two planes into one, whose arm of the moment changes with its force.
+class WantedForce {
+ public:
+  double next(double borne, double wanted) {
+    constexpr double kSlow = 0.2, kMost = 0.8;
+    const double slope = borne_ != borne ? (wanted - wanted_) / (borne - borne_) : 0;
+    const bool follows = known_ && std::abs(slope) > kSlow && slope < kMost;
+    known_ = true;
+    borne_ = borne;
+    wanted_ = wanted;
+    return follows ? (wanted - slope * borne) / (1 - slope) : wanted;
+  }
+
+ private:
+  bool known_ = false;
+  double borne_ = 0, wanted_ = 0;
+};
+
+/// The descents of a wheel that bore too little and too much, nearest to each other.
+class SoughtDescent {
+ public:
+  void add(double descent, double lacking) { (lacking > 0 ? low_ : high_) = {descent, lacking}; }
+  /// The next one between them, where they are in order.
+  double between(double next) const {
+    constexpr double kLeast = 0.1;  // of the way from either
+    if (!low_ || !high_ || !(low_->descent < high_->descent)) return next;
+    if (next > low_->descent && next < high_->descent) return next;
+    const double share = std::clamp(low_->lacking / (low_->lacking - high_->lacking), kLeast, 1 - kLeast);
+    return low_->descent + share * (high_->descent - low_->descent);
+  }
+
+ private:
+  struct Tried {
+    double descent = 0, lacking = 0;  ///< m, N
+  };
+  std::optional<Tried> low_, high_;
+};
+
 /// Height and roll by wheels whose force follows their own descent, which is soon done. Where the wheels touch changes
 /// with the roll; after some solutions they keep to a place. None: a wheel on tread and flange does not follow it.
 std::optional<double> lean_by_descents(Wheelset& set, const WheelsetState& state) {
-  constexpr int kSoon = 8;
+  constexpr int kSoon = 8, kOfSeveral = 12;
   place(set, state, set.roll);
   begin_stiffening(set);
   std::array<double, 2> wanted{set.left_share * *state.load, (1 - set.left_share) * *state.load};
-  while (set.solutions < kSoon) {
-    const std::array<double, 2> descents{set.stiffening[0].descent_at(wanted[0]),
-                                         set.stiffening[1].descent_at(wanted[1])};
+  WantedForce follower;
+  std::array<SoughtDescent, 2> sought;
+  bool several = false;
+  while (set.solutions < (several ? kOfSeveral : kSoon)) {
+    std::array<double, 2> descents{set.stiffening[0].descent_at(wanted[0]), set.stiffening[1].descent_at(wanted[1])};
+    for (std::size_t k : {0, 1})
+      if (several && at_several_places(set.wheels[k])) descents[k] = sought[k].between(descents[k]);
     const std::optional<double> z = tilt(set, state, descents, set.solutions > kFreeSolutions);
     if (!z) return {};
     press(set, descents);
     wanted = wanted_forces(set, *state.load, state.roll_moment);
     set.left_share = wanted[0] / *state.load;
-    const double missed =
-        std::max(std::abs(wanted[0] - set.wheels[0].force.z), std::abs(wanted[1] - set.wheels[1].force.z));
-    if (missed <= tolerance_of(set) * *state.load) return z;
+    const std::array<double, 2> lacking{wanted[0] - set.wheels[0].force.z, wanted[1] - set.wheels[1].force.z};
+    if (std::max(std::abs(lacking[0]), std::abs(lacking[1])) <= tolerance_of(set) * *state.load) return z;
+    for (std::size_t k : {0, 1}) sought[k].add(descents[k], lacking[k]);
+    several = at_several_places(set.wheels[0]) || at_several_places(set.wheels[1]);
+    if (!several) continue;
+    const std::size_t which = at_several_places(set.wheels[0]) ? 0 : 1;
+    wanted[which] = follower.next(set.wheels[which].force.z, wanted[which]);
+    wanted[1 - which] = *state.load - wanted[which];
   }
   return {};
 }
@@ -263,6 +312,8 @@ double lean(Wheelset& set, const WheelsetState& state) {
   try {
     if (const std::optional<double> z = lean_by_descents(set, state)) return *z;
   } catch (const NoAnswer&) {  // perhaps of forces on the way
+    refused = std::current_exception();
+  } catch (const NumericalError&) {
     refused = std::current_exception();
   }
   set.stiffening = stiffening;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include "ask/answer.hpp"
@@ -90,12 +91,15 @@ void put_creepages_first(std::vector<NumberAxis>& axes) {
   axes.insert(axes.begin(), out.begin(), out.end());
 }
 
-/// The largest r within the ends of creepages and spin.
-double radius_of(const std::array<TableAxis, kScaledAxes>& asked, const CreepUnits& units) {
+/// Widens the ends of size and spin over those that are asked for.
+void widen(TableScaling& scaling, const CreepUnits& units) {
   const auto most = [&](std::size_t k) {
-    return std::max(std::abs(asked[k].at.front()), std::abs(asked[k].at.back()));
+    return std::max(std::abs(scaling.asked[k].at.front()), std::abs(scaling.asked[k].at.back()));
   };
-  return creep_radius(scaled_place({most(0), most(1), most(2)}, units).size);
+  const auto spin = [&](double asked) { return scaled_place({0, 0, asked}, units).spin; };
+  scaling.largest_size = std::max(scaling.largest_size, scaled_place({most(0), most(1), 0}, units).size);
+  scaling.spin_low = std::min(scaling.spin_low, spin(scaling.asked[2].at.front()));
+  scaling.spin_high = std::max(scaling.spin_high, spin(scaling.asked[2].at.back()));
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
@@ -298,7 +302,6 @@ void CreepTable::find_scaling(const CreepTableOptions& options) {
       scaling.friction = outer.spec->drive.friction_coefficient;
     }
   std::vector<CreepStiffness> found(outer_.size(), {NAN, NAN, NAN});
-  std::vector<double> radius(outer_.size());
   InfluenceCache cache;
   BemOptions bem = options.bem;
   bem.cache = &cache;
@@ -307,10 +310,8 @@ void CreepTable::find_scaling(const CreepTableOptions& options) {
       [&](std::ptrdiff_t i) {
         const auto n = static_cast<std::size_t>(i);
         if (!outer_[n].spec) return;
-        const ScaledLoad at = load_at(table_, grid_place(table_, n).data());
         try {
-          found[n] = stiffness_of(outer_[n], at, bem);
-          radius[n] = radius_of(scaling.asked, creep_units(found[n], at.load, at.friction));
+          found[n] = stiffness_of(outer_[n], load_at(table_, grid_place(table_, n).data()), bem);
         } catch (const std::exception& e) {
           outer_[n] = {{}, {}, first_line(e.what())};
         }
@@ -322,9 +323,12 @@ void CreepTable::find_scaling(const CreepTableOptions& options) {
     scaling.stiffness[k] = {kNames[k], kUnits[k], {}};
     for (const CreepStiffness& s : found) scaling.stiffness[k].values.push_back(s[k]);
   }
-  const double largest = *std::max_element(radius.begin(), radius.end());
-  if (!(largest > 0)) throw CaseError(outer_.front().fault);
-  scaling.largest_size = largest / (1 + largest);
+  scaling.spin_low = std::numeric_limits<double>::infinity();
+  scaling.spin_high = -scaling.spin_low;
+  for (std::size_t n = 0; n < found.size(); ++n)
+    if (const ScaledLoad at = load_at(table_, grid_place(table_, n).data()); found[n][0] > 0)
+      widen(scaling, creep_units(found[n], at.load, at.friction));
+  if (!(scaling.largest_size > 0)) throw CaseError(outer_.front().fault);
 }
 
 void CreepTable::solve(const CreepTableOptions& options) {

@@ -23,7 +23,7 @@ using CreepNumbers = std::array<double, kCreepNumbers>;
 
 /// Points of a scaled table (table/force_table.hpp) along its first three axes.
 struct ScaledCounts {
-  int angles = 12, spins = 17, sizes = 13;
+  int angles = 10, spins = 7, sizes = 9;
 };
 
 struct CreepTableOptions {
