@@ -74,6 +74,17 @@ TEST(Validation, DifferenceIsTheLargestOfTheRowsOrTheirRootMeanSquare) {
   EXPECT_EQ(v.agreement, Agreement::outside) << "the worst";
 }
 
+TEST(Validation, AFactorCountsToBothSidesAndIsTheLargestOfTheRows) {
+  const std::string by = "[[compare]]\ncolumn = \"p\"\nresult = \"p_max_MPa\"\nby = \"factor\"\nbar = 3\n";
+  const ValidationSet low = SetFolder(by, "load,p\n20,1306.36\n40,822.96\n").load();
+  EXPECT_NEAR(solved(low).comparisons[0].difference, 2, 0.01);
+  EXPECT_EQ(solved(low).agreement, Agreement::within_bar);
+  const ValidationSet high = SetFolder(by, "load,p\n20,653.18\n40,200\n").load();
+  EXPECT_NEAR(solved(high).comparisons[0].difference, 822.96 / 200, 0.02);
+  EXPECT_EQ(solved(high).agreement, Agreement::outside);
+  EXPECT_THROW(SetFolder(by + "relative = true\n", "load,p\n20,653.18\n").load(), CaseError);
+}
+
 TEST(Validation, RowsThatAreNoCurveAreDrawnOverTheData) {
   const SetFolder files(kCompare, "load,p\n20,653.18\n40,822.96\n30,747.7\n");
   const ValidationSet set = files.load();

@@ -37,6 +37,16 @@ double of_all(const Comparison& comparison, Absolute&& absolute) {
                                             : std::sqrt(squares / static_cast<double>(comparison.points.size()));
 }
 
+double largest_factor(const Comparison& comparison) {
+  double largest = 1;
+  for (const ComparedPoint& p : comparison.points) {
+    const double factor = p.ours / p.data;
+    if (!std::isfinite(factor) || !(factor > 0)) return kUnknown;
+    largest = std::max({largest, factor, 1 / factor});
+  }
+  return largest;
+}
+
 Agreement agreement_of(const Comparison& c) {
   if (!std::isfinite(c.difference)) return Agreement::unsolved;
   if (c.difference <= c.scatter) return Agreement::within_scatter;
@@ -56,7 +66,9 @@ Comparison compare(const ValidationSet& set, const ValidationSeries& series, con
   for (std::size_t i = 0; i < data.size(); ++i)
     out.points.push_back(
         {at[i], data[i], deviation[i], i < found->values.size() ? column.factor * found->values[i] : kUnknown});
-  out.difference = of_all(out, [](const ComparedPoint& p) { return std::abs(p.ours - p.data); });
+  out.difference = column.by == DifferenceBy::factor
+                       ? largest_factor(out)
+                       : of_all(out, [](const ComparedPoint& p) { return std::abs(p.ours - p.data); });
   out.scatter = of_all(out, [](const ComparedPoint& p) { return p.deviation; });
   out.agreement = series.judged ? agreement_of(out) : Agreement::not_judged;
   return out;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "bem/case_patch.hpp"
+#include "clock/clock.hpp"
 #include "halfspace/circular_pressure.hpp"
 #include "laboratory/material_run.hpp"
 #include "many/result_columns.hpp"
@@ -50,8 +52,10 @@ std::vector<std::string> contact_results() {
 
 // ---- what a series does to a case that no contact is computed of
 
-LoadedCase case_of(const ValidationSet& set, const ValidationSeries& series) {
-  return parse_case(set.loaded.source_text, set.loaded.file, series.overrides);
+LoadedCase case_of(const ValidationSet& set, const ValidationSeries& series, const std::vector<std::string>& row = {}) {
+  std::vector<std::string> overrides = series.overrides;
+  overrides.insert(overrides.end(), row.begin(), row.end());
+  return parse_case(set.loaded.source_text, set.loaded.file, overrides);
 }
 
 /// The k-th varied column of all rows [SI]. Throws CaseError with key and row.
@@ -145,6 +149,43 @@ Answers pressure_answers(const ValidationSet& set, const ValidationSeries& serie
   return {csv_columns(found, below_columns()), {}};
 }
 
+// ---- traffic: each row is a rail through the gross traffic of life.until
+
+Columns<ClockResult> traffic_columns() {
+  const auto per_100_tonnes = [](double amount, const ClockResult& r) { return amount / (1e-11 * r.reached); };
+  return {{"wear_per_100MGT", unit::kMillimetres,
+           [=](const ClockResult& r) { return per_100_tonnes(r.history.back().removed, r); }},
+          {"ductility_per_100MGT", unit::kCount,
+           [=](const ClockResult& r) { return per_100_tonnes(r.history.back().ductility, r); }},
+          {"first_crack_MGT", unit::kCount, [](const ClockResult& r) {
+             const LifeRow* first = shortest(r.lives);
+             return first ? first->mgt.best : std::numeric_limits<double>::infinity();
+           }}};
+}
+
+Answers traffic_answers(const ValidationSet& set, const ValidationSeries& series, const RowTexts& rows,
+                        const AnswerOptions& options) {
+  Answers out;
+  std::vector<ClockResult> found;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<std::string> overrides;
+    for (std::size_t k = 0; k < set.varied.size(); ++k)
+      overrides.push_back(fmt::format("{}={}", set.varied[k].key, rows[i][k]));
+    const LoadedCase one = case_of(set, series, overrides);
+    if (!(one.spec.life.until > 0))
+      throw CaseError("kind = \"traffic\": the rail is not followed", "add life.until = \"5 Mt\" to the case",
+                      set.file.string());
+    ClockOptions how;
+    how.bem = options.bem;
+    how.horizon = one.spec.life.until;
+    how.control = options.control;
+    found.push_back(run_clock(one.spec, one.folder(), how));
+    if (!found.back().ended.empty()) out.faults.push_back(fmt::format("row {}: {}", i + 1, found.back().ended));
+  }
+  out.numbers = csv_columns(found, traffic_columns());
+  return out;
+}
+
 }  // namespace
 
 const std::vector<ValidationKind>& validation_kinds() {
@@ -159,7 +200,8 @@ const std::vector<ValidationKind>& validation_kinds() {
        {"circle"},
        {"x", "y", "depth"},
        names(csv_columns<PointBelow>({}, below_columns())),
-       pressure_answers}};
+       pressure_answers},
+      {"traffic", {"cell"}, {}, names(csv_columns<ClockResult>({}, traffic_columns())), traffic_answers}};
   return kinds;
 }
 

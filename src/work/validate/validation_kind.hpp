@@ -1,6 +1,7 @@
 #pragma once
 // What the rows of a validation set are: half-space solutions, points of a material's path, points below a pressed
-// surface. A kind names what a column of the data may give and which numbers an answer has, and finds them.
+// surface, rails through their traffic. A kind names what a column of the data may give and which numbers an answer
+// has, and finds them.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,7 +44,7 @@ struct ValidationKind {
 /// CaseError: no such table or column.
 Answers recorded_answers(const ValidationSet& set, const ValidationSeries& series, const RowTexts& rows);
 
-/// contact, the default, material, pressure.
+/// contact, the default, material, pressure, traffic.
 const std::vector<ValidationKind>& validation_kinds();
 
 }  // namespace railstrata

@@ -22,7 +22,13 @@ std::string with_unit(double value, const std::string& unit) {
 
 /// "0.8 %", "1.2 K".
 std::string measured_text(const ComparedColumn& c, double value) {
+  if (c.by == DifferenceBy::factor) return with_unit(value, "times");
   return c.relative ? with_unit(100 * value, "%") : with_unit(value, c.unit);
+}
+
+/// Of a set of one row a number of it; of more: a chart shows them.
+std::string single_text(const Comparison& c, double ComparedPoint::*value) {
+  return c.points.size() == 1 ? with_unit(c.points.front().*value, c.column->unit) : "";
 }
 
 std::string title_of(const ComparedColumn& c) {
@@ -115,6 +121,8 @@ ReportTable verdicts_of(std::span<const Validation> all) {
       {"series", [](const VerdictLine& l) { return l.comparison->series->name; }},
       {"reference", [](const VerdictLine& l) { return l.validation->set->reference; }},
       {"rows", [](const VerdictLine& l) { return fmt::format("{}", l.comparison->points.size()); }},
+      {"reference value", [](const VerdictLine& l) { return single_text(*l.comparison, &ComparedPoint::data); }},
+      {"here", [](const VerdictLine& l) { return single_text(*l.comparison, &ComparedPoint::ours); }},
       {"difference",
        [](const VerdictLine& l) { return measured_text(*l.comparison->column, l.comparison->difference); }},
       {"of", [](const VerdictLine& l) { return difference_text(l.comparison->column->by); }},
@@ -132,10 +140,22 @@ ReportTable verdicts_of(std::span<const Validation> all) {
   return table;
 }
 
+/// Verdict of a set, with where its numbers come from and what is known about the difference.
+ReportAnswer answer_of(const Validation& v) {
+  const ValidationSet& s = *v.set;
+  const char* tone = v.agreement == Agreement::not_judged ? "plain"
+                     : v.agreement >= Agreement::outside  ? "bad"
+                                                          : "good";
+  return {tone, fmt::format("{}: {}", s.title, agreement_text(v.agreement)),
+          fmt::format("{} ({}; uncertainty: {}; fitted to the data: {}){}{}", s.source, s.reference, s.uncertainty,
+                      s.fitted, s.note.empty() ? "" : ". ", s.note)};
+}
+
 Report report_of(std::span<const Validation> all, const std::string& title) {
   Report report;
   report.title = title;
   report.tables = {verdicts_of(all)};
+  for (const Validation& v : all) report.answers.push_back(answer_of(v));
   for (const Validation& v : all)
     for (const ComparedColumn& column : v.set->compared)
       if (has_chart(*v.set)) report.charts.push_back(chart_of(v, column));
@@ -185,12 +205,17 @@ std::string section_of(const Validation& v) {
   if (!s.note.empty()) out += s.note + "\n\n";
   out += fmt::format("Uncertainty: {}. Fitted to the data: {}. Run it: `railstrata validate {}`.\n\n", s.uncertainty,
                      s.fitted, s.name);
-  out += "| quantity | series | rows | difference | scatter | bar | verdict |\n|---|---|---|---|---|---|---|\n";
+  const bool single = s.data.rows() == 1;
+  out +=
+      fmt::format("| quantity | series | {} | difference | scatter | bar | verdict |\n|---|---|---|---|---|---|---|\n",
+                  single ? "here / reference" : "rows");
   for (const Comparison& c : v.comparisons)
-    out += fmt::format("| {} | {} | {} | {} ({}) | {} | {} | {} |\n", c.column->title, c.series->name, c.points.size(),
-                       measured_text(*c.column, c.difference), difference_text(c.column->by),
-                       measured_text(*c.column, c.scatter), measured_text(*c.column, c.column->bar),
-                       agreement_text(c.agreement));
+    out += fmt::format(
+        "| {} | {} | {} | {} ({}) | {} | {} | {} |\n", c.column->title, c.series->name,
+        single ? fmt::format("{} / {}", single_text(c, &ComparedPoint::ours), single_text(c, &ComparedPoint::data))
+               : fmt::format("{}", c.points.size()),
+        measured_text(*c.column, c.difference), difference_text(c.column->by), measured_text(*c.column, c.scatter),
+        measured_text(*c.column, c.column->bar), agreement_text(c.agreement));
   return out + "\n";
 }
 

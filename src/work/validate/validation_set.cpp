@@ -72,10 +72,16 @@ class SetReader {
     out.factor = r.number("factor", 1);
     if (t.contains("deviation")) out.deviation = column_at(r, t, "deviation");
     const std::string by = r.text_or("by", difference_text(out.by));
-    const std::string rms = difference_text(DifferenceBy::rms);
-    r.choice("by", by, {rms, difference_text(DifferenceBy::largest)});
-    out.by = by == rms ? DifferenceBy::rms : DifferenceBy::largest;
+    std::vector<std::string> ways;
+    for (const DifferenceBy way : {DifferenceBy::rms, DifferenceBy::largest, DifferenceBy::factor}) {
+      ways.emplace_back(difference_text(way));
+      if (ways.back() == by) out.by = way;
+    }
+    r.choice("by", by, ways);
     out.relative = r.flag("relative");
+    if (out.relative && out.by == DifferenceBy::factor)
+      source_.complain_at(place_of(*t.get("relative")), "relative = true has no meaning with by = \"factor\"",
+                          "leave relative out: bar = 3 allows a third to three times the data");
     out.bar = r.number("bar", 0, true);
     if (out.relative) relative_.push_back({out.column, "column", place_of(t)});
     return out;
@@ -164,7 +170,7 @@ int increments_of(CaseSource& source, TomlReader& top, const toml::table& docume
 void refuse_settings_of_others(CaseSource& source, const toml::table& document, const ValidationKind& kind) {
   for (const ValidationKind& other : validation_kinds())
     for (const std::string& key : other.settings)
-      if (&other != &kind && document.contains(key))
+      if (document.contains(key) && std::find(kind.settings.begin(), kind.settings.end(), key) == kind.settings.end())
         source.complain_at(
             place_of(*document.get(key)),
             fmt::format("{} belongs to kind = \"{}\", this set is of kind {}", key, other.name, kind.name),
@@ -214,7 +220,10 @@ ValidationSet load_validation(const fs::path& folder) {
   return out;
 }
 
-const char* difference_text(DifferenceBy by) { return by == DifferenceBy::rms ? "rms" : "largest"; }
+const char* difference_text(DifferenceBy by) {
+  constexpr const char* kTexts[] = {"rms", "largest", "factor"};
+  return kTexts[static_cast<int>(by)];
+}
 
 bool holds_validation(const fs::path& folder) { return fs::exists(folder / kFile); }
 

@@ -32,8 +32,9 @@ struct ValidationSeries {
   std::vector<NamedText> where;        ///< what its rows must have
 };
 
-/// How the difference of all rows is made one number.
-enum class DifferenceBy { rms, largest };
+/// How the difference of all rows is made one number; factor: the answer over the data or the data over the answer,
+/// the largest of all rows.
+enum class DifferenceBy { rms, largest, factor };
 const char* difference_text(DifferenceBy by);
 
 /// A column of the data against factor * a number of the answer.
