@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bridge/records.hpp"
+#include "clock/wheel_life.hpp"
 #include "options/option_table.hpp"
 
 namespace railstrata::bridge {
@@ -41,6 +42,7 @@ void sweep(Call& call) {
   options.bem.cell = call.number("cell");
   options.bem.cache = &cache;
   options.stresses = call.flag("stresses");
+  options.life_of = life_of_wheels;
   options.control = &call.control;
   options.ended = [&] { call.report(Json::array({static_cast<double>(++done) / static_cast<double>(cases.size())})); };
   run_sweep(cases, options);
