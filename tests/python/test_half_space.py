@@ -278,8 +278,8 @@ def test_a_sweep_keeps_numbers_and_turns_units_into_si(case):
 def test_a_life_is_that_of_a_sweep(case):
     yields = case.with_({
         "geometry.rail_profile": "arc:R=300 mm", "geometry.wheel_profile": "arc:R=-500 mm", "layer.0.thickness": "1 mm",
-        "layer.0.young_ratio": 1, "layer.0.hardening": "R260", "material.rail.hardening": "R260", "life.until": "0.05 Mt",
-        "passes.ductility": 0.02,
+        "layer.0.young_ratio": 1, "layer.0.hardening": "R260", "material.rail.hardening": "R260",
+        "life.until": "0.05 Mt", "passes.ductility": 0.02,
     })
     one = rs.bem(yields, "1 mm").summary["life"]
     assert 0 < one["best_kg"] < 0.05e9

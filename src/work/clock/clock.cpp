@@ -61,9 +61,9 @@ class Clock {
       if (!at_horizon()) keep();
     }
     now_.out.lives = clock_lives(spec_, state(), unworn_.rail);
-    for (const std::string& note : {now_.out.worn_through ? std::string() : now_.out.ended,
-                                    fitted_ductility(spec_, now_.out.history), ratchets_on(now_.out.history),
-                                    wearing_in(now_.out.history, now_.out.lives)})
+    for (const std::string& note :
+         {now_.out.worn_through ? std::string() : now_.out.ended, fitted_ductility(spec_, now_.out.history),
+          ratchets_on(now_.out.history), wearing_in(now_.out.history, now_.out.lives)})
       if (!note.empty()) now_.out.notes.push_back(note);
     now_.out.profile = surface_.points();
     return std::move(now_.out);
