@@ -11,6 +11,9 @@ WEAK = ["--set", 'material.rail.yield_strength="450 MPa"', "--set",
         "drive.traction_coefficient=0.1"]
 # For what does not depend on the elements: a sixth of the time of those of tiny.toml.
 COARSE = ["--set", 'mesh.element_size="6 mm"']
+# Elements as long as half the patch mean over its peaks: with the 450 MPa of WEAK they flow by 3e-5, those of 3 mm by
+# 2e-3. With this they flow by 4e-4.
+COARSE_AND_WEAK = [*WEAK, *COARSE, "--set", 'material.rail.yield_strength="400 MPa"']
 FILES = ["passes.csv", "residual.csv", "profile.csv", "loops.csv", "state.csv", "passes.json"]
 
 
@@ -44,7 +47,7 @@ class RolledPasses(FromOutside):
 
     @slow
     def test_has_the_same_bits_however_it_is_cut_and_for_any_threads(self):
-        weak = [*WEAK, *COARSE]
+        weak = COARSE_AND_WEAK
         whole = numbers(self.passes("whole", *weak, "--passes", 2))
         rows = table(self.folder / "whole" / "passes.csv")
         self.assertGreater(float(rows[0]["accumulated_strain"]), 1e-4)
@@ -68,7 +71,7 @@ class RolledPasses(FromOutside):
 
     @slow
     def test_killed_in_the_middle_of_pass_7_of_10_it_goes_on_to_the_same_bits(self):
-        coarse = [*WEAK, *COARSE, "--passes", 10, "--no-report"]
+        coarse = [*COARSE_AND_WEAK, "--passes", 10, "--no-report"]
         whole = numbers(self.passes("whole", *coarse))
         cut = self.folder / "cut"
         rows = lambda: len(table(cut / "passes.csv"))
