@@ -10,9 +10,10 @@
 
 namespace railstrata::fem_checks {
 
-/// Half-width of the pressure 1 m, from -track to +track; cells of `cell` along, half of that deep.
+/// Half-width of the pressure 1 m, from -track to +track; cells of `cell` along, `flatness` of that deep.
 struct MovingPressure {
-  double cell = 0.1, track = 5, p0_over_k = 4.35, kinematic_over_k = 0;
+  double cell = 0.1, flatness = 0.5, track = 5, p0_over_k = 4.35, kinematic_over_k = 0;
+  std::optional<PlasticParameters<double>> law = {};  ///< in place of perfect plasticity at k
   double friction = 0;  ///< of the whole patch, along the travel: a braking wheel's on the rail
   double speed = 0.04;  ///< of the shear wave's
   double shear_yield() const { return kSteel.mu / 2500; }
@@ -35,9 +36,13 @@ inline constexpr double kFar = 100;
 class RolledHalfPlane {
  public:
   explicit RolledHalfPlane(const MovingPressure& p)
-      : p_(p), depth_(graded(0.5 * p.cell, 1.6, kFar, 1.35)), body_(mesh(p, depth_), {kSteel}, {}), elements_(body_) {
+      : p_(p),
+        depth_(graded(p.flatness * p.cell, 1.6, kFar, 1.35)),
+        body_(mesh(p, depth_), {kSteel}, {}),
+        elements_(body_) {
     YieldingMaterial material{perfectly_plastic(kSteel, std::sqrt(3.0) * p.shear_yield()), {}};
     material.law.modulus[0] = p.kinematic_over_k * p.shear_yield();
+    if (p.law) material.law = *p.law;
     body_.plastic = PlasticElements(
         body_, [&](int, int quad, int) { return depth_[quad] < 3 ? std::optional(material) : std::nullopt; },
         [](int, int, const Tile&) { return true; });

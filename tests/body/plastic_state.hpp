@@ -20,9 +20,9 @@ inline std::optional<PlasticState> plastic_state(const Body& body, const Plastic
   rows += station % kTile;
   const GaussShape<double>& gauss = body.plastic.gauss_at(tile, quad);
   PlasticState out;
-  for (int point = 0; point < 2 * kGaussPairs; ++point) {
+  for (int point = 0; point < kGaussPairs; ++point) {
     const double* at = rows + (PlasticEntries::kPoints + point * body.plastic.point_entries()) * kTile;
-    const double weight = gauss.pair[point / 2].weight;
+    const double weight = gauss.pair[point].weight;
     for (int i = 0; i < 6; ++i) out.mean[i] += weight * at[i * kTile];
     out.accumulated += weight * at[6 * kTile];
     out.most = std::max(out.most, at[6 * kTile]);

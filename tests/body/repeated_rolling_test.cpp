@@ -3,6 +3,7 @@
 // loads of [Bhargava1985]: p0/k = 3.5 on cells of 0.05 and 4.35 on cells of 0.1 half-widths.
 #include <gtest/gtest.h>
 
+#include "material/steels.hpp"
 #include "tests/body/moving_pressure.hpp"
 
 namespace railstrata {
@@ -46,6 +47,50 @@ TEST(LongRepeatedRolling, At35TimesTheShearYieldStressSettlesInTheSecondPass) {
   EXPECT_LT(h.accumulated() - first, 0.05 * first);
 }
 
+// Below the limit of 4 with hardening that only moves the yield surface: the second pass finds nothing to do. Cubes of
+// a third of the half-width, as a wheel's patch often has; with a plastic strain at each of the eight Gauss points they
+// flowed on, by 7 % of the first pass.
+TEST(RepeatedRolling, OnCoarseCubesItSettlesInTheSecondPassToo) {
+  MovingPressure p;
+  p.p0_over_k = 3.6;
+  p.kinematic_over_k = 666.7;
+  p.cell = 0.3;
+  p.flatness = 1;
+  RolledHalfPlane h(p);
+  h.pass();
+  const double first = h.accumulated();
+  h.pass();
+  EXPECT_GT(first, 0.1);
+  EXPECT_LT(h.accumulated() - first, 0.01 * first);
+}
+
+// The cyclic law of R350HT just above shakedown and far above it, under the pressures of its rail, on cubes of a third
+// of the half-width as rails have them. The stationary method, which shares only the law, flows in pass 2 by this much,
+// over the depth (cells of 0.05 half-widths, eight steps of the law from cell to cell, and the tension of a body that
+// is held 100 half-widths away). With a plastic strain at each of the eight Gauss points it is 7.6, 1.6 and 1.0 times
+// as much.
+TEST(LongRepeatedRolling, OnCoarseCubesASteelFlowsAsTheStationaryMethodSays) {
+  struct Load {
+    double pressure, friction, flow;
+  };
+  for (const Load& load : {Load{860e6, 0, 5.25e-6}, Load{920e6, 0, 7.72e-5}, Load{1000e6, 0.15, 4.05e-4}}) {
+    MovingPressure p;
+    p.law = hardening_set("R350HT").hardening.law;
+    p.law->mu = kSteel.mu;
+    p.p0_over_k = load.pressure / p.shear_yield();
+    p.friction = load.friction;
+    p.cell = 0.33;
+    p.flatness = 1;
+    p.track = 6;
+    RolledHalfPlane h(p);
+    h.pass();
+    const double first = h.accumulated();
+    h.pass();
+    const double flow = (h.accumulated() - first) * p.shear_yield() / kSteel.mu;
+    EXPECT_NEAR(flow, load.flow, 0.25 * load.flow) << load.pressure;
+  }
+}
+
 TEST(LongRepeatedRolling, At435TimesTheShearYieldStressRatchetsAgainstTheTravel) {
   MovingPressure p;
   p.p0_over_k = 4.35;
@@ -63,7 +108,12 @@ TEST(LongRepeatedRolling, At435TimesTheShearYieldStressRatchetsAgainstTheTravel)
 // The reference's stresses, -1.240 and -1.321, are those of cells of 0.2 half-widths: the stationary method, which
 // shares only the law with these elements, has -1.266 and -1.313 with such cells, but -1.36, -1.42, -1.44 and -1.40,
 // -1.43, -1.46 with halves, quarters and eighths of them. What elements must come to is therefore -1.45 and -1.47, with
-// the reference's own tolerance.
+// the reference's own tolerance. What is left of the flow falls from pass to pass. In pass 4 the reference has -0.024;
+// the stationary method with the law in 16 steps from cell to cell and the tension of a body that is held 100
+// half-widths away -0.048 with these cells (-0.041, -0.036, -0.034 with halves, quarters, eighths); these elements
+// -0.044 with cells of half the size, and on a track twice as long -0.135 and -0.049 in passes 3 and 4 (stationary
+// -0.141, -0.048). Those with a plastic strain at each of their eight Gauss points had -0.033, and -0.041 with cells of
+// half the size.
 TEST(LongRepeatedRolling, WithLinearKinematicHardeningItAlternatesForEverAndStopsToFlow) {
   MovingPressure p;
   p.p0_over_k = 5;
@@ -83,7 +133,7 @@ TEST(LongRepeatedRolling, WithLinearKinematicHardeningItAlternatesForEverAndStop
   EXPECT_NEAR(fourth, third, 0.03 * third);
   EXPECT_GT(fourth, 0.5 * accumulated[1]);
   EXPECT_NEAR(shift[2] - shift[1], -0.421, 0.25 * 0.421);
-  EXPECT_LT(std::abs(shift[4] - shift[3]), 0.1 * 0.421);
+  EXPECT_NEAR(shift[4] - shift[3], -0.048, 0.25 * 0.048);
 }
 
 // Below the limit of 3.202: what flows falls from pass to pass. (The computation that it is held against says by how

@@ -11,6 +11,9 @@ WEAK = ["--set", 'material.rail.yield_strength="450 MPa"', "--set",
         "drive.traction_coefficient=0.1"]
 # For what does not depend on the elements: a sixth of the time of those of tiny.toml.
 COARSE = ["--set", 'mesh.element_size="6 mm"']
+# Elements as long as half the patch mean over its peaks: with the 450 MPa of WEAK they flow by 3e-5, those of 3 mm by
+# 2e-3. With this they flow by 4e-4.
+COARSE_AND_WEAK = [*WEAK, *COARSE, "--set", 'material.rail.yield_strength="400 MPa"']
 FILES = ["passes.csv", "residual.csv", "profile.csv", "loops.csv", "state.csv", "passes.json"]
 
 
@@ -44,7 +47,7 @@ class RolledPasses(FromOutside):
 
     @slow
     def test_has_the_same_bits_however_it_is_cut_and_for_any_threads(self):
-        weak = [*WEAK, *COARSE]
+        weak = COARSE_AND_WEAK
         whole = numbers(self.passes("whole", *weak, "--passes", 2))
         rows = table(self.folder / "whole" / "passes.csv")
         self.assertGreater(float(rows[0]["accumulated_strain"]), 1e-4)
@@ -68,7 +71,7 @@ class RolledPasses(FromOutside):
 
     @slow
     def test_killed_in_the_middle_of_pass_7_of_10_it_goes_on_to_the_same_bits(self):
-        coarse = [*WEAK, *COARSE, "--passes", 10, "--no-report"]
+        coarse = [*COARSE_AND_WEAK, "--passes", 10, "--no-report"]
         whole = numbers(self.passes("whole", *coarse))
         cut = self.folder / "cut"
         rows = lambda: len(table(cut / "passes.csv"))
@@ -137,10 +140,8 @@ class RolledPasses(FromOutside):
             pressed = min(mine, key=lambda row: float(row["sigma_zz_MPa"]))
             self.assertLess(abs(float(pressed["x_mm"])), 4)
             self.assertLess(float(pressed["sigma_zz_MPa"]), -200)
-        # behind the wheel what is left is the residual stress, but for the wheel's own field
-        first = [row for row in rows if row["point"] == "0"]
-        self.assertAlmostEqual(float(first[-1]["sigma_xx_MPa"]),
-                               json.loads((out / "passes.json").read_text())["last_pass"]["sigma_x_min_MPa"], delta=40)
+            if k == 0:  # behind the wheel what is left is the residual stress, but for the wheel's own field
+                self.assertAlmostEqual(float(mine[-1]["sigma_xx_MPa"]), float(section["sigma_xx_MPa"]), delta=5)
 
     def test_the_contact_moves_with_a_wheel_that_wanders(self):
         sides = ["--set", 'passes.lateral_positions=["-3 mm", "3 mm"]']

@@ -51,7 +51,7 @@ struct PlasticEntries {
   static constexpr int kStressed = kTouched + 1;        ///< of a place, at its first element: 0: no eigenstress
   static constexpr int kWork = kStressed + 1;           ///< plastic work [J/m³], mean of the element
   static constexpr int kAwake = kWork + 1;              ///< of a group, at its first element
-  static constexpr int kPoints = kAwake + 1;  ///< histories of the points: + of pair 0, - of pair 0, + of 1, …
+  static constexpr int kPoints = kAwake + 1;            ///< histories of the pairs of Gauss points
 };
 
 class PlasticElements {
@@ -68,7 +68,7 @@ class PlasticElements {
   bool empty() const { return candidates_.empty(); }
   int terms() const { return terms_; }  ///< backstresses, the most of any material
   int point_entries() const { return 7 + 6 * terms_; }
-  int entries() const { return PlasticEntries::kPoints + 2 * kGaussPairs * point_entries(); }
+  int entries() const { return PlasticEntries::kPoints + kGaussPairs * point_entries(); }
 
   /// A tile's elements of one quadrilateral.
   struct Place {

@@ -9,7 +9,6 @@ namespace railstrata {
 namespace {
 
 using Entries = PlasticEntries;
-constexpr int kPoints = 2 * kGaussPairs;
 
 /// A tensor 11, 22, 33, 12, 23, 13 of an element's frame in the model frame: back by the turn, column by column.
 Sym3 turned(const Rotation<double>& turn, const std::array<double, 6>& t) {
@@ -46,9 +45,9 @@ ElementPlasticity element_plasticity(const Body& body, double psi, const Plastic
   if (!rows) return out;
   const GaussShape<double>& gauss = body.plastic.gauss_at(tile, quad);
   std::array<double, 6> strain{}, backstress{};
-  for (int point = 0; point < kPoints; ++point) {
+  for (int point = 0; point < kGaussPairs; ++point) {
     const double* at = point_of(body, rows + station % kTile, point);
-    const double weight = gauss.pair[point / 2].weight;
+    const double weight = gauss.pair[point].weight;
     for (std::size_t i = 0; i < 6; ++i) strain[i] += weight * at[i * kTile];
     for (int k = 0; k < body.plastic.terms(); ++k)
       for (std::size_t i = 0; i < 6; ++i) backstress[i] += weight * at[(7 + 6 * k + i) * kTile];
@@ -66,7 +65,7 @@ ElementPlasticity element_plasticity(const Body& body, double psi, const Plastic
 PlasticPeak plastic_peak(const Body& body, const PlasticHistory& history) {
   PlasticPeak out;
   each_element(body, history, [&](const PlasticElements::Place& place, int block, int element, const double* rows) {
-    for (int point = 0; point < kPoints; ++point) {
+    for (int point = 0; point < kGaussPairs; ++point) {
       const double p = point_of(body, rows, point)[6 * kTile];
       if (p > out.accumulated) out = {p, block, place.quad, element};
     }
@@ -78,7 +77,7 @@ PlasticExtent plastic_extent(const Body& body, const PlasticHistory& history) {
   PlasticExtent out;
   each_element(body, history, [&](const PlasticElements::Place&, int, int, const double* rows) {
     bool yielded = false;
-    for (int point = 0; point < kPoints; ++point) {
+    for (int point = 0; point < kGaussPairs; ++point) {
       const double* at = point_of(body, rows, point);
       if (at[6 * kTile] == 0) continue;
       yielded = true;
@@ -100,13 +99,13 @@ double backstress_energy(const Body& body, const PlasticHistory& history) {
     const PlasticElements::Quad& quad = body.plastic.quad(kind);
     const ElementTable<double>& table = body.elements[block].table;
     const double volume = table.quads[place.quad].shape.volume * table.sigma_c[element];
-    for (int point = 0; point < kPoints; ++point)
+    for (int point = 0; point < kGaussPairs; ++point)
       for (int k = 0; k < body.plastic.terms(); ++k) {
         const double modulus = quad.material.law.modulus[k];
         if (!(modulus > 0)) continue;
         double back[6];
         for (int i = 0; i < 6; ++i) back[i] = point_of(body, rows, point)[(7 + 6 * k + i) * kTile];
-        sum += volume * quad.gauss.pair[point / 2].weight * 0.75 / modulus * double_contraction(back, back);
+        sum += volume * quad.gauss.pair[point].weight * 0.75 / modulus * double_contraction(back, back);
       }
   });
   return sum;

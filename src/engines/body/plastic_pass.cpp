@@ -84,13 +84,14 @@ struct PackWork {
   bool touched;  // has yielded: else its numbers are zero, and are not read
 };
 
-// One Gauss point: strain -> history; adds to the work [J/m³]. Leaves 2 mu Ep in place of the strain. True if it flows.
+// A pair of Gauss points: strain -> history; adds to the work [J/m³]. Leaves 2 mu Ep in place of the strain. True if it
+// flows.
 template <int terms>
-bool advance_point(const PackWork& work, int point, double weight, Pack (&strain)[6], Pack& done, double* nearest) {
+bool advance_pair(const PackWork& work, int pair, Pack (&strain)[6], Pack& done, double* nearest) {
   constexpr int kEntries = kPlasticHistory<terms>;
   const YieldingMaterial& material = work.quad.material;
   const double twice = 2 * material.law.mu;
-  const int first = Entries::kPoints + point * kEntries;
+  const int first = Entries::kPoints + pair * kEntries;
   Pack history[kEntries] = {}, before[6];
   if (work.touched)
     for (int k = 0; k < kEntries; ++k) history[k] = work.rows.get(first + k);
@@ -108,7 +109,7 @@ bool advance_point(const PackWork& work, int point, double weight, Pack (&strain
       flow[i] = history[i] - before[i];
       deviator[i] = twice * (strain[i] - (i < 3 ? mean : Pack{}) - history[i]);
     }
-    done += weight * double_contraction(deviator, flow);
+    done += work.quad.gauss.pair[pair].weight * double_contraction(deviator, flow);
     for (int k = 0; k < kEntries; ++k) work.rows.set(first + k, history[k]);
   }
   if (nearest) *nearest = std::max(*nearest, largest(yield_share<terms>(material.law, strain, history)));
@@ -128,11 +129,10 @@ bool advance_pack(const PackWork& work, const PackStrain& at, double* nearest) {
   bool touched = work.touched;
   for (int k = 0; k < kGaussPairs; ++k) {
     const GaussPair<double>& g = work.quad.gauss.pair[k];
-    Pack plus[6], minus[6];
-    pair_strains(g, work.inv_sigma, work.inv_c, at.mean, at.kin, bubbles, plus, minus);
-    touched |= advance_point<terms>(work, 2 * k, g.weight, plus, done, nearest);
-    touched |= advance_point<terms>(work, 2 * k + 1, g.weight, minus, done, nearest);
-    if (touched) add_pair(g, work.inv_sigma, work.inv_c, plus, minus, sums);  // zero until then
+    Pack strain[6];
+    pair_strain(g, work.inv_sigma, work.inv_c, at.mean, at.kin, bubbles, strain);
+    touched |= advance_pair<terms>(work, k, strain, done, nearest);
+    if (touched) add_pair(g, work.inv_sigma, work.inv_c, strain, sums);  // zero until then
   }
   if (!touched) return false;
   Eigenstress<Pack> eigen = condensed(work.modes, work.volume, sums);
@@ -262,16 +262,13 @@ Pack pack_energy(const PackWork& work, const PackStrain& at, const Pack& volume,
   Pack kept{};
   for (int k = 0; k < kGaussPairs; ++k) {
     const GaussPair<double>& g = work.quad.gauss.pair[k];
-    Pack bubble[2][6];
-    pair_strains(g, work.inv_sigma, work.inv_c, no_strain, no_amplitudes, own, bubble[0], bubble[1]);
-    for (int side = 0; side < 2; ++side) {
-      Pack plastic[6], rest[6];
-      for (int i = 0; i < 6; ++i) {
-        plastic[i] = work.rows.get(Entries::kPoints + (2 * k + side) * point_entries + i);
-        rest[i] = plastic[i] - bubble[side][i];
-      }
-      kept += g.weight * double_contraction(plastic, rest);
+    Pack bubble[6], plastic[6], rest[6];
+    pair_strain(g, work.inv_sigma, work.inv_c, no_strain, no_amplitudes, own, bubble);
+    for (int i = 0; i < 6; ++i) {
+      plastic[i] = work.rows.get(Entries::kPoints + k * point_entries + i);
+      rest[i] = plastic[i] - bubble[i];
     }
+    kept += g.weight * double_contraction(plastic, rest);
   }
   return energy + volume * work.quad.material.law.mu * kept;
 }

@@ -46,14 +46,10 @@ void add_element(const Body& body, const PlasticHistory& history, int block, int
   if (!rows) return;
   rows += element % kTile + Entries::kPoints * kTile;
   for (int pair = 0; pair < kGaussPairs; ++pair)
-    for (int k = 0; k < entries; ++k) {
-      const double plus = rows[((2 * pair) * entries + k) * kTile],
-                   minus = rows[((2 * pair + 1) * entries + k) * kTile];
-      sum[pair * entries + k] += weight * (0.5 * (plus + minus));
-    }
+    for (int k = 0; k < entries; ++k) sum[pair * entries + k] += weight * rows[(pair * entries + k) * kTile];
 }
 
-/// Eigenstress and bubbles of an element whose pairs are alike.
+/// Eigenstress and bubbles of an element.
 Eigenstress<double> eigenstress_of(const Body& body, const HotPlace& place, int element, const double* points) {
   const Tile& tile = body.tiling.tiles[place.tile];
   const PlasticElements::Quad& quad =
@@ -64,7 +60,7 @@ Eigenstress<double> eigenstress_of(const Body& body, const HotPlace& place, int 
   for (int pair = 0; pair < kGaussPairs; ++pair) {
     double stress[6];
     for (int i = 0; i < 6; ++i) stress[i] = 2 * quad.material.law.mu * points[pair * body.plastic.point_entries() + i];
-    add_pair(quad.gauss.pair[pair], 1 / scale.sigma, 1 / scale.c, stress, stress, sums);
+    add_pair(quad.gauss.pair[pair], 1 / scale.sigma, 1 / scale.c, stress, sums);
   }
   const double volume = body.elements[tile.block].table.quads[place.quad].shape.volume * scale.sigma * scale.c;
   Eigenstress<double> out = condensed(quad.modes[cls], volume, sums);
@@ -82,9 +78,7 @@ void put_place(const Body& body, const HotPlace& place, const double* points, do
     each_entry(eigen, [&](int n, double x) { own[(Entries::kEigenstress + n) * kTile] = x; });
     for (int n = 0; n < 3; ++n)
       for (int i = 0; i < 3; ++i) own[(Entries::kBubbles + 3 * n + i) * kTile] = eigen.bubbles.a[n][i];
-    for (int point = 0; point < 2 * kGaussPairs; ++point)
-      for (int k = 0; k < entries; ++k)
-        own[(Entries::kPoints + point * entries + k) * kTile] = points[point / 2 * entries + k];
+    for (int k = 0; k < kGaussPairs * entries; ++k) own[(Entries::kPoints + k) * kTile] = points[k];
   }
 }
 
@@ -156,7 +150,7 @@ SectionStrain section_strain(const Body& body, const PlasticSection& section, st
   const GaussShape<double> gauss = gauss_shape(body.mesh.kind, quad_corners(body.mesh.blocks[block].section, q));
   SectionStrain out;
   for (int pair = 0; pair < kGaussPairs; ++pair) {
-    const double weight = 2 * gauss.pair[pair].weight;  // of both
+    const double weight = gauss.pair[pair].weight;
     const double* point = section.point(quad, pair);
     for (int i = 0; i < 6; ++i) out.plastic[i] += weight * point[i];
     out.accumulated += weight * point[6];

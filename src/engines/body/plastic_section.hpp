@@ -16,7 +16,7 @@ struct PlasticSection {
   };
   int point_entries = 0;        ///< numbers of a point, as PlasticElements has them
   std::vector<Quad> quads;      ///< of the mesh
-  std::vector<double> history;  ///< [quads][pairs of Gauss points][point_entries]: along the sweep a pair is alike
+  std::vector<double> history;  ///< [quads][pairs of Gauss points][point_entries]
 
   const double* point(std::size_t quad, int pair) const {
     return history.data() + (quad * kGaussPairs + static_cast<std::size_t>(pair)) * point_entries;

@@ -1,9 +1,10 @@
 #pragma once
-// Yielding elements of kind `full` (element/swept_hex.hpp): plastic strains Ep at its 2 x 2 x 2 Gauss points enter as
-// eigenstress, in numbers that are added to those of the elastic element. Pointwise, for scalars and packs.
+// Yielding elements of kind `full` (element/swept_hex.hpp): plastic strains Ep at the 2 x 2 Gauss points of their
+// section enter as eigenstress, in numbers that are added to those of the elastic element. Pointwise, for scalars and
+// packs.
 //
-// The strain at Gauss point g is the Green strain of the mean gradient and what hourglass amplitudes q and incompatible
-// modes alpha (Taylor–Wilson) add to it, as small strains in the element's frame:
+// The strain at one of the 2 x 2 x 2 Gauss points g is the Green strain of the mean gradient and what hourglass
+// amplitudes q and incompatible modes alpha (Taylor–Wilson) add to it, as small strains in the element's frame:
 //   E_g = E + B_g q + G_g alpha,   S_g = lambda tr(E_g) I + 2 mu (E_g - Ep_g),   tr Ep_g = 0
 // sum_g w_g B_g = sum_g w_g G_g = 0, so that the stored energy falls apart into that of the mean strain and that of (q,
 // alpha), and alpha, which no force acts on, follows (w_g: shares of the volume V)
@@ -13,25 +14,31 @@
 // hexahedron with plastic strains at its Gauss points [TaylorBeresfordWilson1976, SimoHughes1998 ch. 1], and with Ep =
 // 0 it is the elastic one to the last bit.
 //
+// **Along the sweep Ep is constant in an element**: the two points + and - of a pair have one Ep, which the mean of
+// their stresses drives. The element stays variational, and the section keeps its 2 x 2 points, for bending and
+// torsion. What an element has of strain that varies along the sweep is no gradient to rely on: its shear is constant,
+// and no normal stress varies along its own direction. Where a load travels along the sweep, + and - pass under it one
+// like the other; with an Ep of its own each flowed in its own way, by what was wrong with its strain.
+//
 // All elements of a quadrilateral are affine images of one shape: the gradients at the Gauss points are shared, two
-// numbers scale them. By the mirror symmetry along the sweep the points come in pairs: a gradient is a part common to
-// both and one of opposite sign; A and K_aa^-1 fall apart into an even (6 modes) and an odd block (3).
+// numbers scale them. By the mirror symmetry along the sweep a gradient at a pair is a part common to both points,
+// which alone matters to their mean, and one of opposite sign; A and K_aa^-1 fall apart into an even (6 modes) and an
+// odd block (3).
 #include "element/swept_hex.hpp"
 
 namespace railstrata {
 
-inline constexpr int kGaussPairs = 4;           ///< points of the section; a pair is + and - along the sweep
+inline constexpr int kGaussPairs = 4;           ///< points of the section, each a pair + and - along the sweep
 inline constexpr int kEigenstressEntries = 18;  ///< 6 of the mean stress, 12 of the hourglass forces
 
-/// Gradients at a pair of Gauss points, reference shape. Rows by amplitude: eta, zeta, eta zeta of the differences.
+/// Gradients at a pair of Gauss points, reference shape: the part common to both. Rows by amplitude: eta, zeta, eta
+/// zeta of the differences.
 template <class Real>
 struct GaussPair {
-  Real weight;                    ///< of each of the two, share of the volume
-  Real along[3];                  ///< d/dX_1 of the odd amplitudes: common
-  Real even_y, even_z;            ///< of the even amplitude: common
-  Real odd_y[3], odd_z[3];        ///< of the odd amplitudes: of opposite sign
-  Real bubble_x;                  ///< d/dX_1 of the bubble 1 - xi^2: of opposite sign
-  Real bubble_y[2], bubble_z[2];  ///< of the bubbles in eta and zeta: common
+  Real weight;                    ///< of both, share of the volume
+  Real along[3];                  ///< d/dX_1 of the odd amplitudes
+  Real even_y, even_z;            ///< of the even amplitude
+  Real bubble_y[2], bubble_z[2];  ///< of the bubbles in eta and zeta
 };
 template <class Real>
 struct GaussShape {
@@ -71,33 +78,25 @@ RAILSTRATA_POINTWISE BubbleAmplitudes<T> following_bubbles(const IncompatibleMod
   return out;
 }
 
-/// Strains at a pair of Gauss points; components 11, 22, 33, 12, 23, 13. inv_sigma, inv_c: of the station.
+/// Mean strain of a pair of Gauss points; components 11, 22, 33, 12, 23, 13. inv_sigma, inv_c: of the station.
 template <class T, class Real, class Scale>
-RAILSTRATA_POINTWISE void pair_strains(const GaussPair<Real>& g, const Scale& inv_sigma, const Scale& inv_c,
-                                       const T (&mean)[6], const ElementKinematics<T>& k,
-                                       const BubbleAmplitudes<T>& bubbles, T (&plus)[6], T (&minus)[6]) {
-  T common[3][3], opposite[3][3];  // [direction][component]
+RAILSTRATA_POINTWISE void pair_strain(const GaussPair<Real>& g, const Scale& inv_sigma, const Scale& inv_c,
+                                      const T (&mean)[6], const ElementKinematics<T>& k,
+                                      const BubbleAmplitudes<T>& bubbles, T (&strain)[6]) {
+  T at[3][3];  // [direction][component]
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
     const T(&a)[3][3] = bubbles.a;
-    common[0][i] = (g.along[0] * k.odd[0][i] + g.along[1] * k.odd[1][i] + g.along[2] * k.odd[2][i]) * inv_sigma;
-    common[1][i] = g.even_y * k.even[i] + g.bubble_y[0] * a[1][i] + g.bubble_y[1] * a[2][i];
-    common[2][i] = (g.even_z * k.even[i] + g.bubble_z[0] * a[1][i] + g.bubble_z[1] * a[2][i]) * inv_c;
-    opposite[0][i] = g.bubble_x * a[0][i] * inv_sigma;
-    opposite[1][i] = g.odd_y[0] * k.odd[0][i] + g.odd_y[1] * k.odd[1][i] + g.odd_y[2] * k.odd[2][i];
-    opposite[2][i] = (g.odd_z[0] * k.odd[0][i] + g.odd_z[1] * k.odd[1][i] + g.odd_z[2] * k.odd[2][i]) * inv_c;
+    at[0][i] = (g.along[0] * k.odd[0][i] + g.along[1] * k.odd[1][i] + g.along[2] * k.odd[2][i]) * inv_sigma;
+    at[1][i] = g.even_y * k.even[i] + g.bubble_y[0] * a[1][i] + g.bubble_y[1] * a[2][i];
+    at[2][i] = (g.even_z * k.even[i] + g.bubble_z[0] * a[1][i] + g.bubble_z[1] * a[2][i]) * inv_c;
   }
-  const auto set = [&](int n, const T& c, const T& o) {
-    plus[n] = mean[n] + (c + o);
-    minus[n] = mean[n] + (c - o);
-  };
   const ScalarOf<T> half = ScalarOf<T>(0.5);
-  set(0, common[0][0], opposite[0][0]);
-  set(1, common[1][1], opposite[1][1]);
-  set(2, common[2][2], opposite[2][2]);
-  set(3, half * (common[0][1] + common[1][0]), half * (opposite[0][1] + opposite[1][0]));
-  set(4, half * (common[1][2] + common[2][1]), half * (opposite[1][2] + opposite[2][1]));
-  set(5, half * (common[0][2] + common[2][0]), half * (opposite[0][2] + opposite[2][0]));
+  RAILSTRATA_UNROLL
+  for (int n = 0; n < 3; ++n) strain[n] = mean[n] + at[n][n];
+  strain[3] = mean[3] + half * (at[0][1] + at[1][0]);
+  strain[4] = mean[4] + half * (at[1][2] + at[2][1]);
+  strain[5] = mean[5] + half * (at[0][2] + at[2][0]);
 }
 
 /// Sums of the Gauss points' plastic strains, before the incompatible modes are eliminated.
@@ -108,26 +107,23 @@ struct PlasticSums {
   BubbleAmplitudes<T> pa;  ///< P_a / V
 };
 
-/// Adds a pair of Gauss points. s = 2 mu Ep, components as in pair_strains.
+/// Adds a pair of Gauss points. s = 2 mu Ep, components as in pair_strain.
 template <class T, class Real, class Scale>
 RAILSTRATA_POINTWISE void add_pair(const GaussPair<Real>& g, const Scale& inv_sigma, const Scale& inv_c,
-                                   const T (&plus)[6], const T (&minus)[6], PlasticSums<T>& out) {
+                                   const T (&s)[6], PlasticSums<T>& out) {
   constexpr int kAt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-  T sum[6], difference[6];
+  T sum[6];
   RAILSTRATA_UNROLL
   for (int n = 0; n < 6; ++n) {
-    sum[n] = g.weight * (plus[n] + minus[n]);
-    difference[n] = g.weight * (plus[n] - minus[n]);
+    sum[n] = g.weight * s[n];
     out.mean[n] += sum[n];
   }
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
     const T x = sum[kAt[0][i]] * inv_sigma, y = sum[kAt[1][i]], z = sum[kAt[2][i]] * inv_c;
-    const T dx = difference[kAt[0][i]] * inv_sigma, dy = difference[kAt[1][i]], dz = difference[kAt[2][i]] * inv_c;
     out.even[i] += g.even_y * y + g.even_z * z;
     RAILSTRATA_UNROLL
-    for (int m = 0; m < 3; ++m) out.odd[m][i] += g.along[m] * x + (g.odd_y[m] * dy + g.odd_z[m] * dz);
-    out.pa.a[0][i] += g.bubble_x * dx;
+    for (int m = 0; m < 3; ++m) out.odd[m][i] += g.along[m] * x;
     RAILSTRATA_UNROLL
     for (int n = 0; n < 2; ++n) out.pa.a[1 + n][i] += g.bubble_y[n] * y + g.bubble_z[n] * z;
   }

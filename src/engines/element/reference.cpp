@@ -175,17 +175,12 @@ GaussShape<double> gauss_shape(SweepKind kind, const std::array<Vec2, 4>& quad) 
     const double det = jacobian(corners, natural_gradients(xi, eta, zeta)).determinant(), ratio = det0 / det;
     const Eigen::Matrix<double, 3, 4> front = pattern_gradients(corners, modes, xi, eta, zeta);
     const Eigen::Matrix<double, 3, 4> behind = pattern_gradients(corners, modes, -xi, eta, zeta);
-    const Eigen::Matrix<double, 3, 4> common = 0.5 * (front + behind), opposite = 0.5 * (front - behind);
+    const Eigen::Matrix<double, 3, 4> common = 0.5 * (front + behind);
     GaussPair<double>& g = out.pair[p];
-    g.weight = det / mean.volume;
+    g.weight = 2 * det / mean.volume;
     g.even_y = common(1, 0);
     g.even_z = common(2, 0);
-    for (int m = 0; m < 3; ++m) {
-      g.along[m] = common(0, 1 + m);
-      g.odd_y[m] = opposite(1, 1 + m);
-      g.odd_z[m] = opposite(2, 1 + m);
-    }
-    g.bubble_x = -2 * xi * ratio * j0_inverse(0, 0);
+    for (int m = 0; m < 3; ++m) g.along[m] = common(0, 1 + m);
     const double across[2] = {-2 * eta * ratio, -2 * zeta * ratio};
     for (int n = 0; n < 2; ++n) {
       g.bubble_y[n] = across[n] * j0_inverse(1, 1 + n);
