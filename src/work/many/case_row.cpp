@@ -44,8 +44,8 @@ std::string csv_cell(const std::string& given) {
   return out + '"';
 }
 
-/// Empty for a number that does not apply.
-std::string csv_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+/// Empty for a number that does not apply; inf for what never ends.
+std::string csv_cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 }  // namespace
 
