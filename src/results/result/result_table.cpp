@@ -381,8 +381,8 @@ std::vector<ResultNumber> life_numbers() {
   using L = LifeSummary;
   return {
       row("best", kMGT, life<&L::best>, "life", "Life of the rail",
-          "Gross traffic of such wheels until the first zone of the rail reaches its end of life, best estimate; inf in "
-          "a table: none within life.until, empty: not known",
+          "Gross traffic of such wheels until the first zone of the rail reaches its end of life, best estimate; "
+          "inf in a table: none within life.until, empty: not known",
           kColumn),
       row("low", kMGT, life<&L::low>, "life, low", "Life of the rail, low", "Lower end of the life's range", kColumn),
       row("high", kMGT, life<&L::high>, "life, high", "Life of the rail, high", "Upper end of the life's range",
