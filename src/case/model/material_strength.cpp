@@ -64,8 +64,7 @@ class LawOf {
     out_.top.plastic.power = s_.recall_power;
     if (s_.recall_power > 0 && !s_.hardening.empty())
       out_.notes.push_back(
-          fmt::format("hardening of {}: the set was fitted with recall_power = 0, with {} its cycles are "
-                      "stiffer",
+          fmt::format("hardening of {}: the set was fitted with recall_power = 0; with {} its cycles are stiffer",
                       name_, s_.recall_power));
     return std::move(out_);
   }

@@ -152,7 +152,9 @@ Answers pressure_answers(const ValidationSet& set, const ValidationSeries& serie
 // ---- traffic: each row is a rail through the gross traffic of life.until
 
 Columns<ClockResult> traffic_columns() {
-  const auto per_100_tonnes = [](double amount, const ClockResult& r) { return amount / (1e-11 * r.reached); };
+  const auto per_100_tonnes = [](double amount, const ClockResult& r) {
+    return 100 * amount / (unit::kMGT.factor * r.reached);
+  };
   return {{"wear_per_100MGT", unit::kMillimetres,
            [=](const ClockResult& r) { return per_100_tonnes(r.history.back().removed, r); }},
           {"ductility_per_100MGT", unit::kCount,
