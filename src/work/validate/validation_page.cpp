@@ -140,22 +140,23 @@ ReportTable verdicts_of(std::span<const Validation> all) {
   return table;
 }
 
-/// Verdict of a set, with where its numbers come from and what is known about the difference.
-ReportAnswer answer_of(const Validation& v) {
-  const ValidationSet& s = *v.set;
-  const char* tone = v.agreement == Agreement::not_judged ? "plain"
-                     : v.agreement >= Agreement::outside  ? "bad"
-                                                          : "good";
-  return {tone, fmt::format("{}: {}", s.title, agreement_text(v.agreement)),
-          fmt::format("{} ({}; uncertainty: {}; fitted to the data: {}){}{}", s.source, s.reference, s.uncertainty,
-                      s.fitted, s.note.empty() ? "" : ". ", s.note)};
+/// Where the numbers of the sets come from, and what is known about a difference.
+ReportTable sources_of(std::span<const Validation> all) {
+  const std::vector<TextColumn<Validation>> columns{
+      {"set", [](const Validation& v) { return v.set->title; }},
+      {"source", [](const Validation& v) { return v.set->source; }},
+      {"uncertainty", [](const Validation& v) { return v.set->uncertainty; }},
+      {"fitted to the data", [](const Validation& v) { return v.set->fitted; }},
+      {"note", [](const Validation& v) { return v.set->note; }}};
+  ReportTable table{.id = "sources", .title = "Where the numbers come from", .note = "", .columns = {}, .rows = {}};
+  add_rows(table, std::vector<Validation>(all.begin(), all.end()), columns);
+  return table;
 }
 
 Report report_of(std::span<const Validation> all, const std::string& title) {
   Report report;
   report.title = title;
-  report.tables = {verdicts_of(all)};
-  for (const Validation& v : all) report.answers.push_back(answer_of(v));
+  report.tables = {verdicts_of(all), sources_of(all)};
   for (const Validation& v : all)
     for (const ComparedColumn& column : v.set->compared)
       if (has_chart(*v.set)) report.charts.push_back(chart_of(v, column));
