@@ -42,8 +42,7 @@ RollingLaw rolling_law(const RollingSystem& sys, const RollingBodies& bodies, do
   RollingLaw law;
   law.axle = axle_law(sys, 0);
   law.torque = sys.torque;
-  law.torque_ramp = sys.spec().drive.torque_ramp;
-  law.run_up = sys.spec().run.run_up;
+  law.run_up = *sys.spec().run.run_up;
   law.run_up_damping = sys.spec().run.run_up_damping;
   law.dt = dt;
   law.gravity = sys.gravity;
@@ -131,6 +130,7 @@ void Engine::load(const RestartState& state) {
   groups_.upload(state.state.groups);
   law_.axle.rest_z = state.axle_z0;
   law_.side_force = state.side_force;
+  law_.torque_ramp = state.torque_ramp;
   StepState s;
   s.time = state.state.time;
   s.step = step_ = state.state.step;

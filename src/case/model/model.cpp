@@ -15,6 +15,7 @@
 #include "halfspace/line_contact.hpp"
 #include "mesh/quality.hpp"
 #include "model/drive_at_contact.hpp"
+#include "model/rolling_start.hpp"
 #include "model/stretches.hpp"
 
 namespace railstrata {
@@ -281,6 +282,26 @@ void refuse_unbonded_at_start(const CaseSpec& spec, double semi_axis, double rai
     }
 }
 
+/// run.run_up, run.positions and where the run ends.
+void plan_path(Model& m) {
+  constexpr double kFromRest = 0.3;  // m
+  constexpr int kMostWindows = 5;    // of rolling until results repeat
+  const double patch_length = 2 * m.hertz.a;
+  const bool steady = why_from_rest(m.spec).empty();
+  RunSpec& run = m.spec.run;
+  if (!run.rolling) return;
+  const bool given = run.run_up.has_value();
+  run.run_up = run_up_of(m.spec, patch_length);
+  m.until_repeated = steady && run.positions.empty();
+  if (m.until_repeated)
+    for (int k = 0; k < kMostWindows; ++k) run.positions.push_back(*run.run_up + (k + 0.5) * run.window);
+  else if (run.positions.empty())
+    run.positions = {kFromRest};
+  const auto [first, last] = std::minmax_element(run.positions.begin(), run.positions.end());
+  if (steady && !given) run.run_up = std::clamp(*first - 0.5 * run.window, 0.0, *run.run_up);
+  m.x_end = *last + 0.5 * run.window;
+}
+
 }  // namespace
 
 Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail) {
@@ -296,11 +317,12 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, con
   m.reference = overlap_place(m.placement.wheel, m.placement.rail, m.placement.track, contact, {},
                               contact.wheel_offset_z - m.hertz.approach / std::cos(contact.angle));
   m.spec.drive = drive_at_contact(m.spec, m.reference);
-  const double last = spec.run.rolling ? *std::max_element(spec.run.positions.begin(), spec.run.positions.end()) : 0.0;
-  m.x_end = spec.run.rolling ? last + 0.5 * spec.run.window : 0.0;
+  plan_path(m);
   // The fine range holds the patch and room for its search at both ends of the path.
   m.reach = contact_reach(spec.irregularities, spec.geometry.wheel_radius);
   const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size + std::abs(contact.x) + m.reach;
+  // A steady start has no time to settle where the fine range ends close behind the wheel.
+  const double behind = margin + (spec.run.rolling && why_from_rest(spec).empty() ? 4 * m.hertz.a : 0.0);
   const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio,
                         spec.mesh.largest};
 
@@ -310,7 +332,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, con
   RailMeshSpec rail;
   rail.shape = g.rail_shape;
   rail.contact_s = strip.rail_s;
-  rail.x_begin = -margin;
+  rail.x_begin = -behind;
   rail.x_end = m.x_end + margin;
   rail.end_length = end_length(spec, rail.x_begin, rail.x_end);
   refuse_unbonded_at_start(spec, m.hertz.a, rail.x_end + rail.end_length);
@@ -326,7 +348,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, con
   WheelMeshSpec wheel;
   wheel.shape = g.wheel_shape;
   wheel.contact_s = strip.wheel_s;
-  wheel.theta_begin = -margin / contact.rolling_radius;
+  wheel.theta_begin = -behind / contact.rolling_radius;
   wheel.theta_end = (m.x_end + margin) / contact.rolling_radius;
   wheel.section = g.wheel_section;
   wheel.layers = layer_meshes(spec, BodyId::wheel);

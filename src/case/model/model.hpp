@@ -52,8 +52,9 @@ struct Model {
   /// The place that creepages, contact angle and spin are of: that of the overlap under Hertz's approach
   /// (geometry/placement.hpp).
   RigidContact reference = {};
-  double x_end = 0;  ///< wheel position at which the run ends, m
-  double reach = 0;  ///< m, how much farther from the axle heights make the wheel touch
+  double x_end = 0;             ///< wheel position at which the run ends, m
+  bool until_repeated = false;  ///< the run ends before, where windows of run.positions repeat
+  double reach = 0;             ///< m, how much farther from the axle heights make the wheel touch
   /// Section curves of the running surfaces in section coordinates of the bodies.
   Vec2 rail_section_point(double s) const { return rail_to_model(placement.track, placement.rail.at(s).position); }
   Vec2 rail_section_normal(double s) const { return rail_to_model(placement.track, placement.rail.at(s).outward); }

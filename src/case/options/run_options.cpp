@@ -40,11 +40,21 @@ OptionTable run_table() {
   return {
       "run",
       "Path, damping and steps",
-      {option("positions", at<&C::run, &R::positions>, "Wheel positions at which results are wanted, increasing",
+      {choice_at<&C::run, &R::start>(
+           "start",
+           "steady: rolling starts with the friction, torque and creepage of steady rolling, from rest where the case "
+           "has no such state or gives drive.torque_ramp or drive.creepage_start; rest: the torque rises over "
+           "drive.torque_ramp",
+           {{"steady", RunStart::steady}, {"rest", RunStart::rest}}),
+       option("positions", at<&C::run, &R::positions>,
+              "Wheel positions at which results are wanted, increasing. Left out: from a steady start on until the "
+              "results repeat, from rest 0.3 m",
               kLength, {0, 20}),
        option("window", at<&C::run, &R::window>,
               "Rolling distance, centred on each position, over which results are averaged", kLength, {0, 1}),
-       option("run_up", at<&C::run, &R::run_up>, "Rolling distance over which the run-up damping fades to zero",
+       option("run_up", at<&C::run, &R::run_up>,
+              "Rolling distance over which the run-up damping fades to zero. Left out: from a steady start two lengths "
+              "of the patch, from rest 120 mm",
               kLength, {0, 10}),
        option("run_up_damping", at<&C::run, &R::run_up_damping>, "Mass-proportional damping of vibration at the start",
               kRate, {0, 1e6}),

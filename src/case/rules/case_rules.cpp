@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/rolling_start.hpp"
 #include "rules/clashes.hpp"
 #include "rules/irregularity_rules.hpp"
 #include "spec/case_spec.hpp"
@@ -104,17 +105,18 @@ void check_roller(const GeometrySpec& g, CaseSource& source) {
            "give a larger radius; above 0 it is a roller");
 }
 
-void check_path(const RunSpec& run, CaseSource& source) {
+void check_path(const CaseSpec& spec, CaseSource& source) {
+  const RunSpec& run = spec.run;
   if (!run.rolling || run.positions.empty() || !source.sound({"run.positions", "run.run_up", "run.window"})) return;
   if (!std::is_sorted(run.positions.begin(), run.positions.end(), std::less_equal<>()))
     source.complain("run.positions", "run.positions must increase",
                     "list each wheel position once, the smallest first");
   const double first = *std::min_element(run.positions.begin(), run.positions.end());
-  const double needed = run.run_up + 0.5 * run.window;
+  const double run_up = run_up_of(spec, 0), needed = run_up + 0.5 * run.window;
   if (first < needed - kNanometre)
     source.complain("run.positions",
                     fmt::format("run.positions: {} is not yet beyond the run-up ({}) and half the window ({})",
-                                length(first), length(run.run_up), length(0.5 * run.window)),
+                                length(first), length(run_up), length(0.5 * run.window)),
                     fmt::format("start at {} or later, or shorten run.run_up or run.window", length(needed)));
 }
 
@@ -172,7 +174,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_friction_law(spec, source);
   check_third_body(spec, source);
   check_curve(spec.geometry, source);
-  check_path(spec.run, source);
+  check_path(spec, source);
   check_wheel(spec.geometry, source);
   check_roller(spec.geometry, source);
   check_mesh(spec.mesh, source);

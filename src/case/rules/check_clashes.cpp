@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "geometry/height_field.hpp"
+#include "model/rolling_start.hpp"
 #include "options/option_table.hpp"
 #include "rules/irregularity_rules.hpp"
 #include "spec/case_spec.hpp"
@@ -174,11 +175,12 @@ void check_heights(const CaseSpec& spec, std::vector<Diagnostic>& out) {
     const std::string key = fmt::format("irregularity.{}", i);
     if (const auto fault = too_coarse(spec, i, spec.mesh.element_size, "elements", "mesh.element_size"))
       out.push_back(*fault);
-    if (spec.run.rolling && is.on == BodyId::rail && extent_of(is).from < spec.run.run_up)
-      out.push_back({key,
-                     fmt::format("{} begins before the end of run.run_up ({})", key,
-                                 format_quantity(spec.run.run_up, dimension::kLength)),
-                     "put it farther on (at, from), or shorten run.run_up"});
+    const double run_up = run_up_of(spec, 0);
+    if (spec.run.rolling && is.on == BodyId::rail && extent_of(is).from < run_up)
+      out.push_back(
+          {key,
+           fmt::format("{} begins before the end of run.run_up ({})", key, format_quantity(run_up, dimension::kLength)),
+           "put it farther on (at, from), or shorten run.run_up"});
   }
 }
 

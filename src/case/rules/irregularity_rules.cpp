@@ -152,18 +152,6 @@ void require_fine_enough(const CaseSpec& spec, double size, const char* what, co
     if (const auto fault = too_coarse(spec, i, size, what, key)) throw CaseError(std::vector<Diagnostic>{*fault});
 }
 
-std::string varying_key(const CaseSpec& spec) {
-  if (!spec.irregularities.empty()) return "irregularity";
-  const auto changes =
-      std::find_if(spec.layers.begin(), spec.layers.end(), [](const LayerSpec& l) { return l.changes_along(); });
-  if (changes != spec.layers.end()) return fmt::format("layer.{}", changes - spec.layers.begin());
-  return spec.stretches.empty() ? "" : "stretch";
-}
-
-bool changes_on_way(const CaseSpec& spec) {
-  return spec.run.rolling && !(varying_key(spec).empty() && spec.track.held());
-}
-
 void read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec, std::size_t index) {
   const OptionTable& options = *find_table("irregularity");
   UnitTableForm form{{}, {}, "heights", "x [mm], z [um]"};

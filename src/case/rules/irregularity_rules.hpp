@@ -21,10 +21,6 @@ std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, do
                                      const char* key);
 /// Throws CaseError for the first of them.
 void require_fine_enough(const CaseSpec& spec, double size, const char* what, const char* key);
-/// The key that makes rail or wheel vary along the way, apart from sleepers; empty: nothing does.
-std::string varying_key(const CaseSpec& spec);
-/// Whether a wheel rolls over what is not the same everywhere, sleepers too.
-bool changes_on_way(const CaseSpec& spec);
 
 /// Reads columns x, z or x, y, z into an entry. Throws CaseError with file, line and remedy.
 void read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec, std::size_t index);

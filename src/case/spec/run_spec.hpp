@@ -1,5 +1,6 @@
 #pragma once
 // How a case is computed: mesh, contact, steps, the half-space engine, output; in SI units.
+#include <optional>
 #include <vector>
 
 namespace railstrata {
@@ -14,6 +15,12 @@ enum class ArithmeticPrecision { double_precision, single_precision };
 
 /// Where the fields of a rolling are computed (docs/gpu.md).
 enum class ComputeDevice { cpu, gpu };
+
+/// How a rolling of finite elements begins (fem/steady_start.hpp).
+enum class RunStart {
+  steady,  ///< with the friction, torque and creepage of steady rolling, where there is such a state
+  rest     ///< without friction along the rail; the torque rises
+};
 
 /// Where the half-space engine takes the leading edge of the patch (bem/leading_edge.hpp).
 enum class LeadingEdge {
@@ -38,13 +45,14 @@ struct OutputSpec {
 };
 
 struct RunSpec {
-  std::vector<double> positions = {0.3};  ///< wheel positions at which results are wanted, m
-  double window = 0.010;                  ///< m of rolling, centred on each position, over which results are averaged
-  double run_up = 0.12;                   ///< m of rolling over which the run-up damping fades to zero
-  double run_up_damping = 2000.0;         ///< 1/s, mass-proportional damping of vibration at the start
-  double step_safety = 0.9;               ///< of the stable step
-  double mass_scaling_step = 1.0;         ///< wanted step of thin rows of elements, in element sizes over the matrix's
-                                          ///< pressure wave speed; 0: real masses (fem/step_plan.hpp)
+  RunStart start = RunStart::steady;
+  std::vector<double> positions;  ///< wheel positions at which results are wanted, m; empty: as build_model decides
+  double window = 0.010;          ///< m of rolling, centred on each position, over which results are averaged
+  std::optional<double> run_up;   ///< m of rolling over which the run-up damping fades to zero; of a Model always given
+  double run_up_damping = 2000.0;  ///< 1/s, mass-proportional damping of vibration at the start
+  double step_safety = 0.9;        ///< of the stable step
+  double mass_scaling_step = 1.0;  ///< wanted step of thin rows of elements, in element sizes over the matrix's
+                                   ///< pressure wave speed; 0: real masses (fem/step_plan.hpp)
   ArithmeticPrecision precision = ArithmeticPrecision::double_precision;
   ComputeDevice device = ComputeDevice::cpu;
   double preload_tolerance = 1e-6;   ///< relative residual of the static equilibrium

@@ -7,9 +7,8 @@
 
 namespace railstrata {
 
-/// Drive torque at `time` [s], N m.
-inline double drive_torque(const RollingSystem& system, double time) {
-  const double ramp = system.spec().drive.torque_ramp;
+/// Drive torque at `time` [s], N m; ramp: s, in which it rises.
+inline double drive_torque(const RollingSystem& system, double time, double ramp) {
   return ramp > 0 ? system.torque * smooth_rise(time / ramp) : system.torque;
 }
 

@@ -31,6 +31,7 @@ void Stepper::restore_state(RestartState restart) {
   bodies_[kWheel].mean = restart.mean;
   axle_rest_z_ = restart.axle_z0;
   side_force_ = restart.side_force;
+  torque_ramp_ = restart.torque_ramp;
   contact_.restore(std::move(restart));
   fields_here_ = true;
 }

@@ -21,17 +21,24 @@ constexpr double kVirtualPenetration = 0.55;  // of the approach: rigid profiles
                                               // in about the patch [PiotrowskiKik2008]
 constexpr double kPenaltyScale =
     1000.0;  // springs of a linear step, of a surface element's stiffness: penetrations of nanometres
-constexpr double kForcing = 0.02;  // of the residual, left over by a linear step
-constexpr double kLastStep = 0.3;  // of the tolerance, likewise
+constexpr double kForcing = 0.02;                // of the residual, left over by a linear step
+constexpr double kLastStep = 0.3;                // of the tolerance, likewise
+constexpr double kNearGap = 0.3, kFarGap = 1.5;  // of the approach, where the contact looks; farther for the gap of
+                                                 // two stations ahead (bem/leading_edge.hpp)
+constexpr double kSettled = 2e-3;                // change of the friction of steady rolling in a pass, over it
+constexpr int kMostPasses = 12;
 constexpr int kMostSteps = 60, kMostPlasticSteps = 400, kMostIterations = 5000;
 
 class Preload {
  public:
-  Preload(const RollingSystem& system, const RailBefore* before, const Ranks& ranks)
+  Preload(const RollingSystem& system, const RailBefore* before, const Ranks& ranks, const SteadyFriction& friction)
       : sys_(system),
+        ask_(friction),
+        motion_{system.start_spin, system.options.lateral_speed},
         share_(system, ranks),
         contact_(system.rail_surface(), system.wheel_surface()),
         tractions_(system.rail_surface().columns, system.rail_surface().stations.nodes()),
+        friction_(tractions_),
         before_(before),
         virgin_{before ? before->history : initial_history(system.rail()), initial_history(system.wheel())},
         history_(virgin_),
@@ -56,7 +63,7 @@ class Preload {
       if (!std::isfinite(out.residual))
         throw NumericalError("static preload: the residual is not a number" + what_to_try());
       if (out.residual < tolerance && out.penetration < kPenetration * sys_.model.hertz.approach) {
-        if (!extend()) break;
+        if (!extend() && !improve_friction()) break;
         continue;
       }
       if (step > (sys_.model.spec.run.plasticity ? kMostPlasticSteps : kMostSteps))
@@ -78,11 +85,14 @@ class Preload {
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
-      const NodeTraction t{.p = pressure_[k], .q2 = friction_ratio() * pressure_[k]};
+      const NodeTraction t = traction_of(k);
       tractions_.at(row.column, row.station) = t;
       out.contact_force -= row.area * traction_vector(t, row.normal);
     }
     out.tractions = tractions_;
+    out.motion = motion_;
+    out.steady_passes = passes_;
+    out.steady_change = change_;
     return out;
   }
 
@@ -153,7 +163,8 @@ class Preload {
 
   void update_contact() {
     const AxlePose pose{0, 0, u_.axle, 0};
-    contact_.search(u_.body[kRail], u_.body[kWheel], pose, search_length(), 0.3 * sys_.model.hertz.approach);
+    contact_.search(u_.body[kRail], u_.body[kWheel], pose, search_length(),
+                    (ask_ ? kFarGap : kNearGap) * sys_.model.hertz.approach);
     rows_ = &contact_.rows(u_.body[kRail], u_.body[kWheel], pose);
     pressure_.clear();
     active_.clear();
@@ -217,13 +228,36 @@ class Preload {
     return std::clamp(sys_.options.lateral_friction / std::max(normal, std::abs(sys_.options.lateral_friction)), -bound,
                       bound);
   }
+  NodeTraction traction_of(std::size_t k) const {
+    const ContactRow& row = rows_->rows[k];
+    if (passes_ == 0) return {.p = pressure_[k], .q2 = friction_ratio() * pressure_[k]};
+    const NodeTraction& t = friction_.at(row.column, row.station);
+    return {.p = pressure_[k], .q1 = t.q1, .q2 = t.q2};
+  }
+  // Towards the friction of steady rolling (fem/steady_start.hpp); false: it is that already, or the wheel starts from
+  // rest.
+  bool improve_friction() {
+    if (!ask_ || passes_ == kMostPasses || (passes_ > 0 && change_ < kSettled)) return false;
+    for (std::size_t k = 0; k < rows_->rows.size(); ++k)
+      friction_.at(rows_->rows[k].column, rows_->rows[k].station) = traction_of(k);
+    const SteadyCells cells(sys_, *rows_, pressure_);
+    const SteadyAnswer answer = ask_(cells.ask(friction_, u_.body, motion_));
+    ++passes_;
+    change_ = cells.take(answer, friction_);
+    const double speed = sys_.spec().drive.speed;
+    if (!sys_.options.keeps_pace) motion_.spin -= answer.creepage_change[0] * speed / sys_.rolling_radius;
+    if (sys_.options.free_sideways)
+      motion_.lateral_speed += answer.creepage_change[1] * speed * std::cos(sys_.model.reference.angle);
+    return true;
+  }
   // It is a load of the step, not a part of its stiffness: pressures hardly know it.
-  void apply_lateral_friction(StaticVector& f) const {
-    const double ratio = friction_ratio();
-    if (ratio == 0) return;
+  void apply_friction(StaticVector& f) const {
+    if (passes_ == 0 && friction_ratio() == 0) return;
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
-      const Vec3 on_rail = (row.area * ratio * pressure_[k]) * tangent_frame(row.normal).t2;
+      const NodeTraction t = traction_of(k);
+      const TangentFrame frame = tangent_frame(row.normal);
+      const Vec3 on_rail = row.area * (t.q1 * frame.t1 + t.q2 * frame.t2);
       const Vec3 on_wheel = -yaw_back(sys_.wheel_surface().yaw, on_rail);
       add_vector(f.body[kRail], row.rail, sys_.rail_surface().stride, on_rail);
       for (int w = row.first; w < row.first + row.count; ++w)
@@ -276,7 +310,7 @@ class Preload {
     for (const EndLoad& l : sys_.end_loads) r.body[kRail][l.index] += l.force;
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
       if (pressure_[k] > 0) apply_pressure(k, pressure_[k], r);
-    apply_lateral_friction(r);
+    apply_friction(r);
     reduce(r);
     share_.add(r, 1.0, loads());
     return r;
@@ -345,9 +379,13 @@ class Preload {
   }
 
   const RollingSystem& sys_;
+  const SteadyFriction& ask_;
+  StartMotion motion_;
   StaticShare share_;
   MortarContact contact_;
-  SurfaceTractions tractions_;
+  SurfaceTractions tractions_, friction_;  // friction_: of steady rolling, after the first pass
+  int passes_ = 0;
+  double change_ = 0;  // of the friction in the last pass, over it
   const RailBefore* before_;
   const std::array<PlasticHistory, 2> virgin_;
   std::array<PlasticHistory, 2> history_;  // at the present displacements
@@ -370,10 +408,11 @@ RollingSystem bonded(const RollingSystem& system) {
 }  // namespace
 
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress,
-                            const RailBefore* before, const Ranks& ranks) {
-  if (!system.rail().mesh.interfaces.empty()) return solve_preload(bonded(system), tolerance, progress, before, ranks);
+                            const RailBefore* before, const Ranks& ranks, const SteadyFriction& friction) {
+  if (!system.rail().mesh.interfaces.empty())
+    return solve_preload(bonded(system), tolerance, progress, before, ranks, friction);
   const auto start = std::chrono::steady_clock::now();
-  PreloadResult result = Preload(system, before, ranks).solve(tolerance, progress);
+  PreloadResult result = Preload(system, before, ranks, friction).solve(tolerance, progress);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

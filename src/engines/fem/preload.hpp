@@ -19,6 +19,7 @@
 
 #include "core/ranks.hpp"
 #include "fem/rolling_system.hpp"
+#include "fem/steady_start.hpp"
 
 namespace railstrata {
 
@@ -39,6 +40,9 @@ struct PreloadResult {
   double penetration = 0;                   ///< m, largest of the nodes in contact
   Vec3 contact_force;                       ///< N, on the wheel, with the lateral friction
   int newton_steps = 0, cg_iterations = 0;  ///< steps: evaluations of the exact residual
+  StartMotion motion;                       ///< of the wheel
+  int steady_passes = 0;                    ///< of the friction of steady rolling; 0: starts without
+  double steady_change = 0;                 ///< in the last of them, over the friction
   double wall_seconds = 0;
 };
 
@@ -49,6 +53,7 @@ using PreloadProgress = std::function<bool(double, double, int)>;
 /// get the result of one to the last bit. Throws NumericalError when it does not converge, Interrupted when `progress`
 /// asks for it on any rank.
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {},
-                            const RailBefore* before = nullptr, const Ranks& ranks = {});
+                            const RailBefore* before = nullptr, const Ranks& ranks = {},
+                            const SteadyFriction& friction = {});
 
 }  // namespace railstrata

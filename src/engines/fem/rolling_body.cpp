@@ -191,6 +191,17 @@ void start_velocities(const RollingBody& b, double rate, BodyState& state) {
   }
 }
 
+void add_rigid_motion(const RollingBody& b, const StartMotion& beyond, BodyState& state) {
+  if (beyond.spin == 0 && beyond.lateral_speed == 0) return;
+  const Vec3 aside = b.frame.to_frame({0, beyond.lateral_speed, 0});
+  for (const NodeLine& l : b.body.lines)
+    for (int j = 0; j < l.count; ++j) {
+      const Vec3 arm = b.arm(l.block, l.node, j);
+      const Vec3 v = aside + Vec3{beyond.spin * arm.z, 0, -beyond.spin * arm.x};
+      state.v[l.first + j] += l.component == 0 ? v.x : l.component == 1 ? v.y : v.z;
+    }
+}
+
 MeanMotion mean_motion(const RollingBody& b, const UpdateSums& sums) {
   return b.turns() ? mean_motion(b.frame, sums, b.free_mass, b.free_inertia) : MeanMotion{};
 }

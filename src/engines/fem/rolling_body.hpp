@@ -8,6 +8,7 @@
 #include "fem/node_law.hpp"
 #include "fem/reference_frame.hpp"
 #include "fem/rolling_state.hpp"
+#include "fem/steady_start.hpp"
 #include "fem/step_plan.hpp"
 
 namespace railstrata {
@@ -71,6 +72,9 @@ const Field& frame_velocity(RollingBody& body, const BodyState& state, bool befo
 
 /// v = -rate du/dt along the sweep: the pattern of deformation stands still while the body moves through it.
 void start_velocities(const RollingBody& body, double rate, BodyState& state);
+
+/// Adds the velocities of a rigid motion beyond that of the frame.
+void add_rigid_motion(const RollingBody& body, const StartMotion& beyond, BodyState& state);
 
 /// From the sums of momentum of an update.
 MeanMotion mean_motion(const RollingBody& body, const UpdateSums& sums);

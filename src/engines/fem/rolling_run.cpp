@@ -173,9 +173,18 @@ class Roller {
     for (; !all_sampled() && stepper_.position() >= wanted_[run_.next_sample].position; ++run_.next_sample) {
       stepper_.complete();
       result().penetration = std::max(result().penetration, stepper_.forces().penetration);
-      time_output(
-          [&] { result().positions[wanted_[run_.next_sample].group].samples.push_back(take_sample(stepper_)); });
+      const std::size_t group = wanted_[run_.next_sample].group;
+      time_output([&] { result().positions[group].samples.push_back(take_sample(stepper_)); });
+      if (sys_.model.until_repeated) look_whether_repeated(group);
     }
+  }
+  void look_whether_repeated(std::size_t group) {
+    const bool whole = run_.next_sample + 1 == wanted_.size() || wanted_[run_.next_sample + 1].group != group;
+    if (!whole || !observer_.repeats) return;
+    std::vector<PositionSamples>& positions = result().positions;
+    const std::vector<PositionSamples> so_far(positions.begin(), positions.begin() + group + 1);
+    time_output([&] { repeated_ = observer_.repeats(so_far); });
+    if (repeated_) positions.resize(group + 1);
   }
   void keep_state() {
     stepper_.complete();
@@ -225,7 +234,7 @@ class Roller {
     return std::move(run_.result);
   }
   RunResult& result() { return run_.result; }
-  bool all_sampled() const { return run_.next_sample == wanted_.size(); }
+  bool all_sampled() const { return repeated_ || run_.next_sample == wanted_.size(); }
   double wall_seconds() const { return earlier_seconds_ + seconds_since(start_); }
   template <class Output>
   void time_output(Output&& output) {
@@ -242,6 +251,7 @@ class Roller {
   double end_, frame_spacing_;  // m
   Clock::time_point start_;
   double earlier_seconds_;  // of the sittings before this one
+  bool repeated_ = false;   // the last windows
   RunState good_;           // the last state that was looked at, without tables; saved when a guard ends the run
   std::size_t good_rows_ = 0;
 };
@@ -280,7 +290,7 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer, con
   RunResult out;
   out.elements = sys.model.rail.elements() + sys.model.wheel.elements();
   out.nodes = sys.model.rail.nodes() + sys.model.wheel.nodes();
-  PreloadResult preload = solve_preload(sys, run.preload_tolerance, observer.preload, before, by.ranks);
+  PreloadResult preload = solve_preload(sys, run.preload_tolerance, observer.preload, before, by.ranks, by.friction);
   out.preload_wall_seconds = preload.wall_seconds;
 
   if (!run.rolling) {

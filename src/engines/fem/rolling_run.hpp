@@ -63,8 +63,10 @@ struct RunObserver {
   PreloadProgress preload;
   std::function<void(double fraction, const HistoryRow&)> progress;  ///< with every row; fraction of the way, 0 to 1
   std::function<void(const HistoryRow&)> history;                    ///< every run.history_interval
-  std::function<void(const RollingSample&)> frame;    ///< evenly spaced frames, output.series_frames of them
-  std::function<Demand()> demand;                     ///< asked wherever the stepper can be restarted
+  std::function<void(const RollingSample&)> frame;  ///< evenly spaced frames, output.series_frames of them
+  std::function<Demand()> demand;                   ///< asked wherever the stepper can be restarted
+  /// Of a run until windows repeat (Model::until_repeated), after each whole window, with those so far: true ends it.
+  std::function<bool(const std::vector<PositionSamples>&)> repeats;
   std::function<void(const RollingState&)> finished;  ///< the last state of a rolling that was not stopped
   /// The state to go on from: on demand, when the run stops (`stopping`), and the last good one before a
   /// NumericalError. May throw: that ends the run.

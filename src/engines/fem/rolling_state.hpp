@@ -30,9 +30,10 @@ struct RestartState {
   EnergyBalance balance;
   MeanMotion mean;  ///< of the wheel
   std::vector<MortarContact::Facet> facets;
-  double axle_z0 = 0;     ///< m, height of the axle at the start of the rolling
-  double side_force = 0;  ///< N, on the axle, that holds it in the static equilibrium
-  double dt = 0;          ///< s
+  double axle_z0 = 0;      ///< m, height of the axle at the start of the rolling
+  double side_force = 0;   ///< N, on the axle, that holds it in the static equilibrium
+  double torque_ramp = 0;  ///< s, of the start
+  double dt = 0;           ///< s
   bool reached_edge = false;
 };
 

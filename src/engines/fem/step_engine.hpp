@@ -11,6 +11,7 @@
 #include "fem/axle_step.hpp"
 #include "fem/contact_step.hpp"
 #include "fem/rolling_state.hpp"
+#include "fem/steady_start.hpp"
 #include "fem/step_record.hpp"
 
 namespace railstrata {
@@ -37,10 +38,12 @@ class StepEngine {
 /// Makes the engine of a stepper with steps of dt [s]; empty: none.
 using EngineOf = std::function<std::unique_ptr<StepEngine>(const RollingSystem&, const RollingBodies&, double dt)>;
 
-/// Who computes the steps: several ranks, or an engine; neither: the stepper's own loops.
+/// Who computes the steps: several ranks, or an engine; neither: the stepper's own loops. And the friction that they
+/// start with; none: at rest.
 struct StepBy {
   Ranks ranks;
   EngineOf engine;
+  SteadyFriction friction;
 };
 
 }  // namespace railstrata

@@ -94,6 +94,7 @@ RestartState Stepper::restart_beside_state() const {
   out.mean = bodies_[kWheel].mean;
   out.axle_z0 = axle_rest_z_;
   out.side_force = side_force_;
+  out.torque_ramp = torque_ramp_;
   out.dt = dt();
   contact_.save(out);
   return out;
@@ -104,13 +105,14 @@ void Stepper::start(const PreloadResult& preload) {
   const bool ring = sys_.on_ring();
   state_.axle = {.z = preload.axle_z,
                  .vx = ring ? 0.0 : sys_.spec().drive.speed,
-                 .vy = sys_.options.lateral_speed,
-                 .spin = sys_.start_spin};
+                 .vy = preload.motion.lateral_speed,
+                 .spin = preload.motion.spin};
+  torque_ramp_ = preload.steady_passes > 0 ? 0.0 : sys_.spec().drive.torque_ramp;
   side_force_ = -preload.contact_force.y;
   axle_rest_z_ = preload.axle_z;
   state_.groups.assign(kSuspensionGroups, MassGroup{});
   // of the pattern against the material: m/s, rad/s
-  const double rate[2] = {ring ? sys_.rail_spin : sys_.spec().drive.speed, sys_.start_spin};
+  const double rate[2] = {ring ? sys_.rail_spin : sys_.spec().drive.speed, preload.motion.spin};
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     RollingBody& b = bodies_[k];
     BodyState& state = state_.bodies[k];
@@ -121,6 +123,9 @@ void Stepper::start(const PreloadResult& preload) {
     if (b.turns()) b.surface_u = state.u;
     if (k == kRail && !preload.before.empty()) add(state.u, -1, preload.before);  // what was there does not travel
     start_velocities(b, rate[k], state);
+    if (k == kWheel)
+      add_rigid_motion(
+          b, {preload.motion.spin - sys_.start_spin, preload.motion.lateral_speed - sys_.options.lateral_speed}, state);
     state.u = preload.u[k];
     if (k == kRail) state_.sleepers = sleepers_below(sys_.pads, state.u, state.v);
     if (k == kWheel) b.mean = mean_motion(b, state);  // a ring has nothing to keep: its shaft turns it
@@ -129,7 +134,8 @@ void Stepper::start(const PreloadResult& preload) {
 
 double Stepper::damping_rate() const {
   const RunSpec& run = sys_.spec().run;
-  return run.run_up > 0 ? run.run_up_damping * (1 - smooth_rise(position() / run.run_up)) : 0;
+  const double run_up = *run.run_up;
+  return run_up > 0 ? run.run_up_damping * (1 - smooth_rise(position() / run_up)) : 0;
 }
 
 // Rotation of each body relative to its frame.
@@ -147,7 +153,7 @@ AxlePose Stepper::pose_in_frame() const {
   return {at.x, at.y, at.z, state_.axle.psi - frame.psi};
 }
 
-AxleDrive Stepper::axle_drive() const { return {drive_torque(sys_, state_.time), side_force_}; }
+AxleDrive Stepper::axle_drive() const { return {drive_torque(sys_, state_.time, torque_ramp_), side_force_}; }
 
 double Stepper::lateral_creepage() const {
   const RigidContact& contact = sys_.model.reference;

@@ -113,6 +113,7 @@ void describe(Archive& a, RestartState& m) {
     on("dt", v.dt);
     on("axle_z0", v.axle_z0);
     on("side_force", v.side_force);
+    on("torque_ramp", v.torque_ramp);
     on("reached_edge", v.reached_edge);
     on("mean_x", v.mean.x);
     on("mean_z", v.mean.z);

@@ -196,6 +196,9 @@ inline constexpr std::array kCheckRows{
                       "the measuring window begins before the torque has its full value",
                       "the wanted traction cannot be reached there",
                       {.of_case = "run.positions less half of run.window"}, unit::kMillimetres, kOwnText),
+    CheckRow::warning(
+        "windows_differ", "Windows differ", "change from the window before to the last one, of what counts as repeated",
+        "the rolling is not steady yet; give run.positions farther on", {.fem = 1}, unit::kNone, kOwnText),
     CheckRow::warning("mass_scaling_adds_much", "Mass added by scaling",
                       "largest share that mass scaling adds to a block’s mass",
                       "vibrations across thin layers are slowed", {.fem = 0.01}, unit::kShare, kOwnText),

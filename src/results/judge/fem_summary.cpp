@@ -5,11 +5,11 @@
 
 #include "judge/check_limits.hpp"
 #include "judge/plausibility.hpp"
+#include "model/rolling_start.hpp"
 #include "model/section_axes.hpp"
 #include "model/zone.hpp"
 #include "passage/passage.hpp"
 #include "result/stress_maxima.hpp"
-#include "rules/irregularity_rules.hpp"
 
 namespace railstrata {
 namespace {

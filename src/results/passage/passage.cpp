@@ -10,7 +10,7 @@
 
 #include "fatigue/row_strength.hpp"
 #include "model/rail_beam.hpp"
-#include "rules/irregularity_rules.hpp"
+#include "model/rolling_start.hpp"
 #include "spec/case_spec.hpp"
 #include "track/joint_force.hpp"
 
@@ -160,7 +160,7 @@ PassageSummary passage_summary(const RollingSystem& system, const RunResult& run
   if (!changes_on_way(spec)) return out;
   Rows rows;
   for (const HistoryRow& row : run.history)
-    if (row.position >= spec.run.run_up) rows.push_back(row);
+    if (row.position >= run_up_of(spec, 0)) rows.push_back(row);
   const auto larger = [](double value, double& most) {
     const bool is = !(value < most);  // than none too
     if (is) most = value;
@@ -196,7 +196,8 @@ std::vector<ForceLine> force_spectrum(const CaseSpec& spec, const std::vector<Hi
   constexpr std::size_t kFewest = 32;
   constexpr double kHighest = 5000;  // Hz
   if (!changes_on_way(spec)) return {};
-  const std::span<const HistoryRow> rows = between(history, spec.run.run_up, std::numeric_limits<double>::infinity());
+  const std::span<const HistoryRow> rows =
+      between(history, run_up_of(spec, 0), std::numeric_limits<double>::infinity());
   if (rows.size() < kFewest) return {};
   const double time = rows.back().time - rows.front().time,
                highest = std::min(kHighest, static_cast<double>(rows.size()) / time / 6);
@@ -213,7 +214,7 @@ std::optional<ForceLine> passing_force(const CaseSpec& spec, const std::vector<H
     const auto* oval = std::get_if<OutOfRound>(&is.shape);
     if (!corrugation && !oval) continue;
     const double wave = corrugation ? *corrugation->wavelength : kTurn * spec.geometry.wheel_radius / oval->order;
-    double from = spec.run.run_up, to = history.empty() ? 0 : history.back().position;
+    double from = run_up_of(spec, 0), to = history.empty() ? 0 : history.back().position;
     if (corrugation && corrugation->from) from = std::max(from, *corrugation->from + wave);
     if (corrugation && corrugation->to) to = std::min(to, *corrugation->to - wave);
     const double wanted = spec.track.held() ? kHeldWaves * wave : spec.track.support.spacing,

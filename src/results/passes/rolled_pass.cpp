@@ -162,7 +162,7 @@ std::vector<Named> named_quads(const SweptBody& rail, PlasticSection::Quad first
 constexpr double kStart = 6, kFarthestBehind = 6, kNearest = 4;  // half-lengths
 
 std::string too_short(const Model& model, double a) {
-  const double run_up = model.spec.run.run_up, start = std::max(kStart * a, run_up);
+  const double run_up = *model.spec.run.run_up, start = std::max(kStart * a, run_up);
   return fmt::format(
       "the run is too short: stations are steady from {:.3g} mm ({}) to {:g} half-lengths of the patch ({:.3g} mm) "
       "behind the wheel; let run.positions end at {:.3g} mm or more",
@@ -266,7 +266,7 @@ RunResidual run_residual(const RollingSystem& system, const RollingState& end) {
   const double a = hertz_estimate(model.spec, model.placement.contact).a, wheel = end.axle.pose().x;
   out.from = wheel - kFarthestBehind * a;
   out.to = wheel - kNearest * a;
-  if (out.from < std::max(kStart * a, model.spec.run.run_up)) {
+  if (out.from < std::max(kStart * a, *model.spec.run.run_up)) {
     out.none = too_short(model, a);
     return out;
   }

@@ -12,6 +12,7 @@
 #include "fem/plastic_zone.hpp"
 #include "fem/rail_at_rest.hpp"
 #include "model/model.hpp"
+#include "model/rolling_start.hpp"
 #include "passes/pass_plan.hpp"
 
 namespace railstrata {
@@ -52,7 +53,8 @@ double contact_range(CaseSpec spec, const std::filesystem::path& folder) {
 CaseSpec case_of_rolls(CaseSpec spec, const std::filesystem::path& folder, const PassRoll& roll) {
   spec.run.positions = {roll.length};
   spec.run.window = 2 * spec.mesh.element_size;
-  spec.run.run_up = std::min(spec.run.run_up, roll.from);
+  spec.run.start = RunStart::rest;
+  spec.run.run_up = std::min(run_up_of(spec, 0), roll.from);
   spec.run.output.patch_series = false;
   const double range = contact_range(spec, folder);
   if (range == 0) return spec;

@@ -1,5 +1,7 @@
 #include "runs/run_job.hpp"
 
+#include "model/rolling_start.hpp"
+
 #include <fmt/format.h>
 
 #include <utility>
@@ -50,6 +52,9 @@ void RunJob::mesh() {
     throw in_case_file(loaded_, e);
   }
   for (const std::string& note : system_->model.placement.notes) control_.info("{}", note);
+  const CaseSpec& spec = system_->model.spec;
+  if (const std::string why = why_from_rest(spec); spec.run.rolling && !why.empty() && spec.run.start != RunStart::rest)
+    control_.info("the rolling starts from rest: {}", why);
 }
 
 void RunJob::begin() {

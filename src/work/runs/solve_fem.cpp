@@ -8,10 +8,12 @@
 #include "device/device_of.hpp"
 #include "fem/memory_need.hpp"
 #include "judge/fem_summary.hpp"
+#include "judge/window_change.hpp"
+#include "model/rolling_start.hpp"
 #include "passage/passage.hpp"
-#include "rules/irregularity_rules.hpp"
 #include "rules/support.hpp"
 #include "runs/device_at_hand.hpp"
+#include "runs/steady_friction.hpp"
 
 namespace railstrata {
 namespace {
@@ -56,6 +58,21 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
   return out;
 }
 
+WindowChange last_change(const RollingSystem& system, const std::vector<PositionSamples>& windows) {
+  return change_between(mean_contact(system, windows[windows.size() - 2]), mean_contact(system, windows.back()));
+}
+
+/// Of a run until windows repeat, with what they still differ by.
+FemPosition last_window(const RollingSystem& system, const RunResult& run) {
+  FemPosition out = position_of(system, run, run.positions.back());
+  if (run.positions.size() < 2) return out;
+  const WindowChange change = last_change(system, run.positions);
+  out.summary.contact.error = change.change;
+  warn_of_change(change, out.summary);
+  sign(out.summary);
+  return out;
+}
+
 /// On the rank that has the positions.
 bool has_residual(const RollingSystem& system, const FemOptions& options) {
   return options.residual && system.model.spec.run.plasticity && options.ranks.is_root();
@@ -65,7 +82,7 @@ RunResult roll(const RollingSystem& system, const RunObserver& observer, const R
                const FemOptions& options, std::optional<RunState> begun) {
   require_device(system.model.spec, options.ranks);
   const std::unique_ptr<device::Device> device = device::device_of(system.model.spec);
-  const StepBy by{options.ranks, device::engine_on(device.get())};
+  const StepBy by{options.ranks, device::engine_on(device.get()), steady_friction(system.model.spec)};
   try {
     return begun ? resume_rolling(system, observer, *std::move(begun), by)
                  : run_rolling(system, observer, options.before, by);
@@ -106,6 +123,9 @@ FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, 
     if (observer.finished) observer.finished(state);
     if (has_residual(system, options) && varying_key(system.model.spec).empty()) residual = run_residual(system, state);
   };
+  run_observer.repeats = [&](const std::vector<PositionSamples>& windows) {
+    return windows.size() > 1 && repeats(last_change(system, windows));
+  };
   std::optional<RunState> stopped_at;
   observe_states(control, observer, options, run_observer, stopped_at);
 
@@ -119,10 +139,13 @@ FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, 
   out.limit_reached = control.limit_reached();
   out.state = std::move(stopped_at);
   if (!options.ranks.is_root()) return out;
-  for (const PositionSamples& samples : run.positions) {
-    if (samples.samples.empty()) break;
-    out.positions.push_back(position_of(system, run, samples));
-  }
+  if (system.model.until_repeated && !run.positions.empty())
+    out.positions.push_back(last_window(system, run));
+  else
+    for (const PositionSamples& samples : run.positions) {
+      if (samples.samples.empty()) break;
+      out.positions.push_back(position_of(system, run, samples));
+    }
   out.residual = std::move(residual);
   out.history = std::move(run.history);
   return out;
