@@ -26,8 +26,10 @@ constexpr double kLastStep = 0.3;                // of the tolerance, likewise
 constexpr double kNearGap = 0.3, kFarGap = 1.5;  // of the approach, where the contact looks; farther for the gap of
                                                  // two stations ahead (bem/leading_edge.hpp)
 constexpr double kSettled = 2e-3;                // change of the friction of steady rolling in a pass, over it
+constexpr double kEnough = 3e-3;                 // residual before the next pass, of the change in the last one, within
+constexpr double kLeastEnough = 3e-5, kMostEnough = 1e-3;
 constexpr int kMostPasses = 12;
-constexpr int kMostSteps = 60, kMostPlasticSteps = 400, kMostIterations = 5000;
+constexpr int kMostSteps = 100, kMostPlasticSteps = 400, kMostIterations = 5000;
 
 class Preload {
  public:
@@ -59,22 +61,23 @@ class Preload {
       out.residual = std::sqrt(share_.dot(r, r)) / load;
       out.penetration = penetration();
       out.newton_steps = step;
-      const bool stop = progress && !progress(out.residual, tolerance, out.cg_iterations);
+      const double wanted = std::max(tolerance, enough_for_friction());
+      const bool stop = progress && !progress(out.residual, wanted, out.cg_iterations);
       if (!std::isfinite(out.residual))
         throw NumericalError("static preload: the residual is not a number" + what_to_try());
-      if (out.residual < tolerance && out.penetration < kPenetration * sys_.model.hertz.approach) {
+      if (out.residual < wanted && out.penetration < kPenetration * sys_.model.hertz.approach) {
         if (!extend() && !improve_friction()) break;
         continue;
       }
       if (step > (sys_.model.spec.run.plasticity ? kMostPlasticSteps : kMostSteps))
         throw NumericalError(
             fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e}){}", step,
-                        out.residual, tolerance, what_to_try()));
+                        out.residual, wanted, what_to_try()));
       if (any_rank_stops(stop, out.residual))
         throw Interrupted("stopped during the static preload: there is nothing to resume yet");
       apply_gap_springs(r);
       out.cg_iterations +=
-          conjugate_gradients(r, load * std::max(kLastStep * tolerance, kForcing * std::min(out.residual, 1.0)));
+          conjugate_gradients(r, load * std::max(kLastStep * wanted, kForcing * std::min(out.residual, 1.0)));
       advance(r);
     }
     out.u = u_.body;
@@ -234,10 +237,16 @@ class Preload {
     const NodeTraction& t = friction_.at(row.column, row.station);
     return {.p = pressure_[k], .q1 = t.q1, .q2 = t.q2};
   }
+  bool settled() const { return !ask_ || passes_ == kMostPasses || (passes_ > 0 && change_ < kSettled); }
+  // Residual with which the next pass begins; 0 after the last one.
+  double enough_for_friction() const {
+    if (settled()) return 0;
+    return passes_ == 0 ? kMostEnough : std::clamp(kEnough * change_, kLeastEnough, kMostEnough);
+  }
   // Towards the friction of steady rolling (fem/steady_start.hpp); false: it is that already, or the wheel starts from
   // rest.
   bool improve_friction() {
-    if (!ask_ || passes_ == kMostPasses || (passes_ > 0 && change_ < kSettled)) return false;
+    if (settled()) return false;
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
       friction_.at(rows_->rows[k].column, rows_->rows[k].station) = traction_of(k);
     const SteadyCells cells(sys_, *rows_, pressure_);
