@@ -138,9 +138,26 @@ class Preload {
         if (l.component == 2)
           for (int j = 0; j < l.count; ++j) f.body[k][l.first + j] = -g * sys_.bodies[k].mass[l.first + j];
     add_centrifugal(sys_.wheel(), sys_.start_spin, f.body[kWheel]);
+    if (ask_) add_acceleration(f.body[kWheel]);
     if (sys_.on_ring()) add_centrifugal(sys_.rail(), sys_.rail_spin, f.body[kRail]);
     f.axle = -g * (sys_.axle.mass_z + sys_.spec().vehicle.sprung_mass);
     return f;
+  }
+  // The traction of a steady start accelerates the wheel: what turns it stores some of the torque.
+  void add_acceleration(Field& f) const {
+    if (sys_.options.keeps_pace || sys_.on_ring()) return;
+    const double travel = *sys_.spec().drive.traction() * sys_.model.load / sys_.travel_mass;
+    const double turn = travel / sys_.rolling_radius;
+    const Body& wheel = sys_.wheel();
+    for (const NodeLine& l : wheel.lines) {
+      if (l.component == 1) continue;
+      const double z = line_radius(wheel, l.block, l.node);
+      for (int j = 0; j < l.count; ++j) {
+        const double t = wheel.mesh.blocks[l.block].stations.at[j];
+        f[l.first + j] -=
+            wheel.mass[l.first + j] * (l.component == 0 ? travel + turn * z * std::cos(t) : turn * z * std::sin(t));
+      }
+    }
   }
   static void add_centrifugal(const Body& body, double spin, Field& f) {
     const double spin2 = spin * spin;

@@ -10,6 +10,7 @@
 #include "fatigue/row_strength.hpp"
 #include "judge/check_limits.hpp"
 #include "model/model.hpp"
+#include "model/rolling_start.hpp"
 #include "model/sliding_waves.hpp"
 #include "result/result_table.hpp"
 
@@ -110,7 +111,7 @@ constexpr double kMuchAddedMass = check_row("mass_scaling_adds_much").fem_limit,
 
 void warn_within_ramp(const CaseSpec& spec, double position, std::vector<Warning>& out) {
   const DriveSpec& drive = spec.drive;
-  if (!spec.run.rolling || drive.traction().value_or(0) == 0) return;
+  if (!spec.run.rolling || drive.traction().value_or(0) == 0 || why_from_rest(spec).empty()) return;
   const double ramp = drive.torque_ramp * drive.speed, begin = position - 0.5 * spec.run.window;
   constexpr double kRounding = 1e-9;  // of the ramp: 105 mm less 5 mm is a little less than 100 mm in binary
   if (ramp <= begin + kRounding * ramp) return;
