@@ -16,6 +16,7 @@ inline CaseSpec base_case(double millimetres, ArithmeticPrecision precision) {
   s.drive.friction_coefficient = 0.5;
   s.mesh.element_size = 1e-3 * millimetres;
   s.run.positions = {0.3};
+  s.run.start = RunStart::rest;
   s.run.run_up = 0;
   s.run.precision = precision;
   return s;

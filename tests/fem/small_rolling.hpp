@@ -21,6 +21,7 @@ inline CaseSpec small_case() {
   s.mesh.largest = 20e-3;
   s.mesh.end_length = 0.06;
   s.run.positions = {0.03};
+  s.run.start = RunStart::rest;
   s.run.window = 8e-3;
   s.run.run_up = 0;
   s.run.run_up_damping = 0;

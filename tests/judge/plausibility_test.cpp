@@ -118,8 +118,8 @@ TEST(Plausibility, FiniteElementsAreAskedForWhatTheyCannotDoAlone) {
   s.spec.mesh.element_size = 1e-3;
   s.around.edges = {1.0, 1.0, 0.9, "the side of the rail"};
   EXPECT_EQ(s.warnings(1e-3), Names{}) << "a mesh has the profiles and the edges";
-  EXPECT_EQ(s.warnings(2.3e-3), Names{}) << "five elements";
-  EXPECT_EQ(s.warnings(2.5e-3), Names{"few_cells_over_patch"});
+  EXPECT_EQ(s.warnings(1.1e-3), Names{}) << "ten elements";
+  EXPECT_EQ(s.warnings(1.3e-3), Names{"few_cells_over_patch"});
   s.around.second = SecondContact{5e-6, -33e-3, -38e-3, 1.0};
   EXPECT_EQ(s.warnings(1e-3), Names{"second_contact"});
 }

@@ -86,9 +86,10 @@ class Preload {
     out.axle_z = u_.axle;
     out.foot_z = foot_height(sys_, 0, out.u[kRail]);
     for (NodeTraction& t : tractions_.all()) t = {};
+    const double ratio = friction_ratio();
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
-      const NodeTraction t = traction_of(k);
+      const NodeTraction t = traction_of(k, ratio);
       tractions_.at(row.column, row.station) = t;
       out.contact_force -= row.area * traction_vector(t, row.normal);
     }
@@ -248,11 +249,20 @@ class Preload {
     return std::clamp(sys_.options.lateral_friction / std::max(normal, std::abs(sys_.options.lateral_friction)), -bound,
                       bound);
   }
-  NodeTraction traction_of(std::size_t k) const {
+  // ratio: friction_ratio().
+  NodeTraction traction_of(std::size_t k, double ratio) const {
     const ContactRow& row = rows_->rows[k];
-    if (passes_ == 0) return {.p = pressure_[k], .q2 = friction_ratio() * pressure_[k]};
+    if (passes_ == 0) return {.p = pressure_[k], .q2 = ratio * pressure_[k]};
     const NodeTraction& t = friction_.at(row.column, row.station);
     return {.p = pressure_[k], .q1 = t.q1, .q2 = t.q2};
+  }
+  // N, of the wheel.
+  Vec3 friction_on_rail(std::size_t k, double ratio) const {
+    const ContactRow& row = rows_->rows[k];
+    const TangentFrame frame = tangent_frame(row.normal);
+    if (passes_ == 0) return (row.area * ratio * pressure_[k]) * frame.t2;
+    const NodeTraction& t = friction_.at(row.column, row.station);
+    return (row.area * t.q1) * frame.t1 + (row.area * t.q2) * frame.t2;
   }
   bool settled() const { return !ask_ || passes_ == kMostPasses || (passes_ > 0 && change_ < kSettled); }
   // Residual with which the next pass begins; 0 after the last one.
@@ -264,8 +274,9 @@ class Preload {
   // rest.
   bool improve_friction() {
     if (settled()) return false;
+    const double ratio = friction_ratio();
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
-      friction_.at(rows_->rows[k].column, rows_->rows[k].station) = traction_of(k);
+      friction_.at(rows_->rows[k].column, rows_->rows[k].station) = traction_of(k, ratio);
     const SteadyCells cells(sys_, *rows_, pressure_);
     const SteadyAnswer answer = ask_(cells.ask(friction_, u_.body, motion_));
     ++passes_;
@@ -278,12 +289,11 @@ class Preload {
   }
   // It is a load of the step, not a part of its stiffness: pressures hardly know it.
   void apply_friction(StaticVector& f) const {
-    if (passes_ == 0 && friction_ratio() == 0) return;
+    const double ratio = friction_ratio();
+    if (passes_ == 0 && ratio == 0) return;
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
-      const NodeTraction t = traction_of(k);
-      const TangentFrame frame = tangent_frame(row.normal);
-      const Vec3 on_rail = row.area * (t.q1 * frame.t1 + t.q2 * frame.t2);
+      const Vec3 on_rail = friction_on_rail(k, ratio);
       const Vec3 on_wheel = -yaw_back(sys_.wheel_surface().yaw, on_rail);
       add_vector(f.body[kRail], row.rail, sys_.rail_surface().stride, on_rail);
       for (int w = row.first; w < row.first + row.count; ++w)

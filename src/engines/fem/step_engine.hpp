@@ -41,9 +41,9 @@ using EngineOf = std::function<std::unique_ptr<StepEngine>(const RollingSystem&,
 /// Who computes the steps: several ranks, or an engine; neither: the stepper's own loops. And the friction that they
 /// start with; none: at rest.
 struct StepBy {
-  Ranks ranks;
-  EngineOf engine;
-  SteadyFriction friction;
+  Ranks ranks = {};
+  EngineOf engine = {};
+  SteadyFriction friction = {};
 };
 
 }  // namespace railstrata

@@ -124,7 +124,8 @@ FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, 
     if (has_residual(system, options) && varying_key(system.model.spec).empty()) residual = run_residual(system, state);
   };
   run_observer.repeats = [&](const std::vector<PositionSamples>& windows) {
-    return windows.size() > 1 && repeats(last_change(system, windows));
+    const bool own = options.ranks.is_root() && windows.size() > 1 && repeats(last_change(system, windows));
+    return largest_of_all(options.ranks, own) > 0;
   };
   std::optional<RunState> stopped_at;
   observe_states(control, observer, options, run_observer, stopped_at);

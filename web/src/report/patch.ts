@@ -14,6 +14,7 @@ import {
   type LoadedContact,
   type Run
 } from "./data";
+import {contours} from "./contours";
 import {linesFigure, type Series} from "./lines";
 import {mapFigure, type Arrow, type MapSpec} from "./maps";
 import {quantityAt, runLabel, withoutRoundOff} from "./words";
@@ -209,6 +210,14 @@ function kindOf(kind: Kind, run: Run): Kind {
   return {...kind, name: "Slip of the last increment", column: "slip_um", hover: `slip %{z:.4f} ${unit}`, bar: unit};
 }
 
+/// Lines of equal value over the coloured cells.
+const kLevels = [0.05, 0.2, 0.4, 0.6, 0.8, 0.95];  // of the largest
+
+function levelsOf(kind: Kind, top: number): number[] {
+  const levels = kLevels.map((share) => share * top);
+  return kind.signed ? [...levels.map((l) => -l), ...levels] : levels;
+}
+
 /// Six maps for each patch of each run, those of one quantity in one unit on one scale.
 export function patchMaps(runs: Run[]): Figure[] {
   const patches = runs.flatMap(patchesOf);
@@ -226,6 +235,7 @@ export function patchMaps(runs: Run[]): Figure[] {
     ...scaleOf(kind, top, patch),
     windowX,
     windowY,
+    lines: kind.state ? undefined : contours(patch.x, patch.y, kind.values(patch), levelsOf(kind, top)),
     arrows: kind.arrows ? tractionArrows(patch, [windowX, windowY], top) : undefined,
     marker: {x: 0, y: 0, text: "place of the patch"},
   });
