@@ -24,9 +24,7 @@ struct InBounds {
   }
   bool operator()(const std::optional<double>* v) const { return !*v || option.range.holds(**v); }
   bool operator()(const std::vector<double>* v) const {
-    const bool may_be_empty = option.key != "positions";  // a column of a transient that is not given
-    return (may_be_empty || !v->empty()) &&
-           std::all_of(v->begin(), v->end(), [&](double x) { return option.range.holds(x); });
+    return std::all_of(v->begin(), v->end(), [&](double x) { return option.range.holds(x); });
   }
   bool operator()(const RowsSlot& v) const {
     for (const std::vector<double>& row : *v)

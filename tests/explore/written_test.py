@@ -46,7 +46,7 @@ class Written(unittest.TestCase):
                 self.assertEqual((found["case"], found["name"]), (self.case, self.folder.name), words)
 
     def test_the_title_says_what_set_changes_unless_it_is_set_itself(self):
-        for words, title in ((["--set", "layer.0.thickness=0.3 mm"], "2 E0, coarse [layer.0.thickness=0.3 mm]"),
+        for words, title in ((["--set", "layer.0.thickness=0.3 mm"], "2 E0 [layer.0.thickness=0.3 mm]"),
                              (["--set", "layer.0.thickness=0.3 mm", "--set", "case.title=thin"], "thin")):
             self.explore("mine.toml", *words, "--force")
             self.assertTrue(seed((self.folder / "explore.html").read_text())["title"].endswith(title), words)

@@ -10,6 +10,7 @@ CaseSpec rolling_case(double ramp, double speed) {
   spec.drive.traction_coefficient = 0.2;
   spec.drive.torque_ramp = ramp;
   spec.drive.speed = speed;
+  spec.run.start = RunStart::rest;
   spec.run.window = 10e-3;
   return spec;
 }

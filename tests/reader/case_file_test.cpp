@@ -274,8 +274,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[run]\npositions = []\n",
        "a.toml:2:13: run.positions = []: needs at least one value\n    2 | positions = []\n      |             ^\n    "
        "remedy: write a list, e.g. [\"0.1 m\", \"0.3 m\"]"},
-      {"[run]\npositions = [\"0.05 m\"]\n",
-       "a.toml:2:13: run.positions: 50 mm is not yet beyond the run-up (120 mm) and half the window (5 mm)\n    2 | "
+      {"[run]\nstart = \"rest\"\npositions = [\"0.05 m\"]\n",
+       "a.toml:3:13: run.positions: 50 mm is not yet beyond the run-up (120 mm) and half the window (5 mm)\n    3 | "
        "positions = [\"0.05 m\"]\n      |             ^\n    remedy: start at 125 mm or "
        "later, or shorten run.run_up or run.window"},
       {"[drive]\ntraction_coefficient = 0.5\n",

@@ -76,6 +76,7 @@ const std::map<std::string, std::string>& others() {
       {"mesh.largest", "the model's"},
       {"mesh.coarse_ratio", "the model's"},
       {"mesh.end_length", "the model's"},
+      {"run.start", "the preload's, on the processor"},
       {"run.positions", "AWholeRunHasTheHistoryAndSamplesOfTheProcessor"},
       {"run.window", "AWholeRunHasTheHistoryAndSamplesOfTheProcessor"},
       {"run.history_interval", "AWholeRunHasTheHistoryAndSamplesOfTheProcessor"},

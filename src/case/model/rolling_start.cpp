@@ -25,6 +25,7 @@ std::string why_from_rest(const CaseSpec& spec) {
   constexpr double kNearlyAllFriction = 0.98;
   const DriveSpec& drive = spec.drive;
   const double f = drive.friction_coefficient, across = spec.friction.lateral_coefficient.value_or(f);
+  if (!spec.run.rolling) return "the wheel does not roll";
   if (spec.run.start == RunStart::rest) return "run.start = \"rest\"";
   if (!(f > 0) || !(across > 0)) return "there is no friction";
   if (spec.run.plasticity) return "materials yield";

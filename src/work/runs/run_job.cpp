@@ -53,7 +53,7 @@ void RunJob::mesh() {
   }
   for (const std::string& note : system_->model.placement.notes) control_.info("{}", note);
   const CaseSpec& spec = system_->model.spec;
-  if (const std::string why = why_from_rest(spec); spec.run.rolling && !why.empty() && spec.run.start != RunStart::rest)
+  if (const std::string why = why_from_rest(spec); !why.empty() && spec.run.rolling && spec.run.start != RunStart::rest)
     control_.info("the rolling starts from rest: {}", why);
 }
 
