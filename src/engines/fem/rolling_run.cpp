@@ -179,9 +179,10 @@ class Roller {
     }
   }
   void look_whether_repeated(std::size_t group) {
-    const bool whole = run_.next_sample + 1 == wanted_.size() || wanted_[run_.next_sample + 1].group != group;
-    if (!whole || !observer_.repeats) return;
     std::vector<PositionSamples>& positions = result().positions;
+    const PositionSamples& window = positions[group];
+    const bool whole = window.samples.size() == sample_positions(sys_, window.position).size();
+    if (!whole || !observer_.repeats) return;
     const std::vector<PositionSamples> so_far(positions.begin(), positions.begin() + group + 1);
     time_output([&] { repeated_ = observer_.repeats(so_far); });
     if (repeated_) positions.resize(group + 1);

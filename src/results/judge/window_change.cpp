@@ -14,7 +14,7 @@ constexpr double kLeastSlip = 1e-4;  // that creepages are compared with
 
 }  // namespace
 
-WindowChange change_between(const MeanContact& before, const MeanContact& last) {
+WindowChange change_between(const MeanContact& before, const MeanContact& last, const DriveSpec& drive) {
   WindowChange out;
   const auto differ = [&](double a, double b, double tolerance) {
     const double by = std::abs(a - b);
@@ -31,6 +31,8 @@ WindowChange change_between(const MeanContact& before, const MeanContact& last) 
                 .F_y = differ(before.F_y, last.F_y, kForce * last.F_z),
                 .creepage_x = differ(before.creepage, last.creepage, kCreepage * slip),
                 .creepage_y = differ(before.lateral_creepage, last.lateral_creepage, kCreepage * slip)};
+  if (drive.creepage) out.change.creepage_x = kNotApplicable;
+  if (!drive.lateral_traction_coefficient) out.change.creepage_y = kNotApplicable;
   return out;
 }
 

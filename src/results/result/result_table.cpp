@@ -141,22 +141,22 @@ std::vector<ResultNumber> error_numbers() {
   using E = ContactErrors;
   return {
       row("p_max_error", kMPa, error_of<&E::p_max>, "± p_max", "Error bar of the largest pressure",
-          "Half width of the error due to the cell size; 95 % of cases lie within. Like all error bars, null for "
-          "transients, line contacts, several patches, a given approach and whole cells at the leading edge",
-          kColumn | kBem),
+          "Half-space: half width of the error due to the cell size; 95 % of cases lie within. Like all error bars, "
+          "null for transients, line contacts, several patches, a given approach and whole cells at the leading edge. "
+          "Finite elements without run.positions: change from the measuring window before",
+          kColumn),
       row("q_max_error", kMPa, error_of<&E::q_max>, "± q_max", "Error bar of the largest shear", "As for p_max",
-          kColumn | kBem),
+          kColumn),
       row("slip_area_fraction_error", kShare, error_of<&E::slip_area_fraction>, "± slip area",
-          "Error bar of the slip area", "As for p_max", kColumn | kBem),
+          "Error bar of the slip area", "As for p_max", kColumn),
       row("F_x_error", kKilonewtons, error_of<&E::F_x>, "± F_x", "Error bar of F_x",
-          "As for p_max; null where the case gives the force", kColumn | kBem),
+          "As for p_max; null where the case gives the force", kColumn),
       row("F_y_error", kKilonewtons, error_of<&E::F_y>, "± F_y", "Error bar of F_y",
-          "As for p_max; null where the case gives the lateral force", kColumn | kBem),
+          "As for p_max; null where the case gives the lateral force", kColumn),
       row("creepage_x_error", kPerMille, error_of<&E::creepage_x>, "± creepage",
-          "Error bar of the longitudinal creepage", "As for p_max; null where the case gives the creepage",
-          kColumn | kBem),
+          "Error bar of the longitudinal creepage", "As for p_max; null where the case gives the creepage", kColumn),
       row("creepage_y_error", kPerMille, error_of<&E::creepage_y>, "± lateral creepage",
-          "Error bar of the lateral creepage", "As for p_max; null where no lateral force is given", kColumn | kBem)};
+          "Error bar of the lateral creepage", "As for p_max; null where no lateral force is given", kColumn)};
 }
 
 std::vector<ResultNumber> plastic_numbers() {

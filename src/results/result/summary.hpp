@@ -17,8 +17,9 @@ namespace railstrata {
 
 inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN();
 
-/// Half widths of error bars: what the cells leave uncertain (judge/cell_errors.hpp); NaN: no law applies, or the case
-/// gives the number itself.
+/// Half widths of error bars: of half-spaces what the cells leave uncertain (judge/cell_errors.hpp), of finite elements
+/// the change from the window before (judge/window_change.hpp); NaN: no law applies, or the case gives the number
+/// itself.
 struct ContactErrors {
   double p_max = kNotApplicable, q_max = kNotApplicable;  ///< Pa
   double slip_area_fraction = kNotApplicable;

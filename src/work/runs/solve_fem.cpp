@@ -59,7 +59,8 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
 }
 
 WindowChange last_change(const RollingSystem& system, const std::vector<PositionSamples>& windows) {
-  return change_between(mean_contact(system, windows[windows.size() - 2]), mean_contact(system, windows.back()));
+  return change_between(mean_contact(system, windows[windows.size() - 2]), mean_contact(system, windows.back()),
+                        system.spec().drive);
 }
 
 /// Of a run until windows repeat, with what they still differ by.
