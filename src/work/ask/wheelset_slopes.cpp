@@ -83,6 +83,7 @@ class WheelSlopes {
         side_(side),
         state_(state),
         speed_(slip_at(wheel.track(), wheel.reference, wheel.motion, wheel.rail).speed),
+        known_{&wheel.touching(), descent_at(wheel, *state.z)},
         more_(wheel),
         less_(wheel),
         equations_(wheel.contact.equations()) {
@@ -110,7 +111,7 @@ class WheelSlopes {
     at_home_ = false;
     WheelsetState there = state_;
     number_of(there, input) += by;
-    place(w, side_, there, *there.roll, {});
+    place(w, side_, there, *there.roll, {}, known_);
     return descent_at(w, *there.z);
   }
 
@@ -124,7 +125,7 @@ class WheelSlopes {
 
   Wrench through_slip(const WheelsetInput& input) {
     if (!at_home_)
-      for (Wheel* w : {&more_, &less_}) place(*w, side_, state_, *state_.roll, {});
+      for (Wheel* w : {&more_, &less_}) place(*w, side_, state_, *state_.roll, {}, known_);
     at_home_ = true;
     if (!by_slip_) find_slip_columns();
     const double step = step_of(input, speed_);
@@ -173,6 +174,7 @@ class WheelSlopes {
   std::size_t side_;
   const WheelsetState& state_;
   double speed_;  ///< m/s, that creepages are of
+  KnownPlace known_;
   Wheel more_, less_;
   bool at_home_ = false;  ///< these two stand where the wheel stands
   std::unique_ptr<ContactEquations> equations_;
