@@ -63,8 +63,16 @@ class RollingDerivatives {
                      const RollingSolution& solution);
   /// more, less: the problem with the input larger and smaller by `step`, so small that tractions hardly change.
   RollingDerivative by(const RollingContact& more, const RollingContact& less, double step);
+  /// Where the bodies do not couple, with creepages, forces and moment of the tractions alone, at less cost.
+  RollingDerivative sums_by(const RollingContact& more, const RollingContact& less, double step);
 
  private:
+  struct NormalInput {
+    Plane gap;  ///< m
+    NormalTarget target;
+  };
+  /// Per unit of the input.
+  NormalInput normal_input(const RollingContact& more, const RollingContact& less, double step) const;
   TangentialProblem beside(const RollingContact& there, const NormalSolution& change, double by) const;
 
   const InfluenceOperator& influence_;
