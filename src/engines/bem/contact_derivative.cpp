@@ -65,7 +65,9 @@ PlaneTractions ContactDerivatives::moved(const Beside& there, const RollingDeriv
   const auto along = [&](const Plane& now, const Plane& by, Plane& moved) {
     for (std::size_t k = 0; k < now.size(); ++k) moved[k] = now[k] + step * by[k];
   };
-  along(solved_.solution.normal.pressure, slope.normal.pressure, out.field.p);
+  const Plane& pressure = solved_.solution.normal.pressure;
+  for (std::size_t k = 0; k < pressure.size(); ++k)
+    out.field.p[k] = pressure[k] > 0 ? moved_above_zero(pressure[k], step * slope.normal.pressure[k]) : 0.0;
   along(solved_.solution.tangential.q_x, slope.tangential.q_x, out.field.q_x);
   along(solved_.solution.tangential.q_y, slope.tangential.q_y, out.field.q_y);
   return out;

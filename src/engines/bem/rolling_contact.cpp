@@ -257,9 +257,10 @@ TangentialProblem RollingDerivatives::beside(const RollingContact& there, const 
                                              double by) const {
   NormalSolution normal = solution_.normal;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
-    const double moved = by * change.pressure[i];  // a cell about to leave stays, with the same difference
-    if (normal.pressure[i] > 0) normal.pressure[i] = std::max(normal.pressure[i], 2 * std::abs(moved)) + moved;
-    normal.gap[i] += by * change.gap[i];
+    if (normal.pressure[i] > 0)
+      normal.pressure[i] = moved_above_zero(normal.pressure[i], by * change.pressure[i]);
+    else
+      normal.gap[i] = moved_above_zero(normal.gap[i], by * change.gap[i]);
   }
   return tangential_part(influence_, grid_, there, normal);
 }

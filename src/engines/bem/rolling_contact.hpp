@@ -6,6 +6,8 @@
 // caused by the other's traction, until the pressure repeats. Both are solved only as accurately as the other is known:
 // the tangential problem takes one Newton step per outer iteration, the normal one a tolerance that follows the last
 // change of the pressure. So the coupled problem costs little more Newton steps than the tangential problem alone.
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "bem/contact_heat.hpp"
@@ -55,6 +57,9 @@ struct RollingDerivative {
   NormalSolution normal;  ///< pressure, approach and load
   TangentialDerivative tangential;
 };
+/// A pressure or gap and a change of it on both sides: a cell that it would take out of contact or into it stays where
+/// it is, with the same difference.
+inline double moved_above_zero(double value, double change) { return std::max(value, 2 * std::abs(change)) + change; }
 /// The linear equations of one solution; each derivative is cheaper than those before.
 class RollingDerivatives {
  public:

@@ -54,7 +54,7 @@ WheelsetState pressed_state(const SolvedWheelset& solved) {
 /// Of a difference: small beside what tractions and geometry do on the way to a cell's coming into contact, large
 /// beside round-off.
 double step_of(const WheelsetInput& input, double speed) {
-  constexpr double kLength = 2e-9, kHeight = 2e-10, kAngle = 1e-7, kTilt = 2e-9, kCreepage = 1e-8;
+  constexpr double kLength = 2e-9, kHeight = 2e-10, kAngle = 1e-7, kTilt = 3e-10, kCreepage = 1e-8;
   const std::string_view name = kWheelsetState[input.row].name, unit = kWheelsetState[input.row].unit;
   if (unit == "m") return name == "z" || name == "rail_z" ? kHeight : kLength;
   if (unit == "rad") return name == "roll" ? kTilt : kAngle;
