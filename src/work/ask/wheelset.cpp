@@ -319,7 +319,7 @@ std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, 
   }
 }
 
-double lean(Wheelset& set, const WheelsetState& state) {
+double lean_from_here(Wheelset& set, const WheelsetState& state) {
   const double from = set.roll;
   const std::array<Stiffening, 2> stiffening = set.stiffening;
   std::exception_ptr refused;
@@ -334,6 +334,23 @@ double lean(Wheelset& set, const WheelsetState& state) {
   if (const std::optional<double> z = lean_by_moment(set, state, from)) return *z;
   if (refused) std::rethrow_exception(refused);
   throw NumericalError("height and roll of the wheelset under its load were not found");
+}
+
+/// What states before have left may lead astray: once more without it.
+double lean(Wheelset& set, const WheelsetState& state) {
+  const bool is_new = set.wheels[0].contact.start.last().empty() && set.wheels[1].contact.start.last().empty();
+  try {
+    return lean_from_here(set, state);
+  } catch (const NoAnswer&) {
+    if (is_new) throw;
+  } catch (const NumericalError&) {
+    if (is_new) throw;
+  }
+  forget(set);
+  const int before = std::exchange(set.solutions, 0);
+  const double z = lean_from_here(set, state);
+  set.solutions += before;
+  return z;
 }
 
 /// Height and, unless it is given, the roll at which the wheels touch without a force.
