@@ -16,13 +16,16 @@ namespace railstrata {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-TEST(CInterface, HasTheNumbersOfTheCppOne) {
-  Handle contact;
+struct CPairs : OfBothPairs {};
+INSTANTIATE_TEST_SUITE_P(Pairs, CPairs, testing::ValuesIn(kPairs), OfBothPairs::name);
+
+TEST_P(CPairs, HaveTheNumbersOfTheCppInterface) {
+  Handle contact(GetParam());
   ASSERT_NE(contact.handle, nullptr) << contact.error.message;
   ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, &contact.error), RS_OK) << contact.error.message;
   HalfSpaceSettings settings;
   settings.cell = 0.5e-3;
-  const CaseResult result = solve_by_half_spaces(load_case(kQuick), settings);
+  const CaseResult result = solve_by_half_spaces(load_case(kQuick, {GetParam().begin(), GetParam().end()}), settings);
   const ContactSummary& c = result.summary.contact;
   EXPECT_EQ(contact.forces.p_max, c.patch.p_max);
   EXPECT_EQ(contact.forces.force_x, c.F_x);
@@ -57,8 +60,8 @@ TEST(CInterface, StatesHaveTheNumbersOfTheirCases) {
   EXPECT_NEAR(contact.forces.dissipation, other.forces.dissipation, 1e-9 * other.forces.dissipation);
 }
 
-TEST(CInterface, GivenForcesComeOutAndTheNextStateKnowsNothingOfThem) {
-  Handle contact;
+TEST_P(CPairs, GivenForcesComeOutAndTheNextStateKnowsNothingOfThem) {
+  Handle contact(GetParam());
   rs_state pulled = state_of(RS_FORCE_X | RS_FORCE_Y);
   pulled.force_x = 12e3;
   pulled.force_y = -4e3;
@@ -74,8 +77,8 @@ TEST(CInterface, GivenForcesComeOutAndTheNextStateKnowsNothingOfThem) {
   EXPECT_NEAR(contact.forces.creepage_x, creepage, 1e-12);
 }
 
-TEST(CInterface, AnApproachGivesTheLoadThatGaveIt) {
-  Handle contact;
+TEST_P(CPairs, AnApproachGivesTheLoadThatGaveIt) {
+  Handle contact(GetParam());
   rs_state loaded = state_of(RS_LOAD | RS_CREEPAGE_X);
   loaded.load = 80e3;
   ASSERT_EQ(contact.solve(loaded), RS_OK) << contact.error.message;
