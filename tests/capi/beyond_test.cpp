@@ -23,7 +23,7 @@ struct Coarse : Handle {
 };
 
 struct Beyond : OfBothPairs {};
-INSTANTIATE_TEST_SUITE_P(Pairs, Beyond, testing::ValuesIn(kPairs), OfBothPairs::name);
+INSTANTIATE_TEST_SUITE_P(Pairs, Beyond, testing::ValuesIn(kBothPairs), OfBothPairs::name);
 
 TEST_P(Beyond, AnApproachThatFlattensThePatchIsContinuedAndMarked) {
   Coarse contact(GetParam());

@@ -15,7 +15,7 @@ inline const std::string kQuick = source_dir() / "cases/quick/case.toml";
 /// A European pair in place of LMA on CN60.
 inline const std::vector<const char*> kEuropean{"geometry.wheel_profile=\"S1002\"", "geometry.rail_profile=\"UIC60\""};
 /// The case's own pair and that one.
-inline const std::vector<std::vector<const char*>> kPairs{{}, kEuropean};
+inline const std::vector<std::vector<const char*>> kBothPairs{{}, kEuropean};
 
 /// A test of both.
 struct OfBothPairs : testing::TestWithParam<std::vector<const char*>> {

@@ -42,7 +42,7 @@ struct Contacts {
 
 TEST(CMany, ContactsHaveTheBitsOfOneAfterTheOtherForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3, 0}) {
-    const std::vector<const char*>& pair = kPairs[static_cast<std::size_t>(threads % 2)];
+    const std::vector<const char*>& pair = kBothPairs[static_cast<std::size_t>(threads % 2)];
     Contacts many(pair), alone(pair);
     for (int step = 0; step < 2; ++step) {
       ASSERT_EQ(many.solve(threads), RS_OK);

@@ -28,7 +28,7 @@ rs_state pulling(double shift) {
 }
 
 struct CPatchForcesOf : OfBothPairs {};
-INSTANTIATE_TEST_SUITE_P(Pairs, CPatchForcesOf, testing::ValuesIn(kPairs), OfBothPairs::name);
+INSTANTIATE_TEST_SUITE_P(Pairs, CPatchForcesOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
 
 TEST_P(CPatchForcesOf, AddUpAndTurnAboutAnyPoint) {
   Handle contact(GetParam());

@@ -17,7 +17,7 @@ namespace {
 struct MotionOf : OfBothPairs {
   const std::string text{GetParam().empty() ? "" : kEuropeanCase};
 };
-INSTANTIATE_TEST_SUITE_P(Pairs, MotionOf, testing::ValuesIn(kPairs), OfBothPairs::name);
+INSTANTIATE_TEST_SUITE_P(Pairs, MotionOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
 
 double number_of(Set& set, const char* key) {
   double out = 0;

@@ -90,8 +90,13 @@ TEST(Wheelset, TrialStepsLeaveNoTraceAfterAReset) {
   }
 }
 
-TEST(Wheelset, AWheelThatLiftsIsAnAnswer) {
-  Set set;
+struct WheelsetOf : OfBothPairs {
+  const std::string text{GetParam().empty() ? "" : kEuropeanCase};
+};
+INSTANTIATE_TEST_SUITE_P(Pairs, WheelsetOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
+
+TEST_P(WheelsetOf, AWheelThatLiftsIsAnAnswer) {
+  Set set(text);
   ASSERT_EQ(set.solve(loaded()), RS_OK) << set.error.message;
   rs_wheelset_state state = loaded();
   state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
@@ -106,8 +111,8 @@ TEST(Wheelset, AWheelThatLiftsIsAnAnswer) {
   EXPECT_EQ(set.solve(tipped), RS_NO_ANSWER);
 }
 
-TEST(Wheelset, WithoutALoadTheWheelsTouchWithoutForces) {
-  Set set;
+TEST_P(WheelsetOf, WithoutALoadTheWheelsTouchWithoutForces) {
+  Set set(text);
   rs_wheelset_state state = loaded(2e-3);
   ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
   const double z = set.forces.z, roll = set.forces.roll;
