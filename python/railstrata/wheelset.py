@@ -7,7 +7,7 @@ from typing import Any, Mapping, Optional, Sequence
 
 from . import _bridge
 from .case import AnyCase, Length, Value, _case_of, _metres, _thread_count
-from .contact import PatchForces, _body, _number, _patch_forces, _plain
+from .contact import Contact, PatchForces, _body, _number, _patch_forces, _plain
 from .errors import CheckWarning
 
 Pair = Sequence[float]
@@ -194,6 +194,16 @@ class Wheelset:
         found = _bridge.call("patches_of_wheelset", wheelset=self._wheelset, side=_side(side),
                              about=None if about is None else _bridge.numbers(about))
         return tuple(_patch_forces(patch) for patch in found["patches"])
+
+    def contact(self, side: str) -> Contact:
+        """A copy of the contact of one side, "left" or "right", with its last solution: for `patch` and `stresses`. In
+        its own axes, those of a left wheel on its rail that rolls on: of the right wheel and of one that rolls back
+        those of the mirror. ValueError: no such side."""
+        case, cell, right, threads = self._given
+        made = Contact.__new__(Contact)
+        made._given = (case.with_(right) if right and _side(side) else case, cell, threads)
+        made._contact = _bridge.call("contact_of_wheelset", wheelset=self._wheelset, side=_side(side))
+        return made
 
     def set_profile(self, side: str, body: str, points: Any) -> None:
         """As Contact.set_profile, of one side, "left" or "right"; y is to the field side on both."""

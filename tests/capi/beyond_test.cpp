@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "tests/capi/wheelset_handle.hpp"
 
@@ -18,11 +19,14 @@ rs_state pressed(double approach) {
 }
 
 struct Coarse : Handle {
-  Coarse() { rs_set_cell(handle, 1e-3, nullptr); }
+  explicit Coarse(const std::vector<const char*>& overrides) : Handle(overrides) { rs_set_cell(handle, 1e-3, nullptr); }
 };
 
-TEST(Beyond, AnApproachThatFlattensThePatchIsContinuedAndMarked) {
-  Coarse contact;
+struct Beyond : OfBothPairs {};
+INSTANTIATE_TEST_SUITE_P(Pairs, Beyond, testing::ValuesIn(kBothPairs), OfBothPairs::name);
+
+TEST_P(Beyond, AnApproachThatFlattensThePatchIsContinuedAndMarked) {
+  Coarse contact(GetParam());
   ASSERT_EQ(contact.solve(pressed(1e-3)), RS_OK) << contact.error.message;
   EXPECT_EQ(contact.forces.beyond, 0);
   double before = contact.forces.force_z;
@@ -35,7 +39,7 @@ TEST(Beyond, AnApproachThatFlattensThePatchIsContinuedAndMarked) {
     EXPECT_GT(contact.forces.force_z, before);
     before = contact.forces.force_z;
   }
-  Coarse other;
+  Coarse other(GetParam());
   double force[3];
   for (int k = 0; k < 3; ++k) {
     ASSERT_EQ(other.solve(pressed((3 + k) * 1e-3)), RS_OK);
@@ -44,8 +48,8 @@ TEST(Beyond, AnApproachThatFlattensThePatchIsContinuedAndMarked) {
   EXPECT_NEAR(force[2] - force[1], force[1] - force[0], 1e-3 * (force[1] - force[0])) << "along a line";
 }
 
-TEST(Beyond, WhereItBeginsTheForceJumpsByLittle) {
-  Coarse contact;
+TEST_P(Beyond, WhereItBeginsTheForceJumpsByLittle) {
+  Coarse contact(GetParam());
   double low = 1e-3, high = 3e-3, borne = 0;
   while (high - low > 1e-6) {
     const double middle = 0.5 * (low + high);
@@ -59,8 +63,8 @@ TEST(Beyond, WhereItBeginsTheForceJumpsByLittle) {
   EXPECT_NEAR(contact.forces.force_z, borne, 0.02 * borne);
 }
 
-TEST(Beyond, LeavesNoTraceInTheSolutionsThatFollow) {
-  Coarse contact, other;
+TEST_P(Beyond, LeavesNoTraceInTheSolutionsThatFollow) {
+  Coarse contact(GetParam()), other(GetParam());
   ASSERT_EQ(contact.solve(pressed(0.1e-3)), RS_OK);
   ASSERT_EQ(other.solve(pressed(0.1e-3)), RS_OK);
   ASSERT_EQ(contact.solve(pressed(5e-3)), RS_OK);
@@ -71,15 +75,15 @@ TEST(Beyond, LeavesNoTraceInTheSolutionsThatFollow) {
   EXPECT_EQ(contact.forces.force_x, other.forces.force_x);
 }
 
-TEST(Beyond, IsAnErrorWhereTheStructHasNoPlaceForTheMarkOrALoadIsGiven) {
-  Coarse contact;
+TEST_P(Beyond, IsAnErrorWhereTheStructHasNoPlaceForTheMarkOrALoadIsGiven) {
+  Coarse contact(GetParam());
   contact.forces.size = offsetof(rs_forces, beyond);
   EXPECT_EQ(contact.solve(pressed(5e-3)), RS_NO_ANSWER);
   contact.forces.size = sizeof(rs_forces);
   rs_state loaded_state = state_of(RS_LOAD);
   loaded_state.load = 1e9;
   EXPECT_EQ(contact.solve(loaded_state), RS_NO_ANSWER);
-  Set set;
+  Set set(GetParam().empty() ? "" : kEuropeanCase);
   ASSERT_EQ(set.solve(loaded()), RS_OK) << set.error.message;
   rs_wheelset_state state = loaded();
   state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
@@ -88,8 +92,8 @@ TEST(Beyond, IsAnErrorWhereTheStructHasNoPlaceForTheMarkOrALoadIsGiven) {
   EXPECT_EQ(set.solve(state), RS_NO_ANSWER);
 }
 
-TEST(Beyond, AWheelsetThatIsPressedTooFarIsMarkedWheelByWheel) {
-  Set set;
+TEST_P(Beyond, AWheelsetThatIsPressedTooFarIsMarkedWheelByWheel) {
+  Set set(GetParam().empty() ? "" : kEuropeanCase);
   ASSERT_EQ(set.solve(loaded(1e-3)), RS_OK) << set.error.message;
   rs_wheelset_state state = loaded(1e-3);
   state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;

@@ -1,5 +1,7 @@
 #pragma once
 // A contact of the C interface that frees itself.
+#include <gtest/gtest.h>
+
 #include <string>
 #include <vector>
 
@@ -12,6 +14,15 @@ inline const std::string kQuick = source_dir() / "cases/quick/case.toml";
 
 /// A European pair in place of LMA on CN60.
 inline const std::vector<const char*> kEuropean{"geometry.wheel_profile=\"S1002\"", "geometry.rail_profile=\"UIC60\""};
+/// The case's own pair and that one.
+inline const std::vector<std::vector<const char*>> kBothPairs{{}, kEuropean};
+
+/// A test of both.
+struct OfBothPairs : testing::TestWithParam<std::vector<const char*>> {
+  static std::string name(const testing::TestParamInfo<std::vector<const char*>>& pair) {
+    return pair.param.empty() ? "LMA_CN60" : "S1002_UIC60";
+  }
+};
 
 struct Handle {
   explicit Handle(const std::vector<const char*>& overrides = {})

@@ -16,13 +16,16 @@ namespace railstrata {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-TEST(CInterface, HasTheNumbersOfTheCppOne) {
-  Handle contact;
+struct CPairs : OfBothPairs {};
+INSTANTIATE_TEST_SUITE_P(Pairs, CPairs, testing::ValuesIn(kBothPairs), OfBothPairs::name);
+
+TEST_P(CPairs, HaveTheNumbersOfTheCppInterface) {
+  Handle contact(GetParam());
   ASSERT_NE(contact.handle, nullptr) << contact.error.message;
   ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, &contact.error), RS_OK) << contact.error.message;
   HalfSpaceSettings settings;
   settings.cell = 0.5e-3;
-  const CaseResult result = solve_by_half_spaces(load_case(kQuick), settings);
+  const CaseResult result = solve_by_half_spaces(load_case(kQuick, {GetParam().begin(), GetParam().end()}), settings);
   const ContactSummary& c = result.summary.contact;
   EXPECT_EQ(contact.forces.p_max, c.patch.p_max);
   EXPECT_EQ(contact.forces.force_x, c.F_x);
@@ -35,10 +38,13 @@ TEST(CInterface, HasTheNumbersOfTheCppOne) {
   EXPECT_EQ(p, result.patch.p);
 }
 
-TEST(CInterface, StatesHaveTheNumbersOfTheirCases) {
-  Handle contact, other({"geometry.lateral_shift=0.5 mm", "drive.creepage=-0.0008", "drive.spin=0.1 1/m",
-                         "drive.lateral_creepage=0.0005", "drive.speed=20 m/s", "drive.friction_coefficient=0.4",
-                         "vehicle.wheel_load=70 kN"});
+TEST_P(CPairs, HaveInAStateTheNumbersOfItsCase) {
+  std::vector<const char*> changes{
+      "geometry.lateral_shift=0.5 mm", "drive.creepage=-0.0008", "drive.spin=0.1 1/m",
+      "drive.lateral_creepage=0.0005", "drive.speed=20 m/s",     "drive.friction_coefficient=0.4",
+      "vehicle.wheel_load=70 kN"};
+  changes.insert(changes.end(), GetParam().begin(), GetParam().end());
+  Handle contact(GetParam()), other(changes);
   ASSERT_NE(other.handle, nullptr) << other.error.message;
   rs_state state =
       state_of(RS_LATERAL_SHIFT | RS_CREEPAGE_X | RS_CREEPAGE_Y | RS_SPIN | RS_SPEED | RS_FRICTION | RS_LOAD);
@@ -57,8 +63,8 @@ TEST(CInterface, StatesHaveTheNumbersOfTheirCases) {
   EXPECT_NEAR(contact.forces.dissipation, other.forces.dissipation, 1e-9 * other.forces.dissipation);
 }
 
-TEST(CInterface, GivenForcesComeOutAndTheNextStateKnowsNothingOfThem) {
-  Handle contact;
+TEST_P(CPairs, GivenForcesComeOutAndTheNextStateKnowsNothingOfThem) {
+  Handle contact(GetParam());
   rs_state pulled = state_of(RS_FORCE_X | RS_FORCE_Y);
   pulled.force_x = 12e3;
   pulled.force_y = -4e3;
@@ -74,8 +80,8 @@ TEST(CInterface, GivenForcesComeOutAndTheNextStateKnowsNothingOfThem) {
   EXPECT_NEAR(contact.forces.creepage_x, creepage, 1e-12);
 }
 
-TEST(CInterface, AnApproachGivesTheLoadThatGaveIt) {
-  Handle contact;
+TEST_P(CPairs, AnApproachGivesTheLoadThatGaveIt) {
+  Handle contact(GetParam());
   rs_state loaded = state_of(RS_LOAD | RS_CREEPAGE_X);
   loaded.load = 80e3;
   ASSERT_EQ(contact.solve(loaded), RS_OK) << contact.error.message;
@@ -85,8 +91,8 @@ TEST(CInterface, AnApproachGivesTheLoadThatGaveIt) {
   EXPECT_NEAR(contact.forces.force_z, 80e3, 80e3 * 1e-4);
 }
 
-TEST(CInterface, StressesAreInEquilibriumWithThePressureAtTheSurface) {
-  Handle contact;
+TEST_P(CPairs, HaveStressesInEquilibriumWithThePressureAtTheSurface) {
+  Handle contact(GetParam());
   ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, nullptr), RS_OK);
   double pressure = 0, below = 0, s[12];
   for (double y = -6e-3; y <= 6e-3; y += 0.5e-3) {
@@ -268,8 +274,8 @@ TEST(CInterface, SizesOfNoVersionAreRefused) {
   EXPECT_NE(std::string(contact.error.message).find("element 1"), std::string::npos) << contact.error.message;
 }
 
-TEST(CInterface, AWheelThatIsLiftedHasNoForces) {
-  Handle contact;
+TEST_P(CPairs, WithALiftedWheelHaveNoForces) {
+  Handle contact(GetParam());
   rs_state state = state_of(RS_APPROACH | RS_CREEPAGE_X);
   state.creepage_x = 1e-3;
   for (const double approach : {1e-5, 0.0, -1e-6}) {
@@ -300,7 +306,7 @@ TEST(CInterface, AWheelThatIsLiftedHasNoForces) {
 
 /// A contact under two loads, the second from the solution of the first; its longitudinal forces.
 std::vector<double> two_loads(double load) {
-  Handle contact;
+  Handle contact(kBothPairs[static_cast<std::size_t>(load / 2e3) % 2]);
   std::vector<double> out;
   for (const double share : {1.0, 1.05}) {
     rs_state state = state_of(RS_LOAD);

@@ -16,7 +16,7 @@ constexpr int kMany = 5;
 
 /// Copies of a contact, with a state of its own each.
 struct Contacts {
-  Contacts() {
+  explicit Contacts(const std::vector<const char*>& overrides = {}) : first(overrides) {
     for (int k = 0; k < kMany; ++k) {
       handles.push_back(rs_contact_copy(first.handle, nullptr));
       states.push_back(state_of(RS_LOAD | RS_CREEPAGE_X));
@@ -42,7 +42,8 @@ struct Contacts {
 
 TEST(CMany, ContactsHaveTheBitsOfOneAfterTheOtherForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3, 0}) {
-    Contacts many, alone;
+    const std::vector<const char*>& pair = kBothPairs[static_cast<std::size_t>(threads % 2)];
+    Contacts many(pair), alone(pair);
     for (int step = 0; step < 2; ++step) {
       ASSERT_EQ(many.solve(threads), RS_OK);
       for (std::size_t k = 0; k < kMany; ++k) {
@@ -90,7 +91,7 @@ TEST(CMany, MistakesOfTheCallSolveNothing) {
 }
 
 TEST(CMany, WheelsetsHaveTheBitsOfOneAfterTheOther) {
-  Set set, other;
+  Set set(kEuropeanCase), other(kEuropeanCase);
   rs_wheelset* const copy = rs_wheelset_copy(set.handle, nullptr);
   rs_wheelset* const handles[] = {set.handle, copy};
   const rs_wheelset_state states[] = {loaded(1e-3), loaded(-2e-3)};

@@ -27,8 +27,11 @@ rs_state pulling(double shift) {
   return out;
 }
 
-TEST(CPatchForces, AddUpAndTurnAboutAnyPoint) {
-  Handle contact;
+struct CPatchForcesOf : OfBothPairs {};
+INSTANTIATE_TEST_SUITE_P(Pairs, CPatchForcesOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
+
+TEST_P(CPatchForcesOf, AddUpAndTurnAboutAnyPoint) {
+  Handle contact(GetParam());
   ASSERT_EQ(contact.solve(pulling(2e-3)), RS_OK) << contact.error.message;
   double sum[3] = {0, 0, 0};
   for (int k = 0; k < contact.forces.patches; ++k)

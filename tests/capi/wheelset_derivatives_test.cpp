@@ -134,6 +134,36 @@ TEST(WheelsetDerivatives, OfPlacesInOnePlaneAreThoseOfColdSolutions) {
   for (const Input& input : kPressed) expect_differences(set, cold, state, input);
 }
 
+// The pressure of the cell is smaller than what the step of the derivative changes.
+TEST(WheelsetDerivatives, WhereACellBeginsToTouchAreThoseOfTheSideWhereItTouches) {
+  constexpr double kStep = 2e-9, kClose = 1e-4;  // m
+  Set set(kEuropeanCase);
+  sharpen(set, 1e-11);
+  rs_wheelset_state state = running(2e-3, 1e-3);
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
+  state.roll = set.forces.roll;
+  const int cells = set.forces.wheel[RS_LEFT].cells;
+  const auto forces_at = [&](double z) {
+    state.z = z;
+    rs_wheelset_forget(set.handle);
+    EXPECT_EQ(set.solve(state), RS_OK) << set.error.message;
+    return set.forces;
+  };
+  double without = set.forces.z, with = without - 5e-6;
+  ASSERT_EQ(forces_at(without).wheel[RS_LEFT].cells, cells);
+  ASSERT_GT(forces_at(with).wheel[RS_LEFT].cells, cells);
+  while (without - with > 1e-13) {
+    const double middle = 0.5 * (without + with);
+    (forces_at(middle).wheel[RS_LEFT].cells == cells ? without : with) = middle;
+  }
+  const rs_wheelset_forces deeper = forces_at(with - kStep), here = forces_at(with);
+  const rs_wheelset_derivatives d = derivative(set, RS_BY_Z);
+  for (int i : {0, 1, 2})
+    EXPECT_NEAR(d.left_force[i], (here.wheel[RS_LEFT].force[i] - deeper.wheel[RS_LEFT].force[i]) / kStep,
+                kClose * std::abs(d.left_force[2]));
+}
+
 TEST(WheelsetDerivatives, UnderALoadKeepLoadAndMoment) {
   Set set(kEuropeanCase);
   ASSERT_EQ(set.solve(running(2e-3, 1e-3)), RS_OK) << set.error.message;

@@ -14,6 +14,19 @@
 namespace railstrata {
 namespace {
 
+struct MotionOf : OfBothPairs {
+  const std::string text{GetParam().empty() ? "" : kEuropeanCase};
+};
+INSTANTIATE_TEST_SUITE_P(Pairs, MotionOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
+
+double number_of(Set& set, const char* key) {
+  double out = 0;
+  EXPECT_EQ(rs_contact_number(rs_wheelset_contact(set.handle, RS_LEFT), key, &out, &set.error), RS_OK);
+  return out;
+}
+
+double radius_of(Set& set) { return number_of(set, "geometry.wheel_radius"); }
+
 rs_wheelset_state moving() {
   rs_wheelset_state out = loaded(2e-3, 2e-3);
   out.y_rate = 0.02;
@@ -36,8 +49,8 @@ rs_wheelset_state half_turned(rs_wheelset_state s) {
   return s;
 }
 
-TEST(WheelsetMotion, RollingBackIsRollingOnSeenFromBehind) {
-  Set on, back;
+TEST_P(MotionOf, RollingBackIsRollingOnSeenFromBehind) {
+  Set on(text), back(text);
   ASSERT_EQ(on.solve(moving()), RS_OK) << on.error.message;
   ASSERT_EQ(back.solve(half_turned(moving())), RS_OK) << back.error.message;
   const double sign[] = {-1, -1, 1};
@@ -75,8 +88,8 @@ TEST(WheelsetMotion, AWheelsetThatStandsHasAnAnswerBetweenThoseOfBothDirections)
   }
 }
 
-TEST(WheelsetMotion, WheelsThatSpinWhereTheAxleStandsSlideUnderAllFriction) {
-  Set set;
+TEST_P(MotionOf, WheelsThatSpinWhereTheAxleStandsSlideUnderAllFriction) {
+  Set set(text);
   rs_wheelset_state state = loaded();
   for (const double speed : {0.0, 1.0, -1.0})
     for (const double spinning : {20.0, -20.0}) {
@@ -90,8 +103,8 @@ TEST(WheelsetMotion, WheelsThatSpinWhereTheAxleStandsSlideUnderAllFriction) {
     }
 }
 
-TEST(WheelsetMotion, WheelsThatTurnByThemselvesHaveTheirOwnCreepage) {
-  Set axle, wheels, free;
+TEST_P(MotionOf, WheelsThatTurnByThemselvesHaveTheirOwnCreepage) {
+  Set axle(text), wheels(text), free(text);
   rs_wheelset_state state = loaded(2e-3);
   state.pitch_rate = 0.05;
   ASSERT_EQ(axle.solve(state), RS_OK) << axle.error.message;
@@ -100,16 +113,18 @@ TEST(WheelsetMotion, WheelsThatTurnByThemselvesHaveTheirOwnCreepage) {
   ASSERT_EQ(wheels.solve(state), RS_OK) << wheels.error.message;
   for (int i : {0, 1, 2}) EXPECT_EQ(wheels.forces.moment[i], axle.forces.moment[i]);
   for (int side : {RS_LEFT, RS_RIGHT})
-    state.wheel_pitch_rate[side] = state.speed / axle.forces.wheel[side].rolling_radius - state.speed / 0.43;
+    state.wheel_pitch_rate[side] = state.speed / axle.forces.wheel[side].rolling_radius - state.speed / radius_of(axle);
   ASSERT_EQ(free.solve(state), RS_OK) << free.error.message;
   for (int side : {RS_LEFT, RS_RIGHT}) EXPECT_LT(std::abs(free.forces.wheel[side].creepage_x), 2e-5);
 }
 
 // The whole track is turned by psi: the rails then stand at e/cos(psi) from the middle where x is 0.
-TEST(WheelsetMotion, ATrackThatIsTurnedHasItsForcesTurned) {
-  Set straight, turned;
+TEST_P(MotionOf, ATrackThatIsTurnedHasItsForcesTurned) {
+  Set straight(text), turned(text);
   constexpr double kTurn = 0.01;
-  const double c = std::cos(kTurn), s = std::sin(kTurn), e = 0.5 * 1.353 + 0.070;
+  const double c = std::cos(kTurn), s = std::sin(kTurn),
+               e = 0.5 * number_of(straight, "geometry.back_to_back") +
+                   number_of(straight, "geometry.flange_back_to_tape");
   rs_wheelset_state state = loaded(1e-3, 1e-3);
   ASSERT_EQ(straight.solve(state), RS_OK) << straight.error.message;
   rs_wheelset_state other = state;
@@ -120,7 +135,7 @@ TEST(WheelsetMotion, ATrackThatIsTurnedHasItsForcesTurned) {
   other.y = state.y / c;
   other.speed = c * state.speed;
   other.y_rate = s * state.speed;
-  other.pitch_rate = (state.speed - other.speed) / 0.43;
+  other.pitch_rate = (state.speed - other.speed) / radius_of(straight);
   for (int side : {RS_LEFT, RS_RIGHT}) {
     other.rail_yaw[side] = kTurn;
     other.rail_y[side] = (side == RS_LEFT ? e : -e) * (1 / c - 1);

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/faults.hpp"
 #include "geometry/profile_names.hpp"
@@ -195,6 +199,42 @@ TEST(Placement, further_contacts_are_those_of_the_lowered_wheel) {
   EXPECT_NEAR(ridge.rail_s, 0, 0.15 * mm) << "tilted by the cant and sampled by 0.05 mm";
   const double depth = 2 * 0.1 - std::sqrt(0.04 - 144 * mm * mm);
   EXPECT_NEAR(ridge.gap + first.wheel_offset_z, depth + 0.5 * lower, 1e-6);
+}
+
+/// Largest difference of place, plane and further contacts under 0.1 mm.
+double difference_of_places(const Profile& w, const Profile& r, const TrackGeometry& track, const RigidContact& a,
+                            const RigidContact& b) {
+  constexpr double kDescent = 0.1 * mm;
+  const auto places = [&](const RigidContact& first) {
+    std::vector<RigidContact> out = further_contacts(w, r, track, first, kDescent);
+    out.push_back(first);
+    out.push_back(overlap_place(w, r, track, first, {}, first.wheel_offset_z - kDescent));
+    return out;
+  };
+  const std::vector<RigidContact> of_a = places(a), of_b = places(b);
+  EXPECT_EQ(of_a.size(), of_b.size());
+  double most = 0;
+  for (std::size_t k = 0; k < std::min(of_a.size(), of_b.size()); ++k)
+    for (const auto member : {&RigidContact::rail_s, &RigidContact::x, &RigidContact::angle,
+                              &RigidContact::rolling_radius, &RigidContact::wheel_offset_z})
+      most = std::max(most, std::abs(of_a[k].*member - of_b[k].*member));
+  return most;
+}
+
+TEST(Placement, beside_a_known_place_is_that_of_a_search_of_all_gaps) {
+  for (const auto& [w, r] : {std::pair(wheel("S1002"), rail("UIC60")), {wheel("LMA"), rail("CN60")}})
+    for (const double shift : {-3.0, 0.4, 5.3})
+      for (const double roll : {0.0, 1e-3}) {
+        TrackGeometry track;
+        track.lateral_shift = shift * mm;
+        track.yaw = 2e-3;
+        track.roll = roll;
+        const RigidContact before = place_wheel(w, r, track);
+        track.lateral_shift += 1e-7;
+        track.yaw += 1e-7;
+        const RigidContact beside = place_wheel(w, r, track, {}, {&before, 0.1 * mm}), anew = place_wheel(w, r, track);
+        EXPECT_LT(difference_of_places(w, r, track, beside, anew), 1e-13) << w.name() << " " << shift << " " << roll;
+      }
 }
 
 TEST(Placement, a_wheel_on_its_tread_touches_nowhere_else) {

@@ -16,9 +16,15 @@ import railstrata as rs
 CELL = 1e-3
 
 
+@pytest.fixture(scope="module", params=[("LMA", "CN60"), ("S1002", "UIC60")], ids=lambda pair: pair[0])
+def case(request):
+    wheel, rail = request.param
+    return rs.Case("cases/quick").with_({"geometry.wheel_profile": wheel, "geometry.rail_profile": rail})
+
+
 @pytest.fixture(scope="module")
-def contact():
-    return rs.Contact("cases/quick", CELL, threads=1)
+def contact(case):
+    return rs.Contact(case, CELL, threads=1)
 
 
 def test_a_new_contact_has_the_bits_of_a_single_solution(case, contact):

@@ -67,6 +67,19 @@ def test_patches_add_up_to_their_wheel_and_copies_go_on(wheelset):
         rs.Wheelset("cases/quick", "1 mm").patches("left")
 
 
+def test_fields_and_stresses_are_those_of_a_side_s_contact(wheelset):
+    forces = wheelset.solve(speed=20, load=160e3, y=2e-3, yaw=1e-3)
+    contact = wheelset.contact("right")
+    patch = contact.patch()
+    assert np.sum(patch.p * patch.area) == pytest.approx(forces.right.normal_force, rel=1e-9)
+    assert patch.p.max() == pytest.approx(forces.right.p_max, rel=0.01)  # which lies between cells
+    assert contact.stresses([[0, 0, 3e-3]])[0, 2] < -100e6
+    wheelset.solve(speed=20, load=120e3)
+    assert contact.patch().p.max() == patch.p.max()
+    with pytest.raises(ValueError, match="left"):
+        wheelset.contact("middle")
+
+
 def test_trial_steps_leave_no_trace(wheelset):
     wheelset.solve(speed=20, load=160e3)
     wheelset.keep()

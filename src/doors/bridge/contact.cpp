@@ -181,6 +181,15 @@ void patches_of_wheelset(Call& call) {
   }
 }
 
+/// A copy of that of a side.
+void contact_of_wheelset(Call& call) {
+  const Held<Wheelset> set(call, "wheelset");
+  const auto made =
+      std::make_shared<Shared<Contact>>(set->wheels[static_cast<std::size_t>(call.whole("side"))].contact);
+  made->object.of_wheelset = false;
+  call.make(made);
+}
+
 void set_profile_of_wheelset(Call& call) {
   const Held<Wheelset> set(call, "wheelset");
   drop_solution(*set);
@@ -236,6 +245,7 @@ Functions contact_functions() {
           {"solve_wheelset", solve_wheelset},
           {"jacobian_of_wheelset", jacobian_of_wheelset},
           {"patches_of_wheelset", patches_of_wheelset},
+          {"contact_of_wheelset", contact_of_wheelset},
           {"set_profile_of_wheelset", set_profile_of_wheelset},
           {"set_tolerance_of_wheelset", set_tolerance_of_wheelset},
           {"copy_wheelset", copy_wheelset},

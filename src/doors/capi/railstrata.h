@@ -164,8 +164,8 @@ typedef struct rs_derivatives {
  * All other inputs stay as they were given; what was not given follows as in rs_solve: by RS_YAW the lateral creepage
  * turns with the wheel unless RS_CREEPAGE_Y was given. The equations of the cells in contact, sticking and slipping,
  * linearised at the last solution, so that errors are those of its sets: some 1e-4 after a tolerance of 1e-5, 1e-6
- * after 1e-8. Costs less than two warm solutions for each of six inputs. Where a derivative jumps (a cell comes into
- * contact, a profile's curvature changes) it is that of one side.
+ * after 1e-8. Six inputs cost three to eight warm solutions. Where a derivative jumps (a cell comes into contact, a
+ * profile's curvature changes) it is that of one side.
  * Without linear equations (several patches, friction that falls with slip or temperature, a film that yields, a force
  * over a given approach) by central differences of new solutions of a tolerance of 1e-10, several times dearer. Of a
  * lifted wheel all are 0. After an answer that is `beyond`, those of the solution that it is
@@ -346,7 +346,7 @@ typedef struct rs_wheelset_forces {
 
 /* Solves a state. After an error the last solution is gone. A height (RS_WHEELSET_Z) that presses a wheel too far:
  * RS_OK with `beyond`, as rs_solve; what the cells do not carry acts at rs_wheel.point. RS_NO_ANSWER: of rs_solve; the
- * roll moment tips the wheelset over. */
+ * roll moment tips the wheelset over, with what each wheel bears alone. */
 RS_API int rs_wheelset_solve(rs_wheelset* wheelset, const rs_wheelset_state* state, rs_wheelset_forces* forces,
                              rs_error* error);
 

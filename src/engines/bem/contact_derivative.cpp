@@ -54,9 +54,9 @@ ContactDerivatives::Beside ContactDerivatives::beside(const PlacedCase& there, d
   return out;
 }
 
-RollingDerivative ContactDerivatives::rolling(const Beside& more, const Beside& less, double step) {
+RollingDerivatives& ContactDerivatives::rolling() {
   if (!rolling_) rolling_.emplace(*patch_.influence, patch_.grid, patch_.contact, solved_.solution);
-  return rolling_->by(more.patch.contact, less.patch.contact, step);
+  return *rolling_;
 }
 
 PlaneTractions ContactDerivatives::moved(const Beside& there, const RollingDerivative& slope, double step) const {
@@ -65,7 +65,9 @@ PlaneTractions ContactDerivatives::moved(const Beside& there, const RollingDeriv
   const auto along = [&](const Plane& now, const Plane& by, Plane& moved) {
     for (std::size_t k = 0; k < now.size(); ++k) moved[k] = now[k] + step * by[k];
   };
-  along(solved_.solution.normal.pressure, slope.normal.pressure, out.field.p);
+  const Plane& pressure = solved_.solution.normal.pressure;
+  for (std::size_t k = 0; k < pressure.size(); ++k)
+    out.field.p[k] = pressure[k] > 0 ? moved_above_zero(pressure[k], step * slope.normal.pressure[k]) : 0.0;
   along(solved_.solution.tangential.q_x, slope.tangential.q_x, out.field.q_x);
   along(solved_.solution.tangential.q_y, slope.tangential.q_y, out.field.q_y);
   return out;
@@ -74,14 +76,14 @@ PlaneTractions ContactDerivatives::moved(const Beside& there, const RollingDeriv
 std::array<PlaneTractions, 2> ContactDerivatives::tractions(const PlacedCase& more, const PlacedCase& less,
                                                             const std::array<double, 2>& descents, double step) {
   const Beside above = beside(more, descents[0]), below = beside(less, descents[1]);
-  const RollingDerivative slope = rolling(above, below, step);
+  const RollingDerivative slope = rolling().by(above.patch.contact, below.patch.contact, step);
   return {moved(above, slope, step), moved(below, slope, -step)};
 }
 
 /// As of the target's approach, not of what follows it.
 ContactDerivative ContactDerivatives::between(const Beside& more, const Beside& less, double step) {
   const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
-  const RollingDerivative d = rolling(more, less, step);
+  const RollingDerivative d = rolling().sums_by(more.patch.contact, less.patch.contact, step);
   const double normal = solved_.solution.normal.load, lateral = solved_.solution.tangential.force_y,
                cosine = std::cos(one_.plane().angle), sine = std::sin(one_.plane().angle),
                force_y = d.tangential.force_y;

@@ -56,7 +56,7 @@ class ContactDerivatives {
   };
   Beside beside(const PlacedCase& there, double descent) const;
   OnePatch lowered(const CaseSpec& spec, const Placement& placement, double descent) const;
-  RollingDerivative rolling(const Beside& more, const Beside& less, double step);
+  RollingDerivatives& rolling();
   PlaneTractions moved(const Beside& there, const RollingDerivative& slope, double step) const;
   ContactDerivative between(const Beside& more, const Beside& less, double step);
   const ContactDerivative& by_descent();

@@ -1,14 +1,21 @@
 #include "bem/newton_step.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace railstrata {
+namespace {
+
+constexpr double kOfDerivative = 1e-6;  // accuracy of the linear systems
+
+}  // namespace
 
 NewtonStep::NewtonStep(TangentialState& state)
     : s_(state),
       normal_(2 * state.n, 0.0),
       diagonal_(state.n, 0.0),
       integral_(2 * state.n),
+      slowed_(2 * state.n),
       force_row_(state.L.self() / static_cast<double>(state.n)) {
   if (state.problem.x.force) directions_.push_back(0);
   if (state.problem.y.force) directions_.push_back(1);
@@ -106,13 +113,89 @@ void NewtonStep::linearise() {
 }
 
 const Plane& NewtonStep::derivative(const Plane& change) {
-  constexpr double kAccuracy = 1e-6;
   right_side_ = change;
   s_.for_both([&](std::size_t i) { project(i, right_side_[i], right_side_[s_.n + i]); });
   for (std::size_t c = 2 * s_.n; c < right_side_.size(); ++c) right_side_[c] *= force_row_;
   searched_.solve([&](const Plane& in, Plane& out) { product(in, out); },
-                  [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, kAccuracy);
+                  [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, kOfDerivative);
   return step_;
+}
+
+Plane NewtonStep::adjoint(const Plane& sum) {
+  right_side_ = sum;
+  s_.for_both([&](std::size_t i) { project(i, right_side_[i], right_side_[s_.n + i]); });
+  for (std::size_t c = 2 * s_.n; c < sum.size(); ++c) right_side_[c] *= force_row_;
+  Plane out;
+  searched_transposed_.solve([&](const Plane& in, Plane& image) { product_transposed(in, image); },
+                             [&](const Plane& in, Plane& image) { precondition_transposed(in, image); }, right_side_,
+                             out, kOfDerivative);
+  for (std::size_t c = 2 * s_.n; c < out.size(); ++c) out[c] *= force_row_;
+  return out;
+}
+
+/// `product`, transposed; the rows of the creepages weigh like those of tractions.
+void NewtonStep::product_transposed(const Plane& in, Plane& out) {
+  const std::size_t m = directions_.size(), n = s_.n;
+  integral_.resize(2 * n);
+  s_.for_both([&](std::size_t i) {
+    double x = in[i], y = in[n + i];
+    project(i, x, y);
+    integral_[i] = x + (steer_.empty() ? 0.0 : steer_[i] * y);
+    integral_[n + i] = y + (steer_.empty() ? 0.0 : steer_[n + i] * y);
+  });
+  const Components creep = s_.for_both_summed(integral_.data(), [](std::size_t) {});
+  s_.L.apply_transposed(integral_.data(), out.data());
+  double force[2] = {0, 0};
+  for (std::size_t c = 0; c < m; ++c) {
+    force[directions_[c]] = force_row_ * in[2 * n + c];
+    out[2 * n + c] = -force_row_ * creep[static_cast<std::size_t>(directions_[c])];
+  }
+  s_.for_both([&](std::size_t i) {
+    out[i] += force[0];
+    out[n + i] += force[1];
+    project(i, out[i], out[n + i]);
+    const double d = s_.set[i] == kSlip ? diagonal_[i] : 0.0;
+    out[i] += d * in[i];
+    out[n + i] += d * in[n + i];
+  });
+}
+
+/// `precondition`, transposed.
+void NewtonStep::precondition_transposed(const Plane& in, Plane& out) {
+  const std::size_t m = directions_.size(), n = s_.n;
+  double r[2] = {0, 0}, force[2] = {0, 0}, g[2] = {0, 0};
+  for (std::size_t c = 0; c < m; ++c)
+    r[c] = in[2 * n + c] / force_row_ + ordered_sum_of(2 * n, [&](std::size_t i) { return border_[c][i] * in[i]; });
+  const auto& a = border_force_;
+  if (m == 1) g[0] = r[0] / a[0][0];
+  if (m == 2) {
+    const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    g[0] = (a[1][1] * r[0] - a[1][0] * r[1]) / det;
+    g[1] = (a[0][0] * r[1] - a[0][1] * r[0]) / det;
+  }
+  for (std::size_t c = 0; c < m; ++c) {
+    force[directions_[c]] = g[c];
+    out[2 * n + c] = g[c] / force_row_;
+  }
+  s_.for_both([&](std::size_t i) {
+    double x = in[i] - force[0], y = in[n + i] - force[1];
+    project(i, x, y);
+    const double share = s_.set[i] == kSlip ? s_.L.self() / (s_.L.self() + diagonal_[i]) : 1.0;
+    slowed_[i] = x * share;
+    slowed_[n + i] = y * share;
+    integral_[i] = nearly_sticks(i) ? slowed_[i] : 0.0;
+    integral_[n + i] = nearly_sticks(i) ? slowed_[n + i] : 0.0;
+  });
+  s_.L.traction_of(integral_, out.data());
+  integral_.assign(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(2 * n));
+  integrate_from_trailing_edge(integral_.data(), out.data());
+  s_.for_both([&](std::size_t i) {
+    if (s_.set[i] == kSlip && !nearly_sticks(i)) {
+      out[i] = slowed_[i] / s_.L.self();
+      out[n + i] = slowed_[n + i] / s_.L.self();
+    }
+    project(i, out[i], out[n + i]);
+  });
 }
 
 /// out = A in: L dq - creepage, projected, plus the diagonal of slip; then the sums of dq for the given forces.
@@ -177,9 +260,6 @@ NewtonStep::Components NewtonStep::precondition_block(const double* in, double* 
 /// u(x) from u(x) - u(x + dx) = dx r along each run of nearly sticking cells, zero ahead of it and elsewhere.
 void NewtonStep::integrate_from_leading_edge(const double* r) {
   constexpr int strip = 32;  // columns
-  const auto first_step = [&](std::size_t k) {
-    return s_.given.first_step.empty() ? s_.L.step_length() : s_.given.first_step[k];
-  };
   for_each_if(threads_pay_for_sweep(2 * s_.n), (s_.grid.ny + strip - 1) / strip, [&](int s) {
     for (int i = s_.grid.nx - 1; i >= 0; --i)
       for (int j = s * strip; j < std::min(s_.grid.ny, (s + 1) * strip); ++j) {
@@ -189,6 +269,24 @@ void NewtonStep::integrate_from_leading_edge(const double* r) {
           integral_[c] = !sticks ? 0.0 : continues ? s_.grid.dx * r[c] + integral_[c + s_.ahead] : first_step(k) * r[c];
       }
   });
+}
+
+double NewtonStep::first_step(std::size_t i) const {
+  return s_.given.first_step.empty() ? s_.L.step_length() : s_.given.first_step[i];
+}
+
+/// Transposed: what a cell's slip adds to the displacements of its run, w of the cell and of those behind it.
+void NewtonStep::integrate_from_trailing_edge(const double* w, double* out) const {
+  Plane behind(2 * s_.ahead, 0.0);
+  for (int i = 0; i < s_.grid.nx; ++i)
+    for (int j = 0; j < s_.grid.ny; ++j) {
+      const std::size_t k = s_.grid.index(i, j), row = static_cast<std::size_t>(j);
+      const bool sticks = nearly_sticks(k), continues = sticks && i + 1 < s_.grid.nx && nearly_sticks(k + s_.ahead);
+      for (const auto& [c, sum] : {std::pair(k, &behind[row]), {s_.n + k, &behind[s_.ahead + row]}}) {
+        *sum = sticks ? *sum + w[c] : 0.0;
+        out[c] = *sum * (continues ? s_.grid.dx : first_step(k));
+      }
+    }
 }
 
 /// The approximate inverse applied to a unit creepage, and its force: column and pivot for eliminating the creepages

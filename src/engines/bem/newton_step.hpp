@@ -33,6 +33,9 @@ class NewtonStep {
   /// Change of the tractions, then of the given forces' creepages, that takes back a change of the slip (two planes)
   /// and of the given forces (missing_force). Each call is cheaper than those before.
   const Plane& derivative(const Plane& change);
+  /// The weights w by which a sum c over what derivative() gives follows from each change, c · derivative(change) =
+  /// w · change: by the adjoint system A^T z = c, in steady rolling. Each call is cheaper than those before.
+  Plane adjoint(const Plane& sum);
 
  private:
   using Components = std::array<double, 2>;
@@ -50,18 +53,22 @@ class NewtonStep {
   void precondition(const Plane& in, Plane& out);
   Components precondition_block(const double* in, double* out);
   void integrate_from_leading_edge(const double* r);
+  void product_transposed(const Plane& in, Plane& out);
+  void precondition_transposed(const Plane& in, Plane& out);
+  void integrate_from_trailing_edge(const double* w, double* out) const;
+  double first_step(std::size_t i) const;
   void advance();
 
   TangentialState& s_;
   Plane normal_, diagonal_;  // of slipping cells: unit traction; (s.n)/g
   Plane steer_;  // of derivative(): change of lateral_slip beyond that of the slip itself, by the slip's x and y
-  Plane step_, right_side_, integral_;
+  Plane step_, right_side_, integral_, slowed_;
   std::vector<int> directions_;
   double force_row_;  // a force residual weighs like a slip residual
   std::vector<Plane> border_;
   double border_force_[2][2] = {{1, 0}, {0, 1}};
   GmresSpace space_;
-  RecycledKrylov searched_;  // of derivative()
+  RecycledKrylov searched_, searched_transposed_;  // of derivative() and of adjoint()
 };
 
 }  // namespace railstrata

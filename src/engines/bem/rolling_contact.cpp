@@ -257,22 +257,36 @@ TangentialProblem RollingDerivatives::beside(const RollingContact& there, const 
                                              double by) const {
   NormalSolution normal = solution_.normal;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
-    const double moved = by * change.pressure[i];  // a cell about to leave stays, with the same difference
-    if (normal.pressure[i] > 0) normal.pressure[i] = std::max(normal.pressure[i], 2 * std::abs(moved)) + moved;
-    normal.gap[i] += by * change.gap[i];
+    if (normal.pressure[i] > 0)
+      normal.pressure[i] = moved_above_zero(normal.pressure[i], by * change.pressure[i]);
+    else
+      normal.gap[i] = moved_above_zero(normal.gap[i], by * change.gap[i]);
   }
   return tangential_part(influence_, grid_, there, normal);
+}
+
+RollingDerivatives::NormalInput RollingDerivatives::normal_input(const RollingContact& more, const RollingContact& less,
+                                                                 double step) const {
+  const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
+  NormalInput out{Plane(grid_.size()), {}};
+  for (std::size_t i = 0; i < out.gap.size(); ++i) out.gap[i] = slope(more.gap[i], less.gap[i]);
+  if (contact_.target.load) out.target.load = slope(*more.target.load, *less.target.load);
+  if (contact_.target.approach) out.target.approach = slope(*more.target.approach, *less.target.approach);
+  return out;
+}
+
+RollingDerivative RollingDerivatives::sums_by(const RollingContact& more, const RollingContact& less, double step) {
+  if (influence_.couples()) return by(more, less, step);
+  const auto [gap, target] = normal_input(more, less, step);
+  RollingDerivative d{normal_.by(gap, target), {}};
+  d.tangential = tangential_.sums_by(beside(more, d.normal, step), beside(less, d.normal, -step), step);
+  return d;
 }
 
 RollingDerivative RollingDerivatives::by(const RollingContact& more, const RollingContact& less, double step) {
   constexpr double kSettled = 1e-6;  // change of the pressure's derivative between two rounds
   constexpr int kMostRounds = 40;
-  const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
-  Plane gap_alone(grid_.size());
-  for (std::size_t i = 0; i < gap_alone.size(); ++i) gap_alone[i] = slope(more.gap[i], less.gap[i]);
-  NormalTarget target;
-  if (contact_.target.load) target.load = slope(*more.target.load, *less.target.load);
-  if (contact_.target.approach) target.approach = slope(*more.target.approach, *less.target.approach);
+  const auto [gap_alone, target] = normal_input(more, less, step);
   RollingDerivative d;
   for (int round = 0; round < kMostRounds; ++round) {
     const Plane gap = round > 0 ? gap_with_displacement_by_traction(influence_, gap_alone, d.tangential) : gap_alone;

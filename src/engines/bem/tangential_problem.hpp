@@ -112,7 +112,7 @@ TangentialSolution solve_tangential(const InfluenceOperator& influence, const Pa
 /// Change of a solution per unit of an input, sets of sticking and slipping cells as they are. Of steady rolling
 /// without a bound that varies with slip (VaryingBound::needed).
 struct TangentialDerivative {
-  Plane q_x, q_y;                         ///< Pa
+  Plane q_x, q_y;                         ///< Pa; empty: the sums alone were asked for
   double creepage_x = 0, creepage_y = 0;  ///< of given forces
   double force_x = 0, force_y = 0, moment = 0;
 };
@@ -125,6 +125,8 @@ class TangentialDerivatives {
   ~TangentialDerivatives();
   /// more, less: the problem with the input larger and smaller by `step`.
   TangentialDerivative by(const TangentialProblem& more, const TangentialProblem& less, double step);
+  /// Creepages, forces and moment alone, of any number of inputs by three adjoint systems.
+  TangentialDerivative sums_by(const TangentialProblem& more, const TangentialProblem& less, double step);
 
  private:
   struct Linear;

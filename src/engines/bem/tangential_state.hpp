@@ -33,6 +33,8 @@ class SlipOperator {
     const std::size_t k = n_ + ahead_ + i;
     return (u_[k] - (steady_ ? u_[k + ahead_] : 0.0)) * inverse_step_;
   }
+  /// out = L^T in, of steady rolling.
+  void apply_transposed(const double* in, double* out);
   /// The traction on the periodic grid that makes a displacement.
   void traction_of(const Plane& displacement, double* out);
 
@@ -58,6 +60,7 @@ class SlipOperator {
   std::size_t n_, ahead_;
   Plane u_;       // rail minus wheel displacement, with a row of cells ahead
   Plane scaled_;  // traction or displacement as the influence has it; with a lateral share
+  Plane turned_;  // a slip of the grid turned by half a turn
   int products_ = 0;
 };
 

@@ -182,9 +182,11 @@ SharedLoad WheelOnPatches::take() {
 }
 
 void WheelOnPatches::descend() {
+  constexpr int kSoon = 15;  // rounds; later ones take means: a small patch goes to and fro in the slope beside another
   const bool pressed = spec_.vehicle.approach.has_value();
+  Eigen::MatrixXd bent = depressions();
   for (iterations_ = 1; iterations_ <= kMostRounds; ++iterations_) {
-    const Eigen::MatrixXd bent = depressions();
+    bent = iterations_ > kSoon ? Eigen::MatrixXd(0.5 * (bent + depressions())) : depressions();
     const double moved = solve_at(bent), load = pressed ? vertical() : weight_,
                  close = (rubs_ ? options_.balance : kRough) * load, closed = rubs_ ? kClosure * close : close;
     if (moved <= close && (pressed || std::abs(vertical() - weight_) <= closed) && approaches_settled()) return;

@@ -208,16 +208,26 @@ GapSamples sample_overlap(const Gap& gap, const Profile& rail) {
   const std::vector<Vec2> places = even_positions(rail, begin, (end - begin) / n, static_cast<std::size_t>(n) + 1);
   Gap::WalkedWheel walked = gap.walk();
   GapSamples out;
-  out.s.reserve(places.size());
-  out.gap.reserve(places.size());
-  out.x.reserve(places.size());
   for (int i = 0; i <= n; ++i) {
     const double s = i == n ? end : begin + (end - begin) * i / n;
     const std::optional<Gap::Faced> faced = gap.faced(places[static_cast<std::size_t>(i)], walked);
     if (!faced) continue;
-    out.s.push_back(s);
-    out.gap.push_back(faced->gap);
-    out.x.push_back(faced->x);
+    out.add(s, faced->gap, faced->x);
+  }
+  return out;
+}
+
+/// Those of a known place, looked at anew where its wheel comes near.
+GapSamples sample_again(const Gap& gap, const Profile& rail, const KnownPlace& known) {
+  constexpr double kNear = 10e-6;  // m
+  const GapSamples& before = *known.contact->searched;
+  const double reached = known.descent - known.contact->wheel_offset_z + kNear;
+  Gap::WalkedWheel walked = gap.walk();
+  GapSamples out;
+  for (std::size_t i = 0; i < before.s.size(); ++i) {
+    std::optional<Gap::Faced> faced = Gap::Faced{before.gap[i], before.x[i]};
+    if (before.gap[i] <= reached) faced = gap.faced(rail.at(before.s[i]).position, walked);
+    if (faced) out.add(before.s[i], faced->gap, faced->x);
   }
   return out;
 }
@@ -407,10 +417,13 @@ double yaw_creepage(const RigidContact& contact) {
   return 0.0 - (contact.roll == 0 ? std::tan(contact.yaw) / std::cos(contact.angle) : lateral_motion(contact));
 }
 
-RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const HeldPlace& held) {
+RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const HeldPlace& held,
+                         const KnownPlace& known) {
   const double offset_y = lateral_offset(wheel, rail, track);
   const Gap gap(wheel, rail, track, offset_y);
-  const auto searched = std::make_shared<const GapSamples>(sample_overlap(gap, rail));
+  const bool known_there = known.contact && known.contact->searched;
+  const auto searched =
+      std::make_shared<const GapSamples>(known_there ? sample_again(gap, rail, known) : sample_overlap(gap, rail));
   const GapSamples& samples = *searched;
   if (samples.s.size() < 3)
     throw CaseError(fmt::format("{}: the wheel misses the rail; its tape circle stands {:.1f} mm from the rail's axis",

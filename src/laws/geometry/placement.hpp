@@ -31,6 +31,11 @@ struct TrackGeometry {
 /// x: where the wheel is lowest, from the middle of the tape circle along the rail.
 struct GapSamples {
   std::vector<double> s, gap, x;
+  void add(double at, double gap_there, double x_there) {
+    s.push_back(at);
+    gap.push_back(gap_there);
+    x.push_back(x_there);
+  }
 };
 
 /// The wheel just touching the rail.
@@ -86,6 +91,13 @@ struct HeldPlace {
   double rail_s = 0, within = 0;  ///< m; within 0: none is held
 };
 
+/// A contact on nearly the same track, from which a search takes all gaps that its wheel does not reach under a descent
+/// [m], for differences over small steps.
+struct KnownPlace {
+  const RigidContact* contact = nullptr;
+  double descent = 0;
+};
+
 /// Lowers the wheel vertically until it touches: the smallest vertical gap over the rail's whole running surface, found
 /// to 1e-9 m where the contact is a single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. The
 /// wheel is turned by the yaw psi about the vertical through the middle of its tape circle; the contact, at the angle
@@ -97,7 +109,7 @@ struct HeldPlace {
 /// lateral_shift. Throws CaseError if the wheel misses the rail, touches at the end of a profile, or the rail's profile
 /// ends above the gauge depth.
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
-                         const HeldPlace& held = {});
+                         const HeldPlace& held = {}, const KnownPlace& known = {});
 
 /// Where the wheel touches if it is lowered further, through the rail: the lowest places of the vertical gap besides
 /// `first` (of place_wheel) whose gap is at most `descent` [m], nearest first. Each is a contact of the lowered wheel:

@@ -151,7 +151,7 @@ void Contact::set_tolerance(BemOptions& options, double t) {
   options.rolling.normal.tolerance = 0.01 * t;
 }
 
-const Placement& Contact::place(InState& out) const {
+const Placement& Contact::place(InState& out, const KnownPlace& known) const {
   const GeometrySpec& now = out.spec.geometry;
   if (stands_at(now, placement_.track)) return placement_;
   TrackGeometry& track = out.moved.track;
@@ -161,7 +161,7 @@ const Placement& Contact::place(InState& out) const {
   track.lateral_shift = now.lateral_shift;
   track.yaw = now.yaw;
   track.roll = now.roll;
-  by_physics([&] { out.moved.contact = place_wheel(out.moved.wheel, out.moved.rail, track); });
+  by_physics([&] { out.moved.contact = place_wheel(out.moved.wheel, out.moved.rail, track, {}, known); });
   out.placed = true;
   return out.moved;
 }
@@ -286,12 +286,13 @@ std::vector<Slopes> Contact::slopes(const std::vector<const StateMember*>& input
   const auto last = equations();
   const Placement& here = case_in(*state_).placement;
   const bool linear = last->of.has_value();
+  const KnownPlace known = linear ? KnownPlace{&here.contact, start.last().descent} : KnownPlace{};
   if (!linear) set_tolerance(last->options, kTolerance);
   const auto beside = [&](const StateMember& input, double value, InState& there) -> PlacedCase {
     State state = *state_;
     state.*input.at = value;
     set_state(state, spec_, there.spec);
-    return {there.spec, stands_at(there.spec.geometry, here.track) ? here : place(there)};
+    return {there.spec, stands_at(there.spec.geometry, here.track) ? here : place(there, known)};
   };
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     const StateMember& input = *inputs[k];
@@ -346,8 +347,8 @@ void Contact::set_profile(BodyId body, std::vector<Vec2> points) {
   drop_solution();
 }
 
-void Contact::move_to(const TrackGeometry& track, const HeldPlace& held) {
-  by_physics([&] { placement_.contact = place_wheel(placement_.wheel, placement_.rail, track, held); });
+void Contact::move_to(const TrackGeometry& track, const HeldPlace& held, const KnownPlace& known) {
+  by_physics([&] { placement_.contact = place_wheel(placement_.wheel, placement_.rail, track, held, known); });
   placement_.track = track;
   spec_.geometry.lateral_shift = track.lateral_shift;
   spec_.geometry.yaw = track.yaw;

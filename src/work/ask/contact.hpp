@@ -117,7 +117,7 @@ class Contact {
   /// A profile in place of the case's: points along the curve, m. Throws CaseError, and the old one stays.
   void set_profile(BodyId body, std::vector<Vec2> points);
   /// Moves the wheel to where it touches on this track (model/placement). Throws NoAnswer.
-  void move_to(const TrackGeometry& track, const HeldPlace& held);
+  void move_to(const TrackGeometry& track, const HeldPlace& held, const KnownPlace& known = {});
 
   const CaseSpec& spec() const { return spec_; }
   const Placement& placement() const { return placement_; }
@@ -137,7 +137,7 @@ class Contact {
     bool placed = false;  ///< `moved` stands where its track says
   };
   const Placement& set(const State& state, InState& out) const;
-  const Placement& place(InState& out) const;
+  const Placement& place(InState& out, const KnownPlace& known = {}) const;
   Forces lifted(State state);
   Forces pressed(const State& state);
   /// An approach that was refused: forces grow along the line through those of the two largest bearable ones of 10 um

@@ -135,9 +135,19 @@ double sink(Wheelset& set, double load) {
   };
   begin_stiffening(set);
   std::optional<TriedHeight> low, high;
+  std::optional<double> refused;  // the last height where a wheel is pressed further than half-spaces bear
   for (int i = 0; i < kMostSolutions && !(i >= kSoon && low && high); ++i) {
-    if (std::abs(excess(expected_height(set, load))) <= close) return now.z;
-    (now.excess > 0 ? low : high) = now;
+    double z = expected_height(set, load);
+    if (refused && z <= *refused)
+      z = 0.5 *
+          (*refused + (high ? high->z : std::max(height_touching(set.wheels[0]), height_touching(set.wheels[1]))));
+    try {
+      if (std::abs(excess(z)) <= close) return now.z;
+      (now.excess > 0 ? low : high) = now;
+    } catch (const NoAnswer&) {
+      if (i >= kSoon) throw;
+      refused = z;
+    }
   }
   if (low && high) narrow_root(low->z, low->excess, high->z, high->excess, close, kSame, kMostSolutions, excess);
   if (std::abs(now.excess) <= close) return now.z;
@@ -163,8 +173,10 @@ std::array<double, 2> wanted_forces(const Wheelset& set, double load, double rol
   arm[1] = -arm[1];
   const double left = (-roll_moment - arm[1] * load) / (arm[0] - arm[1]);
   if (!(left > 0 && left < load))
-    throw NoAnswer(fmt::format("a roll moment of {:.4g} N m tips the wheelset over under {:.4g} N", roll_moment, load),
-                   "give a smaller roll_moment, or the roll");
+    throw NoAnswer(fmt::format("a roll moment of {:.4g} N m tips the wheelset over: under {:.4g} N it bears {:.4g} N m "
+                               "on the left wheel alone to {:.4g} N m on the right one",
+                               roll_moment, load, -arm[0] * load, -arm[1] * load),
+                   "give a roll_moment between these, or the roll");
   return {left, load - left};
 }
 
@@ -275,9 +287,10 @@ std::optional<double> lean_by_descents(Wheelset& set, const WheelsetState& state
 }
 
 /// Height and roll: of all rolls, under each of which the wheelset sinks until it bears its load, the one whose moment
-/// is that wanted. The moment falls as the roll grows, until a wheel is lifted. Throws NoAnswer where it jumps.
+/// is that wanted. The moment falls as the roll grows, where a wheel is lifted only while the other one changes its
+/// place on the flange. Throws NoAnswer where it jumps.
 std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, double from) {
-  constexpr double kSame = 1e-10, kRoundOff = 10;  // rad; of what is close
+  constexpr double kSame = 1e-10, kRoundOff = 10, kFalls = 0.97;  // rad; of what is close; of the moment before
   double z = 0, last = 0;
   bool hold = false;
   const auto excess = [&](double roll) {
@@ -289,7 +302,8 @@ std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, 
   double a = from, at_a = excess(a);
   if (std::abs(at_a) <= close) return z;
   double step = 1.2 * at_a / (arm * arm * (set.stiffening[0].slope() + set.stiffening[1].slope()));
-  while (set.wheels[at_a > 0 ? 0 : 1].force.z > 0) {
+  for (;;) {
+    const bool lifted = !(set.wheels[at_a > 0 ? 0 : 1].force.z > 0);
     const double b = a + step, at_b = excess(b);
     if (std::abs(at_b) <= close) return z;
     hold = at_a * at_b < 0;
@@ -298,14 +312,14 @@ std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, 
       if (std::abs(last) > kRoundOff * close) refuse_jump(set, std::abs(last));
       return z;
     }
+    if (lifted && !(std::abs(at_b) < kFalls * std::abs(at_a))) return {};
     a = b;
     at_a = at_b;
     step *= 2;
   }
-  return {};
 }
 
-double lean(Wheelset& set, const WheelsetState& state) {
+double lean_from_here(Wheelset& set, const WheelsetState& state) {
   const double from = set.roll;
   const std::array<Stiffening, 2> stiffening = set.stiffening;
   std::exception_ptr refused;
@@ -320,6 +334,23 @@ double lean(Wheelset& set, const WheelsetState& state) {
   if (const std::optional<double> z = lean_by_moment(set, state, from)) return *z;
   if (refused) std::rethrow_exception(refused);
   throw NumericalError("height and roll of the wheelset under its load were not found");
+}
+
+/// What states before have left may lead astray: once more without it.
+double lean(Wheelset& set, const WheelsetState& state) {
+  const bool is_new = set.wheels[0].contact.start.last().empty() && set.wheels[1].contact.start.last().empty();
+  try {
+    return lean_from_here(set, state);
+  } catch (const NoAnswer&) {
+    if (is_new) throw;
+  } catch (const NumericalError&) {
+    if (is_new) throw;
+  }
+  forget(set);
+  const int before = std::exchange(set.solutions, 0);
+  const double z = lean_from_here(set, state);
+  set.solutions += before;
+  return z;
 }
 
 /// Height and, unless it is given, the roll at which the wheels touch without a force.

@@ -54,7 +54,7 @@ WheelsetState pressed_state(const SolvedWheelset& solved) {
 /// Of a difference: small beside what tractions and geometry do on the way to a cell's coming into contact, large
 /// beside round-off.
 double step_of(const WheelsetInput& input, double speed) {
-  constexpr double kLength = 2e-9, kHeight = 2e-10, kAngle = 1e-7, kTilt = 2e-9, kCreepage = 1e-8;
+  constexpr double kLength = 2e-9, kHeight = 2e-10, kAngle = 1e-7, kTilt = 3e-10, kCreepage = 1e-8;
   const std::string_view name = kWheelsetState[input.row].name, unit = kWheelsetState[input.row].unit;
   if (unit == "m") return name == "z" || name == "rail_z" ? kHeight : kLength;
   if (unit == "rad") return name == "roll" ? kTilt : kAngle;
@@ -83,6 +83,7 @@ class WheelSlopes {
         side_(side),
         state_(state),
         speed_(slip_at(wheel.track(), wheel.reference, wheel.motion, wheel.rail).speed),
+        known_{&wheel.touching(), descent_at(wheel, *state.z)},
         more_(wheel),
         less_(wheel),
         equations_(wheel.contact.equations()) {
@@ -110,7 +111,7 @@ class WheelSlopes {
     at_home_ = false;
     WheelsetState there = state_;
     number_of(there, input) += by;
-    place(w, side_, there, *there.roll, {});
+    place(w, side_, there, *there.roll, {}, known_);
     return descent_at(w, *there.z);
   }
 
@@ -124,7 +125,7 @@ class WheelSlopes {
 
   Wrench through_slip(const WheelsetInput& input) {
     if (!at_home_)
-      for (Wheel* w : {&more_, &less_}) place(*w, side_, state_, *state_.roll, {});
+      for (Wheel* w : {&more_, &less_}) place(*w, side_, state_, *state_.roll, {}, known_);
     at_home_ = true;
     if (!by_slip_) find_slip_columns();
     const double step = step_of(input, speed_);
@@ -173,6 +174,7 @@ class WheelSlopes {
   std::size_t side_;
   const WheelsetState& state_;
   double speed_;  ///< m/s, that creepages are of
+  KnownPlace known_;
   Wheel more_, less_;
   bool at_home_ = false;  ///< these two stand where the wheel stands
   std::unique_ptr<ContactEquations> equations_;

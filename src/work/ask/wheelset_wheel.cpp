@@ -33,10 +33,11 @@ void turn(Wheel& w, std::size_t side, const WheelsetState& state, double roll) {
   }
 }
 
-void place(Wheel& w, std::size_t side, const WheelsetState& state, double roll, const HeldPlace& held) {
+void place(Wheel& w, std::size_t side, const WheelsetState& state, double roll, const HeldPlace& held,
+           const KnownPlace& known) {
   turn(w, side, state, roll);
   const Placement& p = w.contact.placement();
-  w.contact.move_to(track_under(p.wheel, p.rail, w.at_rest, w.motion, w.rail), held);
+  w.contact.move_to(track_under(p.wheel, p.rail, w.at_rest, w.motion, w.rail), held, known);
 }
 
 double descent_at(const Wheel& w, double z) {

@@ -7,7 +7,8 @@ namespace railstrata {
 /// Takes motions and rates of a state, under a roll; the contact stays where it is.
 void turn(Wheel& wheel, std::size_t side, const WheelsetState& state, double roll);
 /// Looks where the wheel touches in a state, under a roll, and leaves it in its contact. Throws NoAnswer.
-void place(Wheel& wheel, std::size_t side, const WheelsetState& state, double roll, const HeldPlace& held);
+void place(Wheel& wheel, std::size_t side, const WheelsetState& state, double roll, const HeldPlace& held,
+           const KnownPlace& known = {});
 
 /// Descent of the wheel at the height z of the wheelset, m.
 double descent_at(const Wheel& wheel, double z);
