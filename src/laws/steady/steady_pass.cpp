@@ -15,7 +15,8 @@ namespace railstrata {
 
 namespace {
 
-constexpr int kNewtonSteps = 6;  // strains change by up to some 1e-3 from station to station
+constexpr int kNewtonSteps = 6;        // strains change by up to some 1e-3 from place to place
+constexpr double kMostBetween = 1.25;  // sum of the weights' magnitudes between stations, at most
 
 int terms_of(const PlasticParameters<double>& law) {
   int terms = 0;
@@ -24,8 +25,8 @@ int terms_of(const PlasticParameters<double>& law) {
   return terms;
 }
 
-/// One station of a streamline.
-void advance(const PlasticParameters<double>& law, int terms, const double (&strain)[6], double* history) {
+/// One place of neighbouring streamlines.
+void advance(const PlasticParameters<double>& law, int terms, const Pack (&strain)[6], Pack* history) {
   switch (terms) {
     case 0:
       return advance_plastic<0, kNewtonSteps>(law, strain, history);
@@ -38,6 +39,36 @@ void advance(const PlasticParameters<double>& law, int terms, const double (&str
     default:
       return advance_plastic<4, kNewtonSteps>(law, strain, history);
   }
+}
+
+Pack take_lanes(const double* p, int count) {
+  if (count == kLanes) return load(p);
+  Pack out{};
+  for (int l = 0; l < count; ++l) out[l] = p[l];
+  return out;
+}
+
+void give_lanes(double* p, int count, const Pack& v) {
+  if (count == kLanes) return store(p, v);
+  for (int l = 0; l < count; ++l) p[l] = v[l];
+}
+
+/// Catmull and Rom's cubic, the end's value beyond the ends.
+std::vector<Between> between_stations(const SteadyGrid& g) {
+  const int active = g.active_stations();
+  std::vector<Between> out;
+  for (int k = 0; k < active * g.steps; ++k) {
+    const double place = (k + 0.5) / g.steps - 0.5;
+    const int left = static_cast<int>(std::floor(place));
+    const double t = place - left, s = 1 - t;
+    Between& at = out.emplace_back();
+    for (int n = 0; n < 4; ++n) at.station[n] = std::clamp(left - 1 + n, 0, active - 1);
+    at.weight[0] = -0.5 * t * s * s;
+    at.weight[1] = s * s * (1 + 2 * t) + 0.5 * t * t * s;
+    at.weight[2] = t * t * (1 + 2 * s) + 0.5 * t * s * s;
+    at.weight[3] = -0.5 * t * t * s;
+  }
+  return out;
 }
 
 void take_deviator(double (&e)[6]) {
@@ -72,6 +103,17 @@ struct SteadyBody::Work {
   bool follows(int row) const { return rows.empty() || rows[static_cast<std::size_t>(row)]; }
 };
 
+/// Neighbouring columns of a row, as many as a pack has lanes or fewer.
+struct SteadyBody::Columns {
+  int row = 0, first = 0, count = 0;
+
+  static int blocks_of(const SteadyGrid& g) { return (g.ny + kLanes - 1) / kLanes; }
+  Columns(const SteadyGrid& g, std::ptrdiff_t block)
+      : row(static_cast<int>(block / blocks_of(g))),
+        first(kLanes * static_cast<int>(block % blocks_of(g))),
+        count(std::min(kLanes, g.ny - first)) {}
+};
+
 SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowModuli below,
                        std::vector<std::array<double, 2>> initial_stress)
     : response_(grid, moduli_of(rows), below),
@@ -80,6 +122,7 @@ SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowM
   assert(static_cast<int>(rows_.size()) == grid.rows() &&
          (initial_stress.empty() || initial_stress.size() == rows_.size()));
   for (const SteadyRow& row : rows_) terms_.push_back(terms_of(row.law));
+  between_ = between_stations(grid);
   initial_strain_.resize(rows_.size());
   for (std::size_t r = 0; r < initial_stress.size(); ++r)
     initial_strain_[r] = strain_of(static_cast<int>(r), {initial_stress[r][0], initial_stress[r][1], 0, 0, 0, 0});
@@ -87,23 +130,21 @@ SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowM
 
 void move_guess(const SteadyGrid& g, int columns, PassState& state) {
   if (columns == 0) return;
-  const auto move = [&](Field& field, int together) {  // numbers of a column that lie side by side
-    Field moved(field.size());
-    const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(g.ny) * together,
-                         by = static_cast<std::ptrdiff_t>(std::clamp(columns, -g.ny, g.ny)) * together,
-                         from = std::max<std::ptrdiff_t>(0, -by);
-    for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(field.size()); row += line)
-      std::copy_n(field.begin() + row + from, line - std::abs(by), moved.begin() + row + from + by);
-    field = std::move(moved);
-  };
-  move(state.residual_strain, g.active_stations());
-  move(state.rise, 1);
+  for (Field* field : {&state.residual_strain, &state.rise}) {
+    Field moved(field->size());
+    const int by = std::clamp(columns, -g.ny, g.ny), from = std::max(0, -by);
+    for (std::size_t line = 0; line < field->size(); line += static_cast<std::size_t>(g.ny)) {
+      const auto begin = static_cast<std::ptrdiff_t>(line) + from;
+      std::copy_n(field->begin() + begin, g.ny - std::abs(by), moved.begin() + begin + by);
+    }
+    *field = std::move(moved);
+  }
 }
 
 PassState SteadyBody::virgin() const {
   PassState state;
   state.history.assign(grid().points() * kStreamlineHistory, 0.0);
-  state.residual_strain.assign(6 * grid().points() * static_cast<std::size_t>(grid().active_stations()), 0.0);
+  state.residual_strain.assign(grid().active_size(), 0.0);
   state.rise.assign(3 * grid().plane(), 0.0);
   return state;
 }
@@ -148,7 +189,7 @@ Field SteadyBody::uniform_strain(const std::vector<double>& history, Field* surf
 }
 
 std::vector<StrainBall> SteadyBody::balls_of(const Field& contact_strain) const {
-  const SteadyGrid& g = grid();
+  const SteadyGrid g = grid().path();
   std::vector<StrainBall> out(g.points());
   for_each(static_cast<std::ptrdiff_t>(g.points()), [&](std::ptrdiff_t n) {
     const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
@@ -156,7 +197,7 @@ std::vector<StrainBall> SteadyBody::balls_of(const Field& contact_strain) const 
     least.fill(std::numeric_limits<double>::infinity());
     most.fill(-std::numeric_limits<double>::infinity());
     const auto deviator = [&](int i, double(&e)[6]) {
-      for (int c = 0; c < 6; ++c) e[c] = contact_strain[g.index(c, r, i, j)];
+      for (int c = 0; c < 6; ++c) e[c] = contact_strain[g.active_index(c, r, i, j)];
       take_deviator(e);
     };
     double e[6];
@@ -179,60 +220,106 @@ std::vector<StrainBall> SteadyBody::balls_of(const Field& contact_strain) const 
   return out;
 }
 
-/// An upper bound of the yield condition f over the strength, of all stations, as long as nothing flows.
-double SteadyBody::largest_excess(std::size_t point, const StrainBall& ball, const Field& before, const Field& guess,
-                                  const double* history) const {
-  const std::size_t points = grid().points(), line = static_cast<std::size_t>(grid().active_stations());
-  const auto r = point / static_cast<std::size_t>(grid().ny);
-  const PlasticParameters<double>& law = rows_[r].law;
-  double e[6], largest = 0;
-  for (std::size_t i = 0; i < line; ++i) {
-    for (std::size_t c = 0; c < 6; ++c) e[c] = guess[(c * points + point) * line + i];
-    largest = std::max(largest, double_contraction(e, e));
+/// An upper bound of the yield condition f over the strength, all along the columns, as long as nothing flows.
+double SteadyBody::largest_excess(const Columns& columns, const std::vector<StrainBall>& balls, const Field& before,
+                                  const Field& guess, const std::vector<double>& history) const {
+  const SteadyGrid& g = grid();
+  const auto [r, first, count] = columns;
+  const PlasticParameters<double>& law = rows_[static_cast<std::size_t>(r)].law;
+  Pack largest{};
+  for (int i = 0; i < g.active_stations(); ++i) {
+    Pack e[6];
+    for (int c = 0; c < 6; ++c) e[c] = take_lanes(guess.data() + g.active_index(c, r, i, first), count);
+    const Pack size = double_contraction(e, e);
+    largest = size > largest ? size : largest;
   }
-  for (std::size_t c = 0; c < 6; ++c) e[c] = before[c * points + point] + initial_strain_[r][c];
-  take_deviator(e);
-  for (std::size_t c = 0; c < 6; ++c) {
-    e[c] += ball.middle[c] - history[c];
-    for (int k = 0; k < terms_[r]; ++k) e[c] -= history[7 + 6 * k + static_cast<int>(c)] / (2 * law.mu);
+  double out = -std::numeric_limits<double>::infinity();
+  for (int l = 0; l < count; ++l) {
+    const std::size_t point = g.point(r, first + l);
+    const double* h = history.data() + point * kStreamlineHistory;
+    double e[6];
+    for (std::size_t c = 0; c < 6; ++c) e[c] = before[c * g.points() + point] + initial_strain_[r][c];
+    take_deviator(e);
+    for (std::size_t c = 0; c < 6; ++c) {
+      e[c] += balls[point].middle[c] - h[c];
+      for (int k = 0; k < terms_[r]; ++k) e[c] -= h[7 + 6 * k + static_cast<int>(c)] / (2 * law.mu);
+    }
+    const double strength = law.yield + law.saturation * saturated_share(law.rate * h[6]);
+    const double size = equivalent_strain(e) + balls[point].radius + kMostBetween * std::sqrt(2.0 / 3 * largest[l]);
+    const double excess = 3 * law.mu * size / strength - 1;
+    if (!(excess <= out)) out = excess;  // NaN too
   }
-  const double strength = law.yield + law.saturation * saturated_share(law.rate * history[6]);
-  return 3 * law.mu * (equivalent_strain(e) + ball.radius + std::sqrt(2.0 / 3 * largest)) / strength - 1;
+  return out;
+}
+
+/// visit(k, strain): after place k of the path.
+template <class Visit>
+void SteadyBody::take_law(const Columns& columns, const Field& contact_strain, const Field& before, const Field& guess,
+                          Pack* history, Visit&& visit) const {
+  const SteadyGrid &g = grid(), path = g.path();
+  const auto [r, first, count] = columns;
+  const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
+  const bool flows = std::isfinite(row.law.yield);
+  Pack always[6];
+  for (int c = 0; c < 6; ++c)
+    always[c] = take_lanes(before.data() + c * g.points() + g.point(r, first), count) + initial_strain_[r][c];
+  for (int k = 0; k < path.active_stations(); ++k) {
+    const Between& at = between_[static_cast<std::size_t>(k)];
+    Pack e[6];
+    for (int c = 0; c < 6; ++c) {
+      e[c] = always[c] + take_lanes(contact_strain.data() + path.active_index(c, r, k, first), count);
+      for (int n = 0; n < 4; ++n)
+        e[c] += at.weight[n] * take_lanes(guess.data() + g.active_index(c, r, at.station[n], first), count);
+    }
+    if (flows) advance(row.law, terms_[r], e, history);
+    visit(k, e);
+  }
 }
 
 void SteadyBody::follow(const Field& contact_strain, const PassState& state, Work& work) const {
   const SteadyGrid& g = grid();
   const int active = g.active_stations();
-  const std::size_t line = static_cast<std::size_t>(active);
   std::vector<double> share(static_cast<std::size_t>(g.nx));
   for (int i = 0; i < g.nx; ++i) share[i] = g.share(i);
   const bool with_field = !work.field.empty();
   const int late = std::max(0, active - static_cast<int>(std::lround(0.25 * g.active / g.dx)));
   for_each(
-      static_cast<std::ptrdiff_t>(g.points()),
+      static_cast<std::ptrdiff_t>(g.rows() * Columns::blocks_of(g)),
       [&](std::ptrdiff_t n) {
-        const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
-        const double* before = state.history.data() + n * kStreamlineHistory;
-        double* h = work.after.data() + n * kStreamlineHistory;
-        std::copy(before, before + kStreamlineHistory, h);
+        const Columns columns(g, n);
+        const auto [r, first, count] = columns;
+        const std::size_t point = g.point(r, first);
+        const auto begin = state.history.begin() + static_cast<std::ptrdiff_t>(point * kStreamlineHistory);
+        std::copy_n(begin, count * kStreamlineHistory, work.after.data() + point * kStreamlineHistory);
         if (!work.follows(r)) return;
-        const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
-        const auto point = static_cast<std::size_t>(n);
-        const bool yields = std::isfinite(row.law.yield) &&
-                            !(largest_excess(point, work.balls[point], work.before, work.guess, before) <= 0);
+        const bool yields = std::isfinite(rows_[static_cast<std::size_t>(r)].law.yield) &&
+                            !(largest_excess(columns, work.balls, work.before, work.guess, state.history) <= 0);
         if (!yields && !with_field) return;
-        for (int i = 0; i < g.nx; ++i) {
-          if (i == late) work.late[n] = h[6];
-          if (yields && i < active) {
-            double e[6];
-            for (int c = 0; c < 6; ++c)
-              e[c] = contact_strain[g.index(c, r, i, j)] + work.before[c * g.points() + n] + initial_strain_[r][c] +
-                     work.guess[(c * g.points() + n) * line + i];
-            advance(row.law, terms_[r], e, h);
-          }
-          for (int c = 0; with_field && c < 6; ++c) work.field[g.index(c, r, i, j)] = share[i] * (h[c] - before[c]);
-        }
-        work.late[n] = h[6] - work.late[n];
+        Pack h[kStreamlineHistory]{}, before[6], sum[6]{}, early{};
+        for (int l = 0; l < count; ++l)
+          for (int k = 0; k < kStreamlineHistory; ++k) h[k][l] = *(begin + l * kStreamlineHistory + k);
+        std::copy_n(h, 6, before);
+        early = h[6];
+        const auto give = [&](int i, int c, const Pack& strain) {
+          if (with_field) give_lanes(work.field.data() + g.index(c, r, i, first), count, share[i] * strain);
+        };
+        if (yields)
+          take_law(columns, contact_strain, work.before, work.guess, h, [&](int k, const Pack(&)[6]) {
+            for (int c = 0; c < 6; ++c) sum[c] += h[c] - before[c];
+            if ((k + 1) % g.steps != 0) return;
+            for (int c = 0; c < 6; ++c) {
+              give(k / g.steps, c, sum[c] / g.steps);
+              sum[c] = Pack{};
+            }
+            if ((k + 1) / g.steps == late) early = h[6];
+          });
+        for (int i = yields ? active : 0; i < g.nx; ++i)
+          for (int c = 0; c < 6; ++c) give(i, c, h[c] - before[c]);
+        give_lanes(work.late.data() + point, count, h[6] - early);
+        for (int l = 0; yields && l < count; ++l)
+          for (int k = 0; k < kStreamlineHistory; ++k)
+            work.after[(point + static_cast<std::size_t>(l)) * kStreamlineHistory + static_cast<std::size_t>(k)] =
+                h[k][l];
       },
       true);
 }
@@ -240,16 +327,15 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
 double SteadyBody::compare(Work& work) const {
   const SteadyGrid& g = grid();
   const int active = g.active_stations();
-  const std::size_t line = static_cast<std::size_t>(active);
-  std::vector<double> worst(g.points());
-  for_each(static_cast<std::ptrdiff_t>(g.points()), [&](std::ptrdiff_t n) {
-    const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
+  std::vector<double> worst(static_cast<std::size_t>(g.rows() * active));
+  for_each(static_cast<std::ptrdiff_t>(worst.size()), [&](std::ptrdiff_t n) {
+    const int r = static_cast<int>(n) / active, i = static_cast<int>(n) % active;
     if (!work.follows(r)) return;
     const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
     const double scale = 2 * row.moduli.mu / (row.law.yield / std::numbers::sqrt3);
     for (int c = 0; c < 6; ++c)
-      for (int i = 0; i < active; ++i) {
-        const std::size_t at = (c * g.points() + n) * line + i;
+      for (int j = 0; j < g.ny; ++j) {
+        const std::size_t at = g.active_index(c, r, i, j);
         work.residual[at] = work.field[g.index(c, r, i, j)] - work.guess[at];
         const double error = scale * std::abs(work.residual[at]);
         if (!(error <= worst[n])) worst[n] = error;  // NaN too
@@ -263,7 +349,8 @@ double SteadyBody::compare(Work& work) const {
 
 void SteadyBody::iterate(const Field& contact_strain, PassState& state, const PassLimits& limits, Work& work,
                          PassResult& out) const {
-  assert(contact_strain.size() == grid().size() && state.residual_strain.size() == grid().size());
+  assert(contact_strain.size() == grid().path().active_size());
+  assert(state.residual_strain.size() == grid().active_size());
   const SteadyGrid& g = grid();
   work.guess = state.residual_strain;
   if (limits.iterations > 0) {
@@ -317,13 +404,13 @@ PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact
   work.rows.assign(rows_.size(), state.passes == 0);
   double added = 0;
   for (const double e : state.residual_strain) added = std::max(added, std::abs(e));
-  for (std::size_t n = 0; n < grid().points() && state.passes > 0; ++n)
-    if (const std::size_t r = n / static_cast<std::size_t>(grid().ny);
-        !work.rows[r] && std::isfinite(rows_[r].law.yield)) {
-      const double near = kNear + 3 * rows_[r].law.mu * added / rows_[r].law.yield;
-      work.rows[r] = !(largest_excess(n, balls[n], before, state.residual_strain,
-                                      state.history.data() + n * kStreamlineHistory) <= -near);
-    }
+  for (int n = 0; n < grid().rows() * Columns::blocks_of(grid()) && state.passes > 0; ++n) {
+    const Columns columns(grid(), n);
+    const auto r = static_cast<std::size_t>(columns.row);
+    if (work.rows[r] || !std::isfinite(rows_[r].law.yield)) continue;
+    const double near = kNear + 3 * rows_[r].law.mu * added / rows_[r].law.yield;
+    work.rows[r] = !(largest_excess(columns, balls, before, state.residual_strain, state.history) <= -near);
+  }
   PassResult out;
   if (std::find(work.rows.begin(), work.rows.end(), true) == work.rows.end()) {
     out.before = state.history;
@@ -338,29 +425,29 @@ PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact
 std::vector<std::vector<StationState>> SteadyBody::streamlines(const Field& contact_strain, const PassResult& result,
                                                                const PassState& state,
                                                                const std::vector<std::size_t>& points) const {
-  assert(contact_strain.size() == grid().size());
+  assert(contact_strain.size() == grid().path().active_size());
   assert(std::all_of(points.begin(), points.end(), [&](std::size_t n) { return n < grid().points(); }));
   const SteadyGrid& g = grid();
   const Field before = uniform_strain(result.before);
-  const std::size_t line = static_cast<std::size_t>(g.active_stations());
-  std::vector<std::vector<StationState>> out(points.size(), std::vector<StationState>(line));
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const std::size_t n = points[k];
-    const int r = static_cast<int>(n) / g.ny, j = static_cast<int>(n) % g.ny;
-    const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
-    double h[kStreamlineHistory];
-    std::copy_n(result.before.data() + n * kStreamlineHistory, kStreamlineHistory, h);
-    for (std::size_t i = 0; i < line; ++i) {
-      double e[6], s[6];
-      for (int c = 0; c < 6; ++c)
-        e[c] = contact_strain[g.index(c, r, static_cast<int>(i), j)] + before[c * g.points() + n] +
-               initial_strain_[r][c] + state.residual_strain[(c * g.points() + n) * line + i];
-      if (std::isfinite(row.law.yield)) advance(row.law, terms_[r], e, h);
-      plastic_stress(row.moduli.lambda, row.moduli.mu, e, h, s);
-      std::copy_n(e, 6, out[k][i].strain.begin());
-      std::copy_n(s, 6, out[k][i].stress.begin());
-      out[k][i].accumulated = h[6];
-    }
+  std::vector<std::vector<StationState>> out(points.size(), std::vector<StationState>(between_.size()));
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const int r = static_cast<int>(points[p]) / g.ny, j = static_cast<int>(points[p]) % g.ny, lane = j % kLanes;
+    const Columns columns(g, r * Columns::blocks_of(g) + j / kLanes);
+    const RowModuli& moduli = rows_[static_cast<std::size_t>(r)].moduli;
+    Pack h[kStreamlineHistory]{};
+    for (int l = 0; l < columns.count; ++l)
+      for (int k = 0; k < kStreamlineHistory; ++k)
+        h[k][l] = result.before[g.point(r, columns.first + l) * kStreamlineHistory + static_cast<std::size_t>(k)];
+    take_law(columns, contact_strain, before, state.residual_strain, h, [&](int k, const Pack(&strain)[6]) {
+      StationState& at = out[p][static_cast<std::size_t>(k)];
+      Pack stress[6];
+      plastic_stress(moduli.lambda, moduli.mu, strain, h, stress);
+      for (std::size_t c = 0; c < 6; ++c) {
+        at.strain[c] = strain[c][lane];
+        at.stress[c] = stress[c][lane];
+      }
+      at.accumulated = h[6][lane];
+    });
   }
   return out;
 }
