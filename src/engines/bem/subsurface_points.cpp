@@ -22,23 +22,21 @@ std::array<double, 4> cubic_weights(double t) {
 /// The sixteen cells around a point of the plan with their weights.
 struct Around {
   std::size_t first;
-  std::array<double, 4> x, y;
+  std::array<double, 16> weight{};
   Around(const PatchGrid& g, const Vec3& at) {
     const double u = (at.x - g.x0) / g.dx, v = (at.y - g.y0) / g.dy;
     const int i = std::clamp(static_cast<int>(std::floor(u)) - 1, 0, g.nx - 4),
               j = g.line ? 0 : std::clamp(static_cast<int>(std::floor(v)) - 1, 0, g.ny - 4);
     first = g.index(i, j);
-    x = cubic_weights(u - i);
-    if (g.line)
-      y = {1, 0, 0, 0};
-    else
-      y = cubic_weights(v - j);
+    const std::array<double, 4> x = cubic_weights(u - i),
+                                y = g.line ? std::array<double, 4>{1, 0, 0, 0} : cubic_weights(v - j);
+    for (std::size_t k = 0; k < weight.size(); ++k) weight[k] = x[k / 4] * y[k % 4];
   }
   double of(const PatchGrid& g, const Plane& v) const {
     double sum = 0;
     const std::size_t columns = g.line ? 1 : 4;
     for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t b = 0; b < columns; ++b) sum += x[a] * y[b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
+      for (std::size_t b = 0; b < columns; ++b) sum += weight[4 * a + b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
     return sum;
   }
 };

@@ -89,6 +89,7 @@ struct Between {
 struct StrainBall {
   std::array<double, 6> middle{};
   double radius = 0;
+  int first = 0, last = 0;  ///< places of the path before and from which on it is far below the strength
 };
 
 /// A body and its grid; constant, but one pass at a time.
@@ -132,10 +133,12 @@ class SteadyBody {
   struct Work;
   void follow(const Field& contact_strain, const PassState& state, Work& work) const;
   struct Columns;
-  double largest_excess(const Columns& columns, const std::vector<StrainBall>& balls, const Field& before,
-                        const Field& guess, const std::vector<double>& history) const;
+  struct Surroundings;
+  double largest_excess(const Columns& columns, const std::vector<StrainBall>& balls, const Surroundings& around,
+                        const std::vector<double>& history) const;
+  bool rests(const Columns& columns, const Surroundings& around, const Pack* history) const;
   template <class Visit>
-  void take_law(const Columns& columns, const Field& contact_strain, const Field& before, const Field& guess,
+  void take_law(const Columns& columns, const Field& contact_strain, const Surroundings& around, int from, int to,
                 Pack* history, Visit&& visit) const;
   double compare(Work& work) const;
   void add_section(const Field& section, Field& surface) const;

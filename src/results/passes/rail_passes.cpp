@@ -189,19 +189,19 @@ class Rows {
   std::vector<std::string> notes_;
 };
 
-/// In steps of the contact's own cells tractions lose their edges, and so a fifth of what a wheel leaves.
-std::unique_ptr<Subsurface> finer_tractions(const BemResult& result) {
-  constexpr double kCells = 21;  // of half the patch's length, at least
-  constexpr int kLeast = 2;
-  const double cells = footprint_of(result).x.half() / result.grid.dx;
-  return rail_interior(result).refined(std::max(kLeast, static_cast<int>(std::ceil(kCells / cells))));
-}
-
 /// Stress of the contact on a path (SteadyGrid::path()), row by row from the surface down.
 class ContactStress {
  public:
   ContactStress(const BemResult& result, double middle_x, const SteadyGrid& grid)
-      : middle_x_(middle_x), grid_(grid.path()), stress_(interior(result, middle_x, grid_)) {}
+      : middle_x_(middle_x), grid_(grid.path()), stress_(interior(result, middle_x, grid_)) {
+    // in steps of the contact's own cells tractions lose their edges, and so a fifth of what a wheel leaves
+    constexpr double kCells = 21;  // of half the patch's length, at least
+    constexpr int kLeast = 2;
+    constexpr double kSkin = 1;    // cells: farther below steps do not show
+    const double cells = footprint_of(result).x.half() / result.grid.dx;
+    stress_.refine(rail_interior(result).refined(std::max(kLeast, static_cast<int>(std::ceil(kCells / cells)))),
+                   kSkin * result.grid.dx);
+  }
 
   std::vector<Sym3> row(double depth) {
     std::vector<Vec3> points;
@@ -215,7 +215,7 @@ class ContactStress {
   static StressOfHalfSpace interior(const BemResult& result, double middle_x, const SteadyGrid& g) {
     std::vector<double> interfaces;
     for (const LayerExtent& layer : layer_extents(result.rail)) interfaces.push_back(layer.bottom);
-    return {std::move(*finer_tractions(result)), interfaces, std::max(g.front, g.active) + std::abs(middle_x) + g.dx,
+    return {rail_interior(result), interfaces, std::max(g.front, g.active) + std::abs(middle_x) + g.dx,
             g.ny > 1 ? 0.5 * g.ny * g.dy + std::abs(g.y(0) + 0.5 * (g.ny - 1) * g.dy) : 0};
   }
   double middle_x_;
