@@ -23,7 +23,6 @@ namespace {
 constexpr double kDeepest = 12e-3;     // m, of the metal that is followed
 constexpr double kThinnest = 0.05e-3;  // m, of a layer that still is one
 constexpr double kBeside = 15e-3;      // m, of metal beside the outermost contacts
-constexpr double kAll = 1 - 1e-12;     // of a mass that has been reached but for rounding
 constexpr int kSteps = 3;              // of the metal through a stretch
 
 /// What a load's contact was, to see whether it has changed.
@@ -61,9 +60,9 @@ class Clock {
       if (!at_horizon()) keep();
     }
     now_.out.lives = clock_lives(spec_, state(), unworn_.rail);
-    for (const std::string& note :
-         {now_.out.worn_through ? std::string() : now_.out.ended, fitted_ductility(spec_, now_.out.history),
-          ratchets_on(now_.out.history), wearing_in(now_.out.history, now_.out.lives)})
+    for (const std::string& note : {now_.out.worn_through ? std::string() : now_.out.ended,
+                                    fitted_ductility(spec_, now_.out.history), one_track(spec_, now_.out.history),
+                                    ratchets_on(now_.out.history), wearing_in(now_.out.history, now_.out.lives)})
       if (!note.empty()) now_.out.notes.push_back(note);
     now_.out.profile = surface_.points();
     return std::move(now_.out);
@@ -77,7 +76,7 @@ class Clock {
   void keep() const {
     if (options_.keep) options_.keep(state());
   }
-  bool at_horizon() const { return now_.out.reached >= options_.horizon * kAll; }
+  bool at_horizon() const { return now_.out.reached >= options_.horizon * kReached; }
   void progress(double wheels) const;
   void stretch();
   void solve(bool with_stresses);
@@ -311,7 +310,7 @@ void Clock::wear_until_changed() {
     const double end = std::min(options_.horizon, now_.next_grinding);
     wear_step(wheels_until(end));
     progress(sinkings_.front().from);
-    if (now_.out.reached >= now_.next_grinding * kAll) {
+    if (now_.out.reached >= now_.next_grinding * kReached) {
       Sinking grinding{.from = now_.wheels, .to = now_.wheels, .before = removed_of_columns(), .after = {}};
       surface_.grind(spec_.life.grinding.depth);
       grinding.after = removed_of_columns();
@@ -468,6 +467,14 @@ void Clock::note(const ClockMoment& of_stretch) {
 }
 
 }  // namespace
+
+ClockOptions clock_options(const CaseSpec& spec, const BemOptions& bem, const Control* control) {
+  ClockOptions out;
+  out.bem = bem;
+  out.horizon = spec.life.until;
+  out.control = control;
+  return out;
+}
 
 ClockResult run_clock(const CaseSpec& spec, const std::filesystem::path& folder, const ClockOptions& options) {
   return Clock(spec, folder, options).run();
