@@ -36,7 +36,8 @@ struct Around {
     double sum = 0;
     const std::size_t columns = g.line ? 1 : 4;
     for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t b = 0; b < columns; ++b) sum += weight[4 * a + b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
+      for (std::size_t b = 0; b < columns; ++b)
+        sum += weight[4 * a + b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
     return sum;
   }
 };

@@ -44,6 +44,28 @@ void give_lanes(double* p, int count, const Pack& v) {
   for (int l = 0; l < count; ++l) p[l] = v[l];
 }
 
+/// Histories of neighbouring columns.
+void take_histories(const double* from, int count, Pack* h) {
+  for (int l = 0; l < count; ++l)
+    for (int k = 0; k < kStreamlineHistory; ++k) h[k][l] = from[l * kStreamlineHistory + k];
+}
+
+void give_histories(const Pack* h, int count, double* to) {
+  for (int l = 0; l < count; ++l)
+    for (int k = 0; k < kStreamlineHistory; ++k) to[l * kStreamlineHistory + k] = h[k][l];
+}
+
+/// Stations between which the contact of some of these points is not far.
+struct NearStations {
+  int from = 0, to = 0;
+  NearStations(const StrainBall* balls, int count, int steps) : from(balls->first / steps) {
+    for (const StrainBall* ball = balls; ball != balls + count; ++ball) {
+      from = std::min(from, ball->first / steps);
+      to = std::max(to, (ball->last + steps - 1) / steps);
+    }
+  }
+};
+
 void take_deviator(double (&e)[6]) {
   const double mean = (e[0] + e[1] + e[2]) / 3;
   for (int c = 0; c < 3; ++c) e[c] -= mean;
@@ -226,16 +248,16 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
         const Columns columns(g, n);
         const auto [r, first, count] = columns;
         const std::size_t point = g.point(r, first);
-        const auto begin = state.history.begin() + static_cast<std::ptrdiff_t>(point * kStreamlineHistory);
-        std::copy_n(begin, count * kStreamlineHistory, work.after.data() + point * kStreamlineHistory);
+        const double* begin = state.history.data() + point * kStreamlineHistory;
+        double* end = work.after.data() + point * kStreamlineHistory;
+        std::copy_n(begin, count * kStreamlineHistory, end);
         if (!work.follows(r)) return;
         const Surroundings around(*this, columns, work.before, work.guess);
         const bool yields = std::isfinite(rows_[static_cast<std::size_t>(r)].law.yield) &&
                             !(largest_excess(columns, work.balls, around, state.history) <= 0);
         if (!yields && (!with_field || work.clean)) return;
         Pack h[kStreamlineHistory]{}, before[6], sum[6]{}, early{};
-        for (int l = 0; l < count; ++l)
-          for (int k = 0; k < kStreamlineHistory; ++k) h[k][l] = *(begin + l * kStreamlineHistory + k);
+        take_histories(begin, count, h);
         std::copy_n(h, 6, before);
         early = h[6];
         const auto give = [&](int from, int to) {
@@ -255,14 +277,8 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
             if ((k + 1) / g.steps == late) early = h[6];
           });
         };
-        int from = 0, to = active;  // stations
+        auto [from, to] = NearStations(work.balls.data() + point, count, g.steps);
         if (yields) {
-          for (int l = 0, reach = 0; l < count; ++l) {
-            const StrainBall& ball = work.balls[point + static_cast<std::size_t>(l)];
-            from = l == 0 ? ball.first / g.steps : std::min(from, ball.first / g.steps);
-            reach = std::max(reach, (ball.last + g.steps - 1) / g.steps);
-            to = reach;
-          }
           if (!rests(columns, around, h)) from = 0;
           if (!work.clean) give(0, from);
           follow_places(from * g.steps, to * g.steps);
@@ -274,10 +290,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
         }
         give(yields ? to : 0, g.nx);
         give_lanes(work.late.data() + point, count, h[6] - early);
-        for (int l = 0; yields && l < count; ++l)
-          for (int k = 0; k < kStreamlineHistory; ++k)
-            work.after[(point + static_cast<std::size_t>(l)) * kStreamlineHistory + static_cast<std::size_t>(k)] =
-                h[k][l];
+        if (yields) give_histories(h, count, end);
       },
       true);
 }
@@ -295,9 +308,7 @@ std::vector<std::vector<StationState>> SteadyBody::streamlines(const Field& cont
     const Columns columns(g, r * Columns::blocks_of(g) + j / kLanes);
     const RowModuli& moduli = rows_[static_cast<std::size_t>(r)].moduli;
     Pack h[kStreamlineHistory]{};
-    for (int l = 0; l < columns.count; ++l)
-      for (int k = 0; k < kStreamlineHistory; ++k)
-        h[k][l] = result.before[g.point(r, columns.first + l) * kStreamlineHistory + static_cast<std::size_t>(k)];
+    take_histories(result.before.data() + g.point(r, columns.first) * kStreamlineHistory, columns.count, h);
     const Surroundings around(*this, columns, before, state.residual_strain);
     const int places = static_cast<int>(between_.size());
     take_law(columns, contact_strain, around, 0, places, h, [&](int k, const Pack(&strain)[6]) {

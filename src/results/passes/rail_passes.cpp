@@ -197,7 +197,7 @@ class ContactStress {
     // in steps of the contact's own cells tractions lose their edges, and so a fifth of what a wheel leaves
     constexpr double kCells = 21;  // of half the patch's length, at least
     constexpr int kLeast = 2;
-    constexpr double kSkin = 1;    // cells: farther below steps do not show
+    constexpr double kSkin = 1;  // cells: farther below steps do not show
     const double cells = footprint_of(result).x.half() / result.grid.dx;
     stress_.refine(rail_interior(result).refined(std::max(kLeast, static_cast<int>(std::ceil(kCells / cells)))),
                    kSkin * result.grid.dx);

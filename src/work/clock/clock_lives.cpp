@@ -99,7 +99,8 @@ std::string fitted_ductility(const CaseSpec& spec, const std::vector<ClockMoment
 }
 
 std::string one_track(const CaseSpec& spec, const std::vector<ClockMoment>& history) {
-  if (spec.loads.size() != 1 || history.empty() || !(history.back().removed > 0)) return {};
+  constexpr double kGroove = 0.01e-3;  // m
+  if (spec.loads.size() != 1 || history.empty() || history.back().removed < kGroove) return {};
   return fmt::format(
       "all wheels are alike and run in one track: they wear a groove ({:.2f} mm deep) whose edges no other wheel "
       "levels, so pressure can rise there with smaller cells; give collective.lateral_deviation (2 to 6 mm), or a load "
