@@ -47,12 +47,15 @@ TEST(SlowClock, ALifeHardlyDependsOnTheNumbersOfTheMethod) {
                                Change{"settling", [](ClockOptions& o) { o.settle.tolerance = 0.01; }},
                                Change{"stretches", [](ClockOptions& o) { o.change = 0.1; }},
                                Change{"steps of wear", [](ClockOptions& o) { o.max_wear = 0.005e-3; }},
-                               Change{"cells", [](ClockOptions& o) { o.bem.cell = 0.25e-3; }}}) {
+                               Change{"coarse cells", [](ClockOptions& o) { o.bem.cell = 1e-3; }},
+                               Change{"fine cells", [](ClockOptions& o) { o.bem.cell = 0.25e-3; }}}) {
     ClockOptions options = usual();
     change.make(options);
     EXPECT_NEAR(life(options) / one, 1, 0.1) << change.name;
   }
   EXPECT_NEAR(life(usual(), "window = 8\n") / one, 1, 0.1) << "window";
+  EXPECT_NEAR(life(usual(), "patch_cells = 8\n") / one, 1, 0.1) << "stations";
+  EXPECT_NEAR(life(usual(), "patch_cells = 12\n") / one, 1, 0.1) << "stations";
 }
 
 }  // namespace

@@ -93,14 +93,26 @@ TEST(Clock, ADateOfFirstCracksNamesTheDuctilityThatGivesIt) {
   history[2].ductility = 1.2;
   CaseSpec spec;
   EXPECT_EQ(fitted_ductility(spec, history), "");
-  spec.passes.ductility = 5;
   spec.life.first_cracks = 15e9;
+  EXPECT_NE(fitted_ductility(spec, history).find("give passes.ductility"), std::string::npos);
+  spec.passes.ductility = 5;
   EXPECT_NE(fitted_ductility(spec, history).find("passes.ductility = 4 gives this"), std::string::npos);
   spec.life.first_cracks = 21e9;
   EXPECT_NE(fitted_ductility(spec, history).find("not followed so far"), std::string::npos);
   history[1].ductility = history[2].ductility = 0;
   spec.life.first_cracks = 20e9;
   EXPECT_NE(fitted_ductility(spec, history).find("no metal has yielded"), std::string::npos);
+}
+
+TEST(Clock, ItSaysThatAllWheelsWearOneTrack) {
+  std::vector<ClockMoment> history(2);
+  CaseSpec spec;
+  spec.loads.resize(1);
+  EXPECT_EQ(one_track(spec, history), "") << "nothing wears";
+  history[1].removed = 1e-4;
+  EXPECT_NE(one_track(spec, history).find("run in one track"), std::string::npos);
+  spec.loads.resize(3);
+  EXPECT_EQ(one_track(spec, history), "");
 }
 
 TEST(Clock, TheLifeOfOneWheelIsThatOfItsCollective) {

@@ -39,15 +39,17 @@ struct LineRolling {
   /// tension: along x, over the largest pressure, the same everywhere (what a body of finite depth adds).
   LineRolling(const SteadyGrid& grid, double load, double friction, double hardening = 0, double yield = std::sqrt(3.),
               double tension = 0)
-      : body(grid, rows(grid, hardening, yield), {1.5 * kShear, kShear}), contact(grid.size()), state(body.virgin()) {
+      : body(grid, rows(grid, hardening, yield), {1.5 * kShear, kShear}),
+        contact(grid.active_size()),
+        state(body.virgin()) {
     const testing::LineLoad line{friction, .3};
     for (int r = 0; r < grid.rows(); ++r)
-      for (int i = 0; i < grid.nx; ++i) {
+      for (int i = 0; i < grid.active_stations(); ++i) {
         Sym3 s = load * line.at(grid.x(i), 0, grid.depth(r));
         s.xx += load * tension;
         s.yy += load * .3 * tension;
         const auto e = body.strain_of(r, {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz});
-        for (int c = 0; c < 6; ++c) contact[grid.index(c, r, i, 0)] = e[c];
+        for (int c = 0; c < 6; ++c) contact[grid.active_index(c, r, i, 0)] = e[c];
       }
   }
   static std::vector<SteadyRow> rows(const SteadyGrid& grid, double hardening, double yield) {

@@ -66,6 +66,10 @@ class LawOf {
       out_.notes.push_back(
           fmt::format("hardening of {}: the set was fitted with recall_power = 0; with {} its cycles are stiffer",
                       name_, s_.recall_power));
+    if (s_.recall_power > 0 &&
+        *std::max_element(out_.top.plastic.modulus, out_.top.plastic.modulus + kMostBackstresses) == 0)
+      out_.notes.push_back(fmt::format(
+          "recall_power of {} has no effect: it has no backstress; give hardening or kinematic_hardening", name_));
     return std::move(out_);
   }
 

@@ -152,6 +152,8 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
     kRollingDevice{"run.device = \"gpu\"",
                    [](const C&c) { return c.run.rolling && c.run.device != ComputeDevice::cpu; }},
     kWindow{"run.window", [](const C&c) { return c.run.rolling && c.run.window > 0; }},
+    kUnreached{"life.until", [](const C&c) { return c.life.first_cracks.value_or(0) > c.life.until; },
+               "a rail that is not followed so far"},
     kElastic{"run.plasticity = false", [](const C&c) { return !c.run.plasticity && c.life.until == 0; }},
     kLayerEnds{"layer.from | layer.to"},
     kRollingColumns{
@@ -293,6 +295,8 @@ constexpr Clash kClashes[] = {
     {"*.hardening | *.isotropic_hardening | *.kinematic_hardening | *.recall_power", idle_with, kElastic,
      "`run` and `bem` compute elastically, `railstrata passes` and `railstrata material` use it",
      "give run.plasticity = true to `run`"},
+    {"life.first_cracks", idle_with, kUnreached, "the ductility comes from the strain that the rail has by then",
+     "give a later life.until (or --until)"},
     {"drive.creepage", idle_with, kAtRest, kNoFriction, kLetRoll},
     {kTraction, idle_with, kAtRest, kNoFriction, kLetRoll},
     {kLateralDrive, idle_with, kAtRest, kNoFriction, kLetRoll},

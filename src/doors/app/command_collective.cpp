@@ -92,17 +92,17 @@ struct TrafficOptions {
 /// The rail through its traffic, in a folder.
 class Traffic {
  public:
-  /// horizon: kg; resume: from the state that the folder has.
-  Traffic(const LoadedCase& loaded, std::filesystem::path folder, double cell, double horizon, bool resume)
+  /// resume: from the state that the folder has.
+  Traffic(const LoadedCase& loaded, std::filesystem::path folder, double cell, bool resume)
       : loaded_(loaded), folder_(std::move(folder)) {
-    how_.bem.cell = cell;
-    how_.bem.cache = &cache_;
-    how_.control = &control_by_signals();
-    how_.horizon = horizon;
+    BemOptions bem;
+    bem.cell = cell;
+    bem.cache = &cache_;
+    how_ = clock_options(loaded.spec, bem, &control_by_signals());
     how_.keep = [this](const ClockState& state) { keep(state); };
     identity_ = clock_identity(loaded, how_);
     if (resume)
-      how_.begun = &begun_.emplace(read_clock_state(file(), identity_, horizon));
+      how_.begun = &begun_.emplace(read_clock_state(file(), identity_, how_.horizon));
     else
       std::filesystem::remove(file());
   }
@@ -220,7 +220,7 @@ ExitCode command_collective(const CommandOptions& options, const TrafficOptions&
   require_apart(out, loaded);
   const FolderHold hold = prepare_output_folder(out, options.force || followed.resume);
   std::optional<Traffic> traffic;
-  if (horizon > 0) traffic.emplace(loaded, out, cell, horizon, followed.resume);
+  if (horizon > 0) traffic.emplace(loaded, out, cell, followed.resume);
   write_origin(out, loaded, options.command_line, options.threads);
   spdlog::info("{}: {} loads; results go to {}", loaded.spec.title, rows.size(), out.string());
   solve(loaded, cell, rows);

@@ -31,6 +31,11 @@ fs::path folder_of(const std::string& name) {
   if (holds_validation(name)) return name;
   const fs::path shipped = shipped_folder() / kShipped / name;
   if (holds_validation(shipped)) return shipped;
+  if (shipped_folder().empty())
+    throw CaseError(
+        fmt::format("{}: no folder with validation.toml, and the sets of the program are not beside it", name),
+        "give a folder; or start the program by ./railstrata, or set RAILSTRATA_DATA to the folder that "
+        "has cases/validation");
   std::string known;
   for (const fs::path& folder : validation_folders(shipped_folder() / kShipped))
     known += fmt::format("{}{}", known.empty() ? "" : ", ", folder.filename().string());

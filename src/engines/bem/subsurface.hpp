@@ -100,6 +100,10 @@ class Subsurface {
 
   /// The same tractions on a grid with so many more cells on each side, empty ones.
   std::unique_ptr<Subsurface> widened(int more_x, int more_y) const;
+  /// The same on cells so many times smaller, between which tractions run on instead of in steps: the square of the
+  /// pressure, which falls straight to the patch's edge, as a quadratic between cells (linear at the edge), the ratio
+  /// of friction to pressure linearly. The normal force stays.
+  std::unique_ptr<Subsurface> refined(int times) const;
   /// The same on as many cells three times as large: each takes the mean of nine.
   std::unique_ptr<Subsurface> coarsened() const;
 

@@ -22,23 +22,22 @@ std::array<double, 4> cubic_weights(double t) {
 /// The sixteen cells around a point of the plan with their weights.
 struct Around {
   std::size_t first;
-  std::array<double, 4> x, y;
+  std::array<double, 16> weight{};
   Around(const PatchGrid& g, const Vec3& at) {
     const double u = (at.x - g.x0) / g.dx, v = (at.y - g.y0) / g.dy;
     const int i = std::clamp(static_cast<int>(std::floor(u)) - 1, 0, g.nx - 4),
               j = g.line ? 0 : std::clamp(static_cast<int>(std::floor(v)) - 1, 0, g.ny - 4);
     first = g.index(i, j);
-    x = cubic_weights(u - i);
-    if (g.line)
-      y = {1, 0, 0, 0};
-    else
-      y = cubic_weights(v - j);
+    const std::array<double, 4> x = cubic_weights(u - i),
+                                y = g.line ? std::array<double, 4>{1, 0, 0, 0} : cubic_weights(v - j);
+    for (std::size_t k = 0; k < weight.size(); ++k) weight[k] = x[k / 4] * y[k % 4];
   }
   double of(const PatchGrid& g, const Plane& v) const {
     double sum = 0;
     const std::size_t columns = g.line ? 1 : 4;
     for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t b = 0; b < columns; ++b) sum += x[a] * y[b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
+      for (std::size_t b = 0; b < columns; ++b)
+        sum += weight[4 * a + b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
     return sum;
   }
 };
@@ -56,6 +55,59 @@ double length_of(const PatchGrid& grid) { return std::max(grid.nx * grid.dx, gri
       "metres; farther away the contact acts as a point load",
       p.x, p.y, reach, grid.x0, grid.x(grid.nx - 1), grid.y0, grid.y(grid.ny - 1), reach / length_of(grid)));
 }
+
+/// A number of the cells of a patch, and of the ring of cells around it, by what they have next to it.
+class AroundPatch {
+ public:
+  AroundPatch(const PatchGrid& grid, const Plane& pressure) : grid_(grid), pressure_(pressure) {}
+
+  /// next(value beside, value behind it): of a cell without pressure, from those with it on one side.
+  template <class Next>
+  void fill(Plane& values, Next&& next) const {
+    const Plane given = values;
+    for (int i = 0; i < grid_.nx; ++i)
+      for (int j = 0; j < grid_.ny; ++j) {
+        if (presses(i, j)) continue;
+        double sum = 0, sides = 0;
+        for (const auto& [a, b] : kSides) {
+          if (!presses(i + a, j + b)) continue;
+          const double beside = given[grid_.index(i + a, j + b)];
+          sum += next(beside, presses(i + 2 * a, j + 2 * b) ? given[grid_.index(i + 2 * a, j + 2 * b)] : 2 * beside);
+          ++sides;
+        }
+        values[grid_.index(i, j)] = sides > 0 ? sum / sides : 0;
+      }
+  }
+  /// Second differences along a side, where the cell and those on both sides press; 0 elsewhere.
+  Plane curvature(const Plane& values, int a, int b) const {
+    Plane out(values.size(), 0.0);
+    for (int i = 0; i < grid_.nx; ++i)
+      for (int j = 0; j < grid_.ny; ++j)
+        if (presses(i, j) && presses(i - a, j - b) && presses(i + a, j + b))
+          out[grid_.index(i, j)] =
+              values[grid_.index(i - a, j - b)] - 2 * values[grid_.index(i, j)] + values[grid_.index(i + a, j + b)];
+    return out;
+  }
+  /// Linear between cells, (x, y) in cells.
+  double at(const Plane& values, double x, double y) const {
+    const int i = std::clamp(static_cast<int>(std::floor(x)), 0, std::max(0, grid_.nx - 2)),
+              j = std::clamp(static_cast<int>(std::floor(y)), 0, std::max(0, grid_.ny - 2));
+    const double u = std::clamp(x - i, 0.0, 1.0), v = grid_.ny > 1 ? std::clamp(y - j, 0.0, 1.0) : 0;
+    const auto line = [&](int k) {
+      return (1 - v) * values[grid_.index(k, j)] + (v > 0 ? v * values[grid_.index(k, j + 1)] : 0);
+    };
+    return (1 - u) * line(i) + (u > 0 ? u * line(i + 1) : 0);
+  }
+
+ private:
+  static constexpr std::array<std::pair<int, int>, 8> kSides{
+      {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+  bool presses(int i, int j) const {
+    return i >= 0 && j >= 0 && i < grid_.nx && j < grid_.ny && pressure_[grid_.index(i, j)] > 0;
+  }
+  const PatchGrid& grid_;
+  const Plane& pressure_;
+};
 
 }  // namespace
 
@@ -85,6 +137,46 @@ std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {
   wide->reach_x_ = reach_x_ + more_x;
   wide->reach_y_ = reach_y_ + more_y;
   return wide;
+}
+
+std::unique_ptr<Subsurface> Subsurface::refined(int times) const {
+  PatchGrid g = grid_;
+  g.nx *= times;
+  g.dx /= times;
+  g.x0 -= 0.5 * (grid_.dx - g.dx);
+  if (!grid_.line) {
+    g.ny *= times;
+    g.dy /= times;
+    g.y0 -= 0.5 * (grid_.dy - g.dy);
+  }
+  const AroundPatch patch(grid_, loads_.p);
+  Plane square(grid_.size(), 0.0);
+  std::array<Plane, 2> ratio{square, square};
+  for (std::size_t k = 0; k < square.size(); ++k) {
+    if (!(loads_.p[k] > 0)) continue;
+    square[k] = loads_.p[k] * loads_.p[k];
+    ratio[0][k] = loads_.q_x[k] / loads_.p[k];
+    ratio[1][k] = loads_.q_y[k] / loads_.p[k];
+  }
+  patch.fill(square, [](double beside, double behind) { return std::min(0.0, 2 * beside - behind); });
+  const Plane along = patch.curvature(square, 1, 0), across = patch.curvature(square, 0, 1);
+  const auto bend = [](double place) { return 0.5 * (place - std::floor(place)) * (1 - place + std::floor(place)); };
+  for (Plane& r : ratio) patch.fill(r, [](double beside, double) { return beside; });
+  Plane p(g.size()), q_x(g.size()), q_y(g.size());
+  double sum = 0;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    const double x = (g.x_of(k) - grid_.x0) / grid_.dx, y = grid_.line ? 0 : (g.y_of(k) - grid_.y0) / grid_.dy;
+    const double curved = bend(x) * patch.at(along, x, y) + bend(y) * patch.at(across, x, y);
+    p[k] = std::sqrt(std::max(0.0, patch.at(square, x, y) - curved));
+    q_x[k] = p[k] * patch.at(ratio[0], x, y);
+    q_y[k] = p[k] * patch.at(ratio[1], x, y);
+    sum += p[k];
+  }
+  const double cells = static_cast<double>(g.size() / grid_.size()),
+               scale = sum > 0 ? cells * std::accumulate(loads_.p.begin(), loads_.p.end(), 0.0) / sum : 1;
+  for (Plane* plane : {&p, &q_x, &q_y})
+    for (double& v : *plane) v *= scale;
+  return std::make_unique<Subsurface>(body_, g, std::move(p), std::move(q_x), std::move(q_y), period_);
 }
 
 std::unique_ptr<Subsurface> Subsurface::coarsened() const {

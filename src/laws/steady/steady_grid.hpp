@@ -27,12 +27,23 @@ struct SteadyGrid {
   double front = 0;                    ///< m, x of the foremost border
   double y0 = 0;                       ///< m, y of column 0
   double active = 0, hold = 0;         ///< m, see above
+  int steps = 1;                       ///< of the law from station to station, see path()
   std::vector<double> thickness = {};  ///< m, of the rows where plastic strain may be, from the surface down
   double x(int i) const { return front - (i + 0.5) * dx; }
   double y(int j) const { return y0 + j * dy; }
   int rows() const { return static_cast<int>(thickness.size()); }
   /// Stations where plastic flow is followed.
   int active_stations() const { return std::clamp(static_cast<int>(std::lround((front + active) / dx)), 1, nx); }
+  /// The places along a streamline where the law is taken, `steps` for each station, as stations of their own: the
+  /// strain of the contact is that at these. What the body answers is smoother, and belongs to stations.
+  SteadyGrid path() const {
+    SteadyGrid out = *this;
+    out.nx *= steps;
+    out.dx /= steps;
+    out.active = active_stations() * dx - front;
+    out.steps = 1;
+    return out;
+  }
   /// Mid-depth of a row, m.
   double depth(int row) const {
     const auto at = thickness.begin() + row;
@@ -53,6 +64,12 @@ struct SteadyGrid {
             static_cast<std::size_t>(i)) *
                static_cast<std::size_t>(ny) +
            static_cast<std::size_t>(j);
+  }
+  /// Layout of a field at active stations alone, likewise.
+  std::size_t active_size() const { return active_index(6, 0, 0, 0); }
+  std::size_t active_index(int component, int row, int i, int j) const {
+    const int line = (component * rows() + row) * active_stations() + i;
+    return static_cast<std::size_t>(line) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(j);
   }
   /// A point of the section.
   std::size_t point(int row, int j) const {

@@ -10,39 +10,17 @@
 #include "material/strain_claim.hpp"
 #include "steady/anderson.hpp"
 #include "steady/pass_class.hpp"
+#include "steady/steady_work.hpp"
 
 namespace railstrata {
 
 namespace {
-
-constexpr int kNewtonSteps = 6;  // strains change by up to some 1e-3 from station to station
 
 int terms_of(const PlasticParameters<double>& law) {
   int terms = 0;
   for (int k = 0; k < kMostBackstresses; ++k)
     if (law.modulus[k] > 0) terms = k + 1;
   return terms;
-}
-
-/// One station of a streamline.
-void advance(const PlasticParameters<double>& law, int terms, const double (&strain)[6], double* history) {
-  switch (terms) {
-    case 0:
-      return advance_plastic<0, kNewtonSteps>(law, strain, history);
-    case 1:
-      return advance_plastic<1, kNewtonSteps>(law, strain, history);
-    case 2:
-      return advance_plastic<2, kNewtonSteps>(law, strain, history);
-    case 3:
-      return advance_plastic<3, kNewtonSteps>(law, strain, history);
-    default:
-      return advance_plastic<4, kNewtonSteps>(law, strain, history);
-  }
-}
-
-void take_deviator(double (&e)[6]) {
-  const double mean = (e[0] + e[1] + e[2]) / 3;
-  for (int c = 0; c < 3; ++c) e[c] -= mean;
 }
 
 SteadyGrid section_of(SteadyGrid grid) {
@@ -59,19 +37,6 @@ std::vector<RowModuli> moduli_of(const std::vector<SteadyRow>& rows) {
 
 }  // namespace
 
-/// Arrays of one pass.
-struct SteadyBody::Work {
-  Field before;                   // strain of the earlier passes, per component and point of the section
-  std::vector<StrainBall> balls;  // of the contact's strain, per point of the section
-  std::vector<bool> rows;         // that are followed; empty: all
-  Field field;                    // plastic strain of this pass everywhere, then the strain it causes
-  Field guess, residual;          // at active stations
-  std::vector<double> after;      // histories behind the load
-  std::vector<double> late;       // p of each point in the last quarter of the stations behind the load
-
-  bool follows(int row) const { return rows.empty() || rows[static_cast<std::size_t>(row)]; }
-};
-
 SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowModuli below,
                        std::vector<std::array<double, 2>> initial_stress)
     : response_(grid, moduli_of(rows), below),
@@ -80,6 +45,7 @@ SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowM
   assert(static_cast<int>(rows_.size()) == grid.rows() &&
          (initial_stress.empty() || initial_stress.size() == rows_.size()));
   for (const SteadyRow& row : rows_) terms_.push_back(terms_of(row.law));
+  between_ = between_stations(grid);
   initial_strain_.resize(rows_.size());
   for (std::size_t r = 0; r < initial_stress.size(); ++r)
     initial_strain_[r] = strain_of(static_cast<int>(r), {initial_stress[r][0], initial_stress[r][1], 0, 0, 0, 0});
@@ -87,23 +53,21 @@ SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowM
 
 void move_guess(const SteadyGrid& g, int columns, PassState& state) {
   if (columns == 0) return;
-  const auto move = [&](Field& field, int together) {  // numbers of a column that lie side by side
-    Field moved(field.size());
-    const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(g.ny) * together,
-                         by = static_cast<std::ptrdiff_t>(std::clamp(columns, -g.ny, g.ny)) * together,
-                         from = std::max<std::ptrdiff_t>(0, -by);
-    for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(field.size()); row += line)
-      std::copy_n(field.begin() + row + from, line - std::abs(by), moved.begin() + row + from + by);
-    field = std::move(moved);
-  };
-  move(state.residual_strain, g.active_stations());
-  move(state.rise, 1);
+  for (Field* field : {&state.residual_strain, &state.rise}) {
+    Field moved(field->size());
+    const int by = std::clamp(columns, -g.ny, g.ny), from = std::max(0, -by);
+    for (std::size_t line = 0; line < field->size(); line += static_cast<std::size_t>(g.ny)) {
+      const auto begin = static_cast<std::ptrdiff_t>(line) + from;
+      std::copy_n(field->begin() + begin, g.ny - std::abs(by), moved.begin() + begin + by);
+    }
+    *field = std::move(moved);
+  }
 }
 
 PassState SteadyBody::virgin() const {
   PassState state;
   state.history.assign(grid().points() * kStreamlineHistory, 0.0);
-  state.residual_strain.assign(6 * grid().points() * static_cast<std::size_t>(grid().active_stations()), 0.0);
+  state.residual_strain.assign(grid().active_size(), 0.0);
   state.rise.assign(3 * grid().plane(), 0.0);
   return state;
 }
@@ -147,113 +111,23 @@ Field SteadyBody::uniform_strain(const std::vector<double>& history, Field* surf
   return section;
 }
 
-std::vector<StrainBall> SteadyBody::balls_of(const Field& contact_strain) const {
-  const SteadyGrid& g = grid();
-  std::vector<StrainBall> out(g.points());
-  for_each(static_cast<std::ptrdiff_t>(g.points()), [&](std::ptrdiff_t n) {
-    const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
-    std::array<double, 6> least, most;
-    least.fill(std::numeric_limits<double>::infinity());
-    most.fill(-std::numeric_limits<double>::infinity());
-    const auto deviator = [&](int i, double(&e)[6]) {
-      for (int c = 0; c < 6; ++c) e[c] = contact_strain[g.index(c, r, i, j)];
-      take_deviator(e);
-    };
-    double e[6];
-    for (int i = 0; i < g.active_stations(); ++i) {
-      deviator(i, e);
-      for (std::size_t c = 0; c < 6; ++c) {
-        least[c] = std::min(least[c], e[c]);
-        most[c] = std::max(most[c], e[c]);
-      }
-    }
-    StrainBall& ball = out[static_cast<std::size_t>(n)];
-    for (std::size_t c = 0; c < 6; ++c) ball.middle[c] = 0.5 * (least[c] + most[c]);
-    for (int i = 0; i < g.active_stations(); ++i) {
-      deviator(i, e);
-      for (std::size_t c = 0; c < 6; ++c) e[c] -= ball.middle[c];
-      const double size = equivalent_strain(e);
-      if (!(size <= ball.radius)) ball.radius = size;  // NaN too
-    }
-  });
-  return out;
-}
-
-/// An upper bound of the yield condition f over the strength, of all stations, as long as nothing flows.
-double SteadyBody::largest_excess(std::size_t point, const StrainBall& ball, const Field& before, const Field& guess,
-                                  const double* history) const {
-  const std::size_t points = grid().points(), line = static_cast<std::size_t>(grid().active_stations());
-  const auto r = point / static_cast<std::size_t>(grid().ny);
-  const PlasticParameters<double>& law = rows_[r].law;
-  double e[6], largest = 0;
-  for (std::size_t i = 0; i < line; ++i) {
-    for (std::size_t c = 0; c < 6; ++c) e[c] = guess[(c * points + point) * line + i];
-    largest = std::max(largest, double_contraction(e, e));
-  }
-  for (std::size_t c = 0; c < 6; ++c) e[c] = before[c * points + point] + initial_strain_[r][c];
-  take_deviator(e);
-  for (std::size_t c = 0; c < 6; ++c) {
-    e[c] += ball.middle[c] - history[c];
-    for (int k = 0; k < terms_[r]; ++k) e[c] -= history[7 + 6 * k + static_cast<int>(c)] / (2 * law.mu);
-  }
-  const double strength = law.yield + law.saturation * saturated_share(law.rate * history[6]);
-  return 3 * law.mu * (equivalent_strain(e) + ball.radius + std::sqrt(2.0 / 3 * largest)) / strength - 1;
-}
-
-void SteadyBody::follow(const Field& contact_strain, const PassState& state, Work& work) const {
-  const SteadyGrid& g = grid();
-  const int active = g.active_stations();
-  const std::size_t line = static_cast<std::size_t>(active);
-  std::vector<double> share(static_cast<std::size_t>(g.nx));
-  for (int i = 0; i < g.nx; ++i) share[i] = g.share(i);
-  const bool with_field = !work.field.empty();
-  const int late = std::max(0, active - static_cast<int>(std::lround(0.25 * g.active / g.dx)));
-  for_each(
-      static_cast<std::ptrdiff_t>(g.points()),
-      [&](std::ptrdiff_t n) {
-        const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
-        const double* before = state.history.data() + n * kStreamlineHistory;
-        double* h = work.after.data() + n * kStreamlineHistory;
-        std::copy(before, before + kStreamlineHistory, h);
-        if (!work.follows(r)) return;
-        const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
-        const auto point = static_cast<std::size_t>(n);
-        const bool yields = std::isfinite(row.law.yield) &&
-                            !(largest_excess(point, work.balls[point], work.before, work.guess, before) <= 0);
-        if (!yields && !with_field) return;
-        for (int i = 0; i < g.nx; ++i) {
-          if (i == late) work.late[n] = h[6];
-          if (yields && i < active) {
-            double e[6];
-            for (int c = 0; c < 6; ++c)
-              e[c] = contact_strain[g.index(c, r, i, j)] + work.before[c * g.points() + n] + initial_strain_[r][c] +
-                     work.guess[(c * g.points() + n) * line + i];
-            advance(row.law, terms_[r], e, h);
-          }
-          for (int c = 0; with_field && c < 6; ++c) work.field[g.index(c, r, i, j)] = share[i] * (h[c] - before[c]);
-        }
-        work.late[n] = h[6] - work.late[n];
-      },
-      true);
-}
-
 double SteadyBody::compare(Work& work) const {
   const SteadyGrid& g = grid();
   const int active = g.active_stations();
-  const std::size_t line = static_cast<std::size_t>(active);
-  std::vector<double> worst(g.points());
-  for_each(static_cast<std::ptrdiff_t>(g.points()), [&](std::ptrdiff_t n) {
-    const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
+  std::vector<double> worst(static_cast<std::size_t>(g.rows() * active));
+  for_each(static_cast<std::ptrdiff_t>(worst.size()), [&](std::ptrdiff_t n) {
+    const int r = static_cast<int>(n) / active, i = static_cast<int>(n) % active;
     if (!work.follows(r)) return;
     const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
     const double scale = 2 * row.moduli.mu / (row.law.yield / std::numbers::sqrt3);
-    for (int c = 0; c < 6; ++c)
-      for (int i = 0; i < active; ++i) {
-        const std::size_t at = (c * g.points() + n) * line + i;
-        work.residual[at] = work.field[g.index(c, r, i, j)] - work.guess[at];
-        const double error = scale * std::abs(work.residual[at]);
+    for (int c = 0; c < 6; ++c) {
+      const std::size_t to = g.active_index(c, r, i, 0), from = g.index(c, r, i, 0);
+      for (std::size_t j = 0; j < static_cast<std::size_t>(g.ny); ++j) {
+        work.residual[to + j] = work.field[from + j] - work.guess[to + j];
+        const double error = scale * std::abs(work.residual[to + j]);
         if (!(error <= worst[n])) worst[n] = error;  // NaN too
       }
+    }
   });
   double error = 0;
   for (const double w : worst)
@@ -263,9 +137,10 @@ double SteadyBody::compare(Work& work) const {
 
 void SteadyBody::iterate(const Field& contact_strain, PassState& state, const PassLimits& limits, Work& work,
                          PassResult& out) const {
-  assert(contact_strain.size() == grid().size() && state.residual_strain.size() == grid().size());
+  assert(contact_strain.size() == grid().path().active_size());
+  assert(state.residual_strain.size() == grid().active_size());
   const SteadyGrid& g = grid();
-  work.guess = state.residual_strain;
+  work.guess = limits.iterations > 0 ? state.residual_strain : std::move(state.residual_strain);
   if (limits.iterations > 0) {
     work.field.resize(g.size());
     work.residual.resize(work.guess.size());
@@ -278,6 +153,7 @@ void SteadyBody::iterate(const Field& contact_strain, PassState& state, const Pa
     follow(contact_strain, state, work);
     if (limits.iterations == 0) break;
     response_.apply(work.field, &out.surface, work.rows);
+    work.clean = false;
     out.error = compare(work);
     ++out.iterations;
     if (!std::isfinite(out.error))
@@ -317,13 +193,14 @@ PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact
   work.rows.assign(rows_.size(), state.passes == 0);
   double added = 0;
   for (const double e : state.residual_strain) added = std::max(added, std::abs(e));
-  for (std::size_t n = 0; n < grid().points() && state.passes > 0; ++n)
-    if (const std::size_t r = n / static_cast<std::size_t>(grid().ny);
-        !work.rows[r] && std::isfinite(rows_[r].law.yield)) {
-      const double near = kNear + 3 * rows_[r].law.mu * added / rows_[r].law.yield;
-      work.rows[r] = !(largest_excess(n, balls[n], before, state.residual_strain,
-                                      state.history.data() + n * kStreamlineHistory) <= -near);
-    }
+  for (int n = 0; n < grid().rows() * Columns::blocks_of(grid()) && state.passes > 0; ++n) {
+    const Columns columns(grid(), n);
+    const auto r = static_cast<std::size_t>(columns.row);
+    if (work.rows[r] || !std::isfinite(rows_[r].law.yield)) continue;
+    const double near = kNear + 3 * rows_[r].law.mu * added / rows_[r].law.yield;
+    const Surroundings around(*this, columns, before, state.residual_strain);
+    work.rows[r] = !(largest_excess(columns, balls, around, state.history) <= -near);
+  }
   PassResult out;
   if (std::find(work.rows.begin(), work.rows.end(), true) == work.rows.end()) {
     out.before = state.history;
@@ -332,36 +209,6 @@ PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact
   }
   iterate(contact_strain, state, limits, work, out);
   for (std::size_t n = 0; n < work.residual.size(); ++n) state.residual_strain[n] += work.residual[n];
-  return out;
-}
-
-std::vector<std::vector<StationState>> SteadyBody::streamlines(const Field& contact_strain, const PassResult& result,
-                                                               const PassState& state,
-                                                               const std::vector<std::size_t>& points) const {
-  assert(contact_strain.size() == grid().size());
-  assert(std::all_of(points.begin(), points.end(), [&](std::size_t n) { return n < grid().points(); }));
-  const SteadyGrid& g = grid();
-  const Field before = uniform_strain(result.before);
-  const std::size_t line = static_cast<std::size_t>(g.active_stations());
-  std::vector<std::vector<StationState>> out(points.size(), std::vector<StationState>(line));
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const std::size_t n = points[k];
-    const int r = static_cast<int>(n) / g.ny, j = static_cast<int>(n) % g.ny;
-    const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
-    double h[kStreamlineHistory];
-    std::copy_n(result.before.data() + n * kStreamlineHistory, kStreamlineHistory, h);
-    for (std::size_t i = 0; i < line; ++i) {
-      double e[6], s[6];
-      for (int c = 0; c < 6; ++c)
-        e[c] = contact_strain[g.index(c, r, static_cast<int>(i), j)] + before[c * g.points() + n] +
-               initial_strain_[r][c] + state.residual_strain[(c * g.points() + n) * line + i];
-      if (std::isfinite(row.law.yield)) advance(row.law, terms_[r], e, h);
-      plastic_stress(row.moduli.lambda, row.moduli.mu, e, h, s);
-      std::copy_n(e, 6, out[k][i].strain.begin());
-      std::copy_n(s, 6, out[k][i].stress.begin());
-      out[k][i].accumulated = h[6];
-    }
-  }
   return out;
 }
 

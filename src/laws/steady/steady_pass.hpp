@@ -12,6 +12,10 @@
 // pass adds to it (plastic_strain_response.hpp). The law (material/plastic.hpp) takes E along every streamline and
 // gives plastic strain, plastic strain gives e_residual: a fixed point, found with Anderson's acceleration.
 //
+// The law takes steps of first order, and a contact has sharp edges near the surface, so it is taken at more places
+// than there are stations (SteadyGrid::path()): e_contact is given there, e_residual is a cubic between stations, and a
+// station's plastic strain is the mean of its places. Neighbouring columns of a row go through the law together.
+//
 // Assumptions: a straight rail, layers without sideways ends on a half-space; small strains; the rail is endless and
 // does not grow longer.
 #include <array>
@@ -19,6 +23,7 @@
 
 #include "core/array.hpp"
 #include "core/control.hpp"
+#include "core/simd.hpp"
 #include "material/plastic.hpp"
 #include "steady/plastic_strain_response.hpp"
 #include "steady/steady_grid.hpp"
@@ -37,7 +42,7 @@ struct SteadyRow {
 struct PassState {
   int passes = 0;
   std::vector<double> history;  ///< per point of the section (SteadyGrid::point) kStreamlineHistory numbers
-  Field residual_strain;        ///< e_residual of the last pass at the active stations, the next one's first guess
+  Field residual_strain;        ///< e_residual of the last pass (SteadyGrid::active_size), the next one's first guess
   Field rise;  ///< m, displacement of the surface that the last pass has added, as of PassResult::surface
 };
 
@@ -62,7 +67,7 @@ struct PassResult {
                   ///< as of PlasticStrainResponse::apply
 };
 
-/// A point of the section at a station of its streamline.
+/// A point of the section at a place of its streamline.
 struct StationState {
   std::array<double, 6> strain{}, stress{};  ///< tensor shears; Pa
   double accumulated = 0;                    ///< plastic strain p over all passes
@@ -74,10 +79,17 @@ struct PassLimits {
   const Control* control = nullptr;  ///< asked to stop, the pass is given up between two iterations
 };
 
+/// Four stations around a place of the path, and their weights.
+struct Between {
+  int station[4];
+  double weight[4];
+};
+
 /// A ball around the deviators of strain that a point of the section goes through, sizes as √(2/3 e:e).
 struct StrainBall {
   std::array<double, 6> middle{};
   double radius = 0;
+  int first = 0, last = 0;  ///< places of the path before and from which on it is far below the strength
 };
 
 /// A body and its grid; constant, but one pass at a time.
@@ -94,9 +106,9 @@ class SteadyBody {
   /// Displacement of the surface (as of PassResult) by what the state holds and a pass as the last one.
   Field surface_expected(const PassState& state) const;
 
-  /// The next pass under the strain of a contact (SteadyGrid::size(); tensor shears). The state advances; where the
-  /// pass has not converged too, as the result states. Throws NumericalError at a strain that is no number;
-  /// Interrupted when it is given up, the state is then as it was.
+  /// The next pass under the strain of a contact (active_size() of SteadyGrid::path(); tensor shears). The state
+  /// advances; where the pass has not converged too, as the result states. Throws NumericalError at a strain that is no
+  /// number; Interrupted when it is given up, the state is then as it was.
   PassResult run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits = {}) const;
   /// The same within a wider body that is uniform along x: `before` (six components by point of the section) is the
   /// strain there by what earlier passes have left; `balls` those of the contact's strain. After the first pass
@@ -107,7 +119,7 @@ class SteadyBody {
                              PassState& state, const PassLimits& limits = {}) const;
   /// Of every point of the section.
   std::vector<StrainBall> balls_of(const Field& contact_strain) const;
-  /// The way of points of the section through the pass that `result` and `state` are of, at the active stations in
+  /// The way of points of the section through the pass that `result` and `state` are of, at the places of the path in
   /// their order.
   std::vector<std::vector<StationState>> streamlines(const Field& contact_strain, const PassResult& result,
                                                      const PassState& state,
@@ -120,8 +132,14 @@ class SteadyBody {
  private:
   struct Work;
   void follow(const Field& contact_strain, const PassState& state, Work& work) const;
-  double largest_excess(std::size_t point, const StrainBall& ball, const Field& before, const Field& guess,
-                        const double* history) const;
+  struct Columns;
+  struct Surroundings;
+  double largest_excess(const Columns& columns, const std::vector<StrainBall>& balls, const Surroundings& around,
+                        const std::vector<double>& history) const;
+  bool rests(const Columns& columns, const Surroundings& around, const Pack* history) const;
+  template <class Visit>
+  void take_law(const Columns& columns, const Field& contact_strain, const Surroundings& around, int from, int to,
+                Pack* history, Visit&& visit) const;
   double compare(Work& work) const;
   void add_section(const Field& section, Field& surface) const;
   Field uniform_strain(const std::vector<double>& history, Field* surface = nullptr) const;
@@ -133,6 +151,7 @@ class SteadyBody {
   PlasticStrainResponse section_;  // the same for what is uniform along x: one station as long as the grid
   std::vector<SteadyRow> rows_;
   std::vector<int> terms_;                             // backstresses per row
+  std::vector<Between> between_;                       // of the places of the path
   std::vector<std::array<double, 6>> initial_strain_;  // per row
 };
 

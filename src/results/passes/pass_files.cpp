@@ -43,6 +43,12 @@ constexpr std::size_t kBegun = 7;  // numbers of PassSeries::begun
 /// Columns that PassState::rise takes, point after point of the section.
 std::size_t rise_columns(const SteadyGrid& grid) { return (3 * grid.plane() + grid.points() - 1) / grid.points(); }
 
+/// In PassState::residual_strain, of column k of a point.
+std::size_t place_of_strain(const SteadyGrid& g, std::size_t k, std::size_t point) {
+  const int active = g.active_stations(), column = static_cast<int>(k), n = static_cast<int>(point);
+  return g.active_index(column / active, n / g.ny, column % active, n % g.ny);
+}
+
 /// state.csv, of the points of the section.
 Columns<std::size_t> state_columns(const SteadyGrid& grid, const PassSeries& series) {
   using N = std::size_t;
@@ -57,9 +63,8 @@ Columns<std::size_t> state_columns(const SteadyGrid& grid, const PassSeries& ser
     out.push_back({fmt::format("history_{}", k), unit::kNone,
                    [&, k](N n) { return series.state.history[n * kStreamlineHistory + k]; }});
   for (N k = 0; k < 6 * active; ++k)
-    out.push_back({fmt::format("strain_{}", k), unit::kNone, [&, k, active, lines](N n) {
-                     return series.state.residual_strain[(k / active * lines + n) * active + k % active];
-                   }});
+    out.push_back({fmt::format("strain_{}", k), unit::kNone,
+                   [&, k](N n) { return series.state.residual_strain[place_of_strain(grid, k, n)]; }});
   for (N k = 0; k < rise_columns(grid); ++k)
     out.push_back({fmt::format("rise_{}", k), unit::kNone, [&, k, lines](N n) {
                      const N at = k * lines + n;
@@ -189,7 +194,7 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
   series.cycles = strains_in(series.table, kCycleStrain, cycle);
   const std::size_t active = static_cast<std::size_t>(grid.active_stations());
   series.state.history.resize(grid.points() * kStreamlineHistory);
-  series.state.residual_strain.resize(6 * grid.points() * active);
+  series.state.residual_strain.resize(grid.active_size());
   series.state.rise.resize(3 * grid.plane());
   series.points.resize(grid.points());
   series.begun.resize(grid.points());
@@ -199,8 +204,7 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
     const auto take = [&] { return values.columns[c++].values[n]; };
     for (std::size_t k = 0; k < kBegun; ++k) series.begun[n][k] = take();
     for (std::size_t k = 0; k < kStreamlineHistory; ++k) series.state.history[n * kStreamlineHistory + k] = take();
-    for (std::size_t k = 0; k < 6 * active; ++k)
-      series.state.residual_strain[(k / active * grid.points() + n) * active + k % active] = take();
+    for (std::size_t k = 0; k < 6 * active; ++k) series.state.residual_strain[place_of_strain(grid, k, n)] = take();
     for (std::size_t k = 0; k < rise_columns(grid); ++k) {
       const double value = take();
       if (const std::size_t at = k * grid.points() + n; at < series.state.rise.size()) series.state.rise[at] = value;

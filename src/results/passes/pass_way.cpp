@@ -17,14 +17,14 @@ std::size_t largest(const std::vector<double>& values) {
 
 /// Where the elastic stress of a row's column comes nearest to yield.
 std::size_t nearest_to_yield(const RailPasses& rail) {
-  const SteadyGrid& g = rail.grid;
+  const SteadyGrid g = rail.grid.path();
   const Field& stress = rail.contact_stress.front();
   std::vector<double> share(g.points());
   for (int r = 0; r < g.rows(); ++r)
     for (int j = 0; j < g.ny; ++j)
       for (int i = 0; i < g.active_stations(); ++i) {
         std::array<double, 6> s{};
-        for (int c = 0; c < 6; ++c) s[c] = stress[g.index(c, r, i, j)];
+        for (int c = 0; c < 6; ++c) s[c] = stress[g.active_index(c, r, i, j)];
         double& most = share[g.point(r, j)];
         most = std::max(most, von_mises(as_tensor(s)) / rail.rows[static_cast<std::size_t>(r)].law.yield);
       }
@@ -69,7 +69,7 @@ void write_along(const std::filesystem::path& file, std::vector<std::string> rem
     int zone;
     double elastic, yielding;
   };
-  const SteadyGrid& g = rail.grid;
+  const SteadyGrid g = rail.grid.path();
   std::vector<Point> points;
   for (int r = 0; r < g.rows(); ++r)
     for (int i = 0; i < g.active_stations(); ++i)
@@ -106,7 +106,7 @@ VtkQuads quads_of(const SteadyGrid& g) {
 
 PassWay pass_way(const RailPasses& rail, const SteadyBody& body, const Field& contact, const PassResult& last,
                  const PassState& state) {
-  const SteadyGrid& g = rail.grid;
+  const SteadyGrid g = rail.grid.path();
   const std::vector<WayPoint> way = way_points(rail, last, state);
   PassWay out;
   out.row = static_cast<int>(way.front().point) / g.ny;
@@ -125,7 +125,7 @@ PassWay pass_way(const RailPasses& rail, const SteadyBody& body, const Field& co
   for (int r = 0; r < g.rows(); ++r)
     for (int i = 0; i < g.active_stations(); ++i) {
       std::array<double, 6> e{};
-      for (int c = 0; c < 6; ++c) e[c] = contact[g.index(c, r, i, out.column)];
+      for (int c = 0; c < 6; ++c) e[c] = contact[g.active_index(c, r, i, out.column)];
       std::array<double, 6> s = body.stress_of(r, e);
       const auto& process = rail.initial_stress[static_cast<std::size_t>(r)];
       s[0] += process[0];

@@ -27,6 +27,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNearYield = 0.8;  // of the yield strength: rows follow plastic flow as deep as the contact comes near
                                     // it, residual stress included
 constexpr double kDeepest = 4;      // shorter half-axes
+constexpr int kPathSteps = 4;       // of the law from station to station
 constexpr double kFarthest = 12;    // half-axes across that wheels may wander: another place of the profile else
 
 struct Extent {
@@ -99,6 +100,7 @@ SteadyGrid plan_grid(const Footprint& f, const PassesSpec& passes, double window
   const double a = f.x.half();
   SteadyGrid g;
   g.dx = a / passes.patch_cells;
+  g.steps = kPathSteps;
   g.nx = static_cast<int>(std::lround(((f.line ? 42 : 8) + window) * passes.patch_cells));
   g.front = (f.line ? 10 : 3) * a;
   g.active = window * a;
@@ -187,11 +189,19 @@ class Rows {
   std::vector<std::string> notes_;
 };
 
-/// Stress of the contact at the active stations, row by row from the surface down.
+/// Stress of the contact on a path (SteadyGrid::path()), row by row from the surface down.
 class ContactStress {
  public:
   ContactStress(const BemResult& result, double middle_x, const SteadyGrid& grid)
-      : middle_x_(middle_x), grid_(grid), stress_(interior(result, middle_x, grid)) {}
+      : middle_x_(middle_x), grid_(grid.path()), stress_(interior(result, middle_x, grid_)) {
+    // in steps of the contact's own cells tractions lose their edges, and so a fifth of what a wheel leaves
+    constexpr double kCells = 21;  // of half the patch's length, at least
+    constexpr int kLeast = 2;
+    constexpr double kSkin = 1;  // cells: farther below steps do not show
+    const double cells = footprint_of(result).x.half() / result.grid.dx;
+    stress_.refine(rail_interior(result).refined(std::max(kLeast, static_cast<int>(std::ceil(kCells / cells)))),
+                   kSkin * result.grid.dx);
+  }
 
   std::vector<Sym3> row(double depth) {
     std::vector<Vec3> points;
@@ -209,7 +219,7 @@ class ContactStress {
             g.ny > 1 ? 0.5 * g.ny * g.dy + std::abs(g.y(0) + 0.5 * (g.ny - 1) * g.dy) : 0};
   }
   double middle_x_;
-  const SteadyGrid& grid_;
+  SteadyGrid grid_;
   StressOfHalfSpace stress_;
 };
 
@@ -245,14 +255,15 @@ void require_known(const CaseSpec& spec, const std::vector<BemResult>& solutions
                     "bring passes.lateral_positions closer together, or lower passes.lateral_deviation");
 }
 
-/// Stresses at the active stations, a vector a row, as a field of a grid with these rows or fewer.
-Field as_field(const SteadyGrid& g, const std::vector<std::vector<Sym3>>& rows) {
-  Field out(g.size(), 0.0);
+/// Stresses on the path, a vector a row, as a field of a grid with these rows or fewer.
+Field as_field(const SteadyGrid& grid, const std::vector<std::vector<Sym3>>& rows) {
+  const SteadyGrid g = grid.path();
+  Field out(g.active_size());
   for (int r = 0; r < g.rows(); ++r)
     for (int i = 0; i < g.active_stations(); ++i)
       for (int j = 0; j < g.ny; ++j) {
         const Sym3& s = rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(i * g.ny + j)];
-        for (int c = 0; c < 6; ++c) out[g.index(c, r, i, j)] = component(s, c);
+        for (int c = 0; c < 6; ++c) out[g.active_index(c, r, i, j)] = component(s, c);
       }
   return out;
 }
@@ -364,15 +375,15 @@ Field contact_stress(const RailPasses& passes, const BemResult& contact) {
 }
 
 Field contact_strain(const RailPasses& passes, const SteadyBody& body, const Field& stress, int columns) {
-  const SteadyGrid& g = passes.grid;
-  Field strain(g.size());
+  const SteadyGrid g = passes.grid.path();
+  Field strain(g.active_size());
   for (int r = 0; r < g.rows(); ++r)
     for (int i = 0; i < g.active_stations(); ++i)
       for (int j = std::max(0, columns); j < std::min(g.ny, g.ny + columns); ++j) {
         std::array<double, 6> s{};
-        for (int c = 0; c < 6; ++c) s[c] = stress[g.index(c, r, i, j - columns)];
+        for (int c = 0; c < 6; ++c) s[c] = stress[g.active_index(c, r, i, j - columns)];
         const std::array<double, 6> e = body.strain_of(r, s);
-        for (int c = 0; c < 6; ++c) strain[g.index(c, r, i, j)] = e[c];
+        for (int c = 0; c < 6; ++c) strain[g.active_index(c, r, i, j)] = e[c];
       }
   return strain;
 }

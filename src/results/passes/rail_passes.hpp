@@ -26,7 +26,7 @@ struct RailPasses {
   RowModuli below;                                    ///< of what lies under the rows
   std::vector<std::array<double, 2>> initial_stress;  ///< Pa, of rows
   std::vector<std::string> notes;                     ///< which strengths are estimates, and how
-  std::vector<Field> contact_stress;                  ///< Pa, SteadyGrid::size() each: of each solution
+  std::vector<Field> contact_stress;                  ///< Pa, of each solution, on SteadyGrid::path() (active_size)
 };
 
 /// Columns and rows that passes of several wheels share.

@@ -27,6 +27,12 @@ class StressOfHalfSpace {
                            g.line ? 0 : more(reach_y, g.y(0), g.y(g.ny - 1), g.dy));
   }
 
+  /// From so deep on upwards near the patch from these, of the same tractions on finer cells.
+  void refine(std::unique_ptr<Subsurface> finer, double depth) {
+    finer_ = std::move(finer);
+    finer_to_ = depth;
+  }
+
   std::vector<Sym3> operator()(const std::vector<Vec3>& points, bool below) {
     std::vector<Sym3> out;
     out.reserve(points.size());
@@ -37,7 +43,7 @@ class StressOfHalfSpace {
         out.push_back({});  // beyond the box: as good as unloaded
         continue;
       }
-      const Subsurface& body = near ? near_ : *far_;
+      const Subsurface& body = !near ? *far_ : p.z < finer_to_ ? *finer_ : near_;
       out.push_back(body.stress_at(plane_of(body, near, p.z), p, below));
     }
     return out;
@@ -60,7 +66,8 @@ class StressOfHalfSpace {
 
   Subsurface near_;
   std::vector<double> interfaces_;
-  std::unique_ptr<Subsurface> far_;
+  std::unique_ptr<Subsurface> far_, finer_;
+  double finer_to_ = -1;
   std::map<double, StatePlane> near_planes_, far_planes_;
 };
 

@@ -23,7 +23,6 @@ namespace {
 constexpr double kDeepest = 12e-3;     // m, of the metal that is followed
 constexpr double kThinnest = 0.05e-3;  // m, of a layer that still is one
 constexpr double kBeside = 15e-3;      // m, of metal beside the outermost contacts
-constexpr double kAll = 1 - 1e-12;     // of a mass that has been reached but for rounding
 constexpr int kSteps = 3;              // of the metal through a stretch
 
 /// What a load's contact was, to see whether it has changed.
@@ -31,6 +30,19 @@ struct ContactMark {
   double p_max = 0;
   std::vector<double> at;  ///< m, of its patches on the unworn profile
 };
+
+/// The farthest of the fewer patches from the nearest of the others: their order is that of pressures, which changes
+/// places where no patch does.
+double apart(const std::vector<double>& one, const std::vector<double>& other) {
+  if (one.size() > other.size()) return apart(other, one);
+  double out = 0;
+  for (const double at : one) {
+    double nearest = kNever;
+    for (const double beside : other) nearest = std::min(nearest, std::abs(at - beside));
+    out = std::max(out, nearest);
+  }
+  return out;
+}
 
 /// A step of wear, or a grinding: m, of the metal's columns. Traffic in wheels since the stretch's beginning.
 struct Sinking {
@@ -61,9 +73,9 @@ class Clock {
       if (!at_horizon()) keep();
     }
     now_.out.lives = clock_lives(spec_, state(), unworn_.rail);
-    for (const std::string& note :
-         {now_.out.worn_through ? std::string() : now_.out.ended, fitted_ductility(spec_, now_.out.history),
-          ratchets_on(now_.out.history), wearing_in(now_.out.history, now_.out.lives)})
+    for (const std::string& note : {now_.out.worn_through ? std::string() : now_.out.ended,
+                                    fitted_ductility(spec_, now_.out.history), one_track(spec_, now_.out.history),
+                                    ratchets_on(now_.out.history), wearing_in(now_.out.history, now_.out.lives)})
       if (!note.empty()) now_.out.notes.push_back(note);
     now_.out.profile = surface_.points();
     return std::move(now_.out);
@@ -77,7 +89,7 @@ class Clock {
   void keep() const {
     if (options_.keep) options_.keep(state());
   }
-  bool at_horizon() const { return now_.out.reached >= options_.horizon * kAll; }
+  bool at_horizon() const { return now_.out.reached >= options_.horizon * kReached; }
   void progress(double wheels) const;
   void stretch();
   void solve(bool with_stresses);
@@ -238,8 +250,7 @@ bool Clock::changed(const std::vector<ContactMark>& from) const {
   for (std::size_t i = 0; i < now.size(); ++i) {
     double by = std::abs(now[i].p_max - from[i].p_max) / (options_.change * std::max(from[i].p_max, now[i].p_max));
     if (now[i].at.size() != from[i].at.size()) by = std::max(by, 1.0);
-    for (std::size_t k = 0; k < std::min(now[i].at.size(), from[i].at.size()); ++k)
-      by = std::max(by, std::abs(now[i].at[k] - from[i].at[k]) / options_.moved);
+    by = std::max(by, apart(now[i].at, from[i].at) / options_.moved);
     by = std::min(by, kMost);
     if (now[i].p_max > 0 || from[i].p_max > 0) sum += rows_[i].passages / now_.out.wheels * by * by;
   }
@@ -311,7 +322,7 @@ void Clock::wear_until_changed() {
     const double end = std::min(options_.horizon, now_.next_grinding);
     wear_step(wheels_until(end));
     progress(sinkings_.front().from);
-    if (now_.out.reached >= now_.next_grinding * kAll) {
+    if (now_.out.reached >= now_.next_grinding * kReached) {
       Sinking grinding{.from = now_.wheels, .to = now_.wheels, .before = removed_of_columns(), .after = {}};
       surface_.grind(spec_.life.grinding.depth);
       grinding.after = removed_of_columns();
@@ -468,6 +479,14 @@ void Clock::note(const ClockMoment& of_stretch) {
 }
 
 }  // namespace
+
+ClockOptions clock_options(const CaseSpec& spec, const BemOptions& bem, const Control* control) {
+  ClockOptions out;
+  out.bem = bem;
+  out.horizon = spec.life.until;
+  out.control = control;
+  return out;
+}
 
 ClockResult run_clock(const CaseSpec& spec, const std::filesystem::path& folder, const ClockOptions& options) {
   return Clock(spec, folder, options).run();

@@ -24,6 +24,8 @@ namespace railstrata {
 
 struct ClockState;  // clock/clock_state.hpp
 
+inline constexpr double kReached = 1 - 1e-12;  ///< of a mass that has been reached but for rounding
+
 struct ClockOptions {
   BemOptions bem;
   double horizon = 0;         ///< kg, gross traffic until which to go
@@ -40,6 +42,9 @@ struct ClockOptions {
   std::function<void(const ClockState&)> keep = {};
   const ClockState* begun = nullptr;  ///< to go on from, of this case and these options; null: from the beginning
 };
+
+/// To life.until of the case.
+ClockOptions clock_options(const CaseSpec& spec, const BemOptions& bem, const Control* control);
 
 /// The rail at an instant.
 struct ClockMoment {

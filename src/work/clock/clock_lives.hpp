@@ -13,6 +13,9 @@ std::vector<LifeRow> clock_lives(const CaseSpec& spec, const ClockState& at, con
 /// A note with the ductility that gives first cracks at spec.life.first_cracks; empty without that key.
 std::string fitted_ductility(const CaseSpec& spec, const std::vector<ClockMoment>& history);
 
+/// A note where a rail wears under one kind of wheels in one place; else empty. spec: of the kinds.
+std::string one_track(const CaseSpec& spec, const std::vector<ClockMoment>& history);
+
 /// A note where the rate of strain falls by less than the root of the traffic in the second half of it; else empty.
 std::string ratchets_on(const std::vector<ClockMoment>& history);
 

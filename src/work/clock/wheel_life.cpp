@@ -13,13 +13,9 @@ LifeOf life_of_wheels(std::filesystem::path folder, const Control* control) {
     LoadSpec wheel;
     wheel.name = "wheel";
     one.loads = {wheel};
-    ClockOptions how;
-    how.bem = bem;
-    how.horizon = spec.life.until;
-    how.control = control;
     LifeSummary out;
     try {
-      const std::vector<LifeRow> lives = run_clock(one, folder, how).lives;
+      const std::vector<LifeRow> lives = run_clock(one, folder, clock_options(spec, bem, control)).lives;
       out.text = life_text(lives);
       if (const LifeRow* row = shortest(lives)) {
         out.best = row->mgt.best / unit::kMGT.factor;

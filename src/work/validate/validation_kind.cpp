@@ -177,11 +177,7 @@ Answers traffic_answers(const ValidationSet& set, const ValidationSeries& series
     if (!(one.spec.life.until > 0))
       throw CaseError("kind = \"traffic\": the rail is not followed", "add life.until = \"5 Mt\" to the case",
                       set.file.string());
-    ClockOptions how;
-    how.bem = options.bem;
-    how.horizon = one.spec.life.until;
-    how.control = options.control;
-    found.push_back(run_clock(one.spec, one.folder(), how));
+    found.push_back(run_clock(one.spec, one.folder(), clock_options(one.spec, options.bem, options.control)));
     if (!found.back().ended.empty()) out.faults.push_back(fmt::format("row {}: {}", i + 1, found.back().ended));
   }
   out.numbers = csv_columns(found, traffic_columns());
