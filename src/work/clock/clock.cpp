@@ -31,19 +31,6 @@ struct ContactMark {
   std::vector<double> at;  ///< m, of its patches on the unworn profile
 };
 
-/// The farthest of the fewer patches from the nearest of the others: their order is that of pressures, which changes
-/// places where no patch does.
-double apart(const std::vector<double>& one, const std::vector<double>& other) {
-  if (one.size() > other.size()) return apart(other, one);
-  double out = 0;
-  for (const double at : one) {
-    double nearest = kNever;
-    for (const double beside : other) nearest = std::min(nearest, std::abs(at - beside));
-    out = std::max(out, nearest);
-  }
-  return out;
-}
-
 /// A step of wear, or a grinding: m, of the metal's columns. Traffic in wheels since the stretch's beginning.
 struct Sinking {
   double from = 0, to = 0;
@@ -250,7 +237,8 @@ bool Clock::changed(const std::vector<ContactMark>& from) const {
   for (std::size_t i = 0; i < now.size(); ++i) {
     double by = std::abs(now[i].p_max - from[i].p_max) / (options_.change * std::max(from[i].p_max, now[i].p_max));
     if (now[i].at.size() != from[i].at.size()) by = std::max(by, 1.0);
-    by = std::max(by, apart(now[i].at, from[i].at) / options_.moved);
+    for (std::size_t k = 0; k < std::min(now[i].at.size(), from[i].at.size()); ++k)
+      by = std::max(by, std::abs(now[i].at[k] - from[i].at[k]) / options_.moved);
     by = std::min(by, kMost);
     if (now[i].p_max > 0 || from[i].p_max > 0) sum += rows_[i].passages / now_.out.wheels * by * by;
   }
