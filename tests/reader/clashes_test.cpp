@@ -123,6 +123,8 @@ const std::map<std::string, Overrides>& examples() {
       {"passes.traction_coefficients", {"passes.traction_coefficients=[0.1]"}},
       {"passes.jump", {"passes.jump=auto"}},
       {"passes.patch_cells", {"passes.patch_cells=8"}},
+      {"life.until", {"life.until=1 Mt"}},
+      {"life.first_cracks", {"life.first_cracks=30 Mt"}},
       {"grinding.every", {"grinding.every=15 Mt"}},
       {"grinding.depth", {"grinding.depth=0.2 mm"}}};
   return all;

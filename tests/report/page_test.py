@@ -296,7 +296,10 @@ class Run(Page):
                                        delta=1e-3 * size + 1e-6)
                 self.assertAlmostEqual(sum(shown), sum(v for v, p in zip(patch[column], patch["p_MPa"]) if p > 0),
                                        delta=1e-3 * size * len(shown) + 1e-6)
-            arrows = self.trace(f"plot-map-q-{n}", 1)
+            lines = self.trace(f"plot-map-q-{n}", 1)
+            self.assertGreater(len(lines["x"]), 70)
+            self.assertTrue(all(x is None for x in lines["x"][2::3]), "of equal value, in pieces of two points")
+            arrows = self.trace(f"plot-map-q-{n}", 2)
             self.assertGreater(len(arrows["x"]), 70)
             for k in range(0, len(arrows["x"]), 7):  # a shaft, then its head
                 self.assertLess(arrows["x"][k + 1], arrows["x"][k], "a driving wheel pushes the rail backwards")

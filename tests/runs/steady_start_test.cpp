@@ -11,12 +11,11 @@
 namespace railstrata {
 namespace {
 
-// S1002 on UIC60 with a layer on coarse elements: six across the patch.
+// Six elements over the patch.
 CaseSpec coarse_case(std::vector<std::string> more = {}) {
-  std::vector<std::string> set{"geometry.wheel_profile=S1002", "geometry.rail_profile=UIC60", "geometry.cant=1:40",
-                               "mesh.element_size=2.5 mm",     "mesh.end_length=60 mm",       "run.window=8 mm"};
+  std::vector<std::string> set{"geometry.lateral_shift=1.5 mm", "mesh.element_size=2 mm"};
   set.insert(set.end(), more.begin(), more.end());
-  return parse_case("[[layer]]\nname = \"clad\"\nthickness = \"2.5 mm\"\nyoung_ratio = 2.0\n", "coarse.toml", set).spec;
+  return parse_case("[[layer]]\nname = \"clad\"\nthickness = \"2 mm\"\nyoung_ratio = 2.0\n", "coarse.toml", set).spec;
 }
 
 struct Window {
@@ -42,16 +41,16 @@ Window mean_of(const std::vector<HistoryRow>& history, double from, double to) {
 
 // From the first rows on what they are at the end: traction, load and creepage.
 TEST(SteadyStart, BeginsWhereItEnds) {
-  const CaseSpec spec = coarse_case({"run.positions=[\"60 mm\"]"});
+  const CaseSpec spec = coarse_case({"run.positions=[\"50 mm\"]"});
   const RollingSystem system = fem_system(spec, ".");
   const FemSolution solution = solve_fem(system);
-  const Window end = mean_of(solution.history, 0.050, 0.064);
+  const Window end = mean_of(solution.history, 0.040, 0.055);
   EXPECT_NEAR(end.ratio, 0.2, 0.002);
-  for (double from = 0; from < 0.05; from += 0.008) {
+  for (double from = 0; from < 0.04; from += 0.008) {
     const Window here = mean_of(solution.history, from, from + 0.008);
     EXPECT_NEAR(here.ratio / end.ratio, 1, 0.01) << from;
     EXPECT_NEAR(here.F_z / end.F_z, 1, 0.01) << from;
-    EXPECT_NEAR(here.creepage / end.creepage, 1, 0.03) << from;
+    EXPECT_NEAR(here.creepage / end.creepage, 1, 0.015) << from;
   }
   EXPECT_LT(solution.positions.back().summary.energy.closure, 1e-3);
 }
@@ -74,18 +73,20 @@ TEST(SteadyStart, FromRestTheTorqueRises) {
   const CaseSpec spec = coarse_case({"run.start=rest", "run.run_up=2 mm", "run.positions=[\"8 mm\"]"});
   const FemSolution solution = solve_fem(fem_system(spec, "."));
   EXPECT_LT(std::abs(solution.history.front().forces.x), 0.01 * solution.history.front().forces.z);
-  EXPECT_EQ(solution.history.front().torque, 0);
+  EXPECT_LT(solution.history.front().torque, 1e-3);
 }
 
 TEST(SteadyStart, SaysWhyItIsNone) {
   EXPECT_EQ(why_from_rest(coarse_case()), "");
   const auto why = [](const char* set) { return why_from_rest(coarse_case({set})); };
   EXPECT_EQ(why("run.start=rest"), "run.start = \"rest\"");
-  EXPECT_EQ(why("drive.friction_coefficient=0"), "there is no friction");
+  EXPECT_EQ(why_from_rest(coarse_case({"drive.friction_coefficient=0", "drive.traction_coefficient=0"})),
+            "there is no friction");
   EXPECT_EQ(why("drive.torque_ramp=1 ms"), "the case gives drive.torque_ramp");
   EXPECT_EQ(why("drive.creepage_start=-0.001"), "the case gives drive.creepage_start");
-  EXPECT_EQ(why("drive.friction_coefficient=0.2"), "the wheel slides all over the patch");
+  EXPECT_EQ(why("drive.friction_coefficient=0.201"), "the wheel slides all over the patch");
   EXPECT_EQ(why("run.plasticity=true"), "materials yield");
+  EXPECT_EQ(why("mesh.end_length=80 mm"), "the rail ends near the wheel (mesh.end_length below 100 mm)");
 }
 
 }  // namespace railstrata

@@ -22,7 +22,7 @@ bool changes_on_way(const CaseSpec& spec) {
 }
 
 std::string why_from_rest(const CaseSpec& spec) {
-  constexpr double kNearlyAllFriction = 0.98;
+  constexpr double kNearlyAllFriction = 0.98, kLongEnd = 0.1;  // m; docs/finite-elements-verification.md
   const DriveSpec& drive = spec.drive;
   const double f = drive.friction_coefficient, across = spec.friction.lateral_coefficient.value_or(f);
   if (!spec.run.rolling) return "the wheel does not roll";
@@ -34,6 +34,8 @@ std::string why_from_rest(const CaseSpec& spec) {
   if (spec.third_body.yield_shear || spec.third_body.modulus_by_pressure > 0) return "the third body is not elastic";
   if (drive.torque_ramp != DriveSpec{}.torque_ramp) return "the case gives drive.torque_ramp";
   if (drive.creepage_start != 0) return "the case gives drive.creepage_start";
+  if (!spec.geometry.rail_radius && spec.mesh.end_length < kLongEnd)
+    return "the rail ends near the wheel (mesh.end_length below 100 mm)";
   if (std::hypot(drive.traction().value_or(0) / f, drive.lateral_traction_coefficient.value_or(0) / across) >
       kNearlyAllFriction)
     return "the wheel slides all over the patch";

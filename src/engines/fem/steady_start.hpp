@@ -72,7 +72,7 @@ class SteadyCells {
   const std::vector<double>& pressure_;
   int first_column_ = 0, nx_ = 0, ny_ = 0;
   int first_station_ = 0, along_ = 1;  ///< station of i = 0; step of the station from i to i + 1
-  double dx_ = 0, dy_ = 0, force_share_ = 1;
+  double dx_ = 0, dy_ = 0;
 };
 
 }  // namespace railstrata
