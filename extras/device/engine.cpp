@@ -128,9 +128,9 @@ void Engine::load(const RestartState& state) {
   }
   contact_.load(state);
   groups_.upload(state.state.groups);
-  law_.axle.rest_z = state.axle_z0;
-  law_.side_force = state.side_force;
-  law_.torque_ramp = state.torque_ramp;
+  law_.axle.rest_z = state.start.axle_z;
+  law_.side_force = state.start.side_force;
+  law_.torque_ramp = state.start.torque_ramp;
   StepState s;
   s.time = state.state.time;
   s.step = step_ = state.state.step;

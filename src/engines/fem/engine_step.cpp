@@ -29,9 +29,7 @@ void Stepper::restore_state(RestartState restart) {
   state_ = std::move(restart.state);
   balance_ = restart.balance;
   bodies_[kWheel].mean = restart.mean;
-  axle_rest_z_ = restart.axle_z0;
-  side_force_ = restart.side_force;
-  torque_ramp_ = restart.torque_ramp;
+  start_ = restart.start;
   contact_.restore(std::move(restart));
   fields_here_ = true;
 }

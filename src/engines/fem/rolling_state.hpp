@@ -23,6 +23,13 @@ struct RollingState {
   SurfaceTractions tractions{0, 0};
 };
 
+/// What the start of a rolling fixes for all of it.
+struct RollingStart {
+  double axle_z = 0;       ///< m, height of the axle
+  double side_force = 0;   ///< N, on the axle, that holds it in the static equilibrium
+  double torque_ramp = 0;  ///< s, in which the torque rises
+};
+
 /// All that a step takes over from the one before, at a restart point. A stepper restored from it computes the same
 /// bits as the one that gave it.
 struct RestartState {
@@ -30,10 +37,8 @@ struct RestartState {
   EnergyBalance balance;
   MeanMotion mean;  ///< of the wheel
   std::vector<MortarContact::Facet> facets;
-  double axle_z0 = 0;      ///< m, height of the axle at the start of the rolling
-  double side_force = 0;   ///< N, on the axle, that holds it in the static equilibrium
-  double torque_ramp = 0;  ///< s, of the start
-  double dt = 0;           ///< s
+  RollingStart start;
+  double dt = 0;  ///< s
   bool reached_edge = false;
 };
 

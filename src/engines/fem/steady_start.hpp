@@ -1,16 +1,16 @@
 #pragma once
 // The friction of steady rolling in the static equilibrium before a run.
 //
-// In the equilibrium the surfaces have displacements u, as functions of the place beside the axle. Rolling steadily,
-// they keep them while the particles pass: from one row of cells to the next one behind it a particle of the wheel is
-// displaced against that of the rail by U(x) - U(x + dx), U = u_wheel - u_rail, and the rigid motion slides over it by
-// G dx/V, so that over a row of cells
+// In the equilibrium the surfaces have displacements u, as functions of the place relative to the axle. Rolling
+// steadily, they keep them while the particles pass: from one row of cells to the next one behind it a particle of the
+// wheel is displaced against that of the rail by U(x) - U(x + dx), U = u_wheel - u_rail, and the rigid motion slides
+// over it by G dx/V, so that over a row of cells
 //   s = G/V + (U(x) - U(x + dx))/dx
 // is the slip over V (wheel over rail, as in the half-space engine). Weights and places are those of the contact's rows
 // (contact/mortar.hpp), so that wheel and rail slip as they do in a step; the sums of rigid and elastic motion hold for
 // finite displacements.
 //
-// What tractions belong to that slip is asked of a half-space engine: it is told the slip that the present tractions
+// What tractions belong to that slip is asked of a half-space engine: it gets the slip that the present tractions
 // leave on the mesh and answers with better ones and the change of the creepages. A few times, each followed by the
 // equilibrium of the mesh, and the mesh rolls steadily: how the half-spaces differ from it decides how soon, not where
 // it ends.

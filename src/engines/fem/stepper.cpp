@@ -92,9 +92,7 @@ RestartState Stepper::restart_beside_state() const {
   RestartState out;
   out.balance = balance_;
   out.mean = bodies_[kWheel].mean;
-  out.axle_z0 = axle_rest_z_;
-  out.side_force = side_force_;
-  out.torque_ramp = torque_ramp_;
+  out.start = start_;
   out.dt = dt();
   contact_.save(out);
   return out;
@@ -107,9 +105,9 @@ void Stepper::start(const PreloadResult& preload) {
                  .vx = ring ? 0.0 : sys_.spec().drive.speed,
                  .vy = preload.motion.lateral_speed,
                  .spin = preload.motion.spin};
-  torque_ramp_ = preload.steady_passes > 0 ? 0.0 : sys_.spec().drive.torque_ramp;
-  side_force_ = -preload.contact_force.y;
-  axle_rest_z_ = preload.axle_z;
+  start_ = {.axle_z = preload.axle_z,
+            .side_force = -preload.contact_force.y,
+            .torque_ramp = preload.steady_passes > 0 ? 0.0 : sys_.spec().drive.torque_ramp};
   state_.groups.assign(kSuspensionGroups, MassGroup{});
   // of the pattern against the material: m/s, rad/s
   const double rate[2] = {ring ? sys_.rail_spin : sys_.spec().drive.speed, preload.motion.spin};
@@ -153,7 +151,9 @@ AxlePose Stepper::pose_in_frame() const {
   return {at.x, at.y, at.z, state_.axle.psi - frame.psi};
 }
 
-AxleDrive Stepper::axle_drive() const { return {drive_torque(sys_, state_.time, torque_ramp_), side_force_}; }
+AxleDrive Stepper::axle_drive() const {
+  return {drive_torque(sys_, state_.time, start_.torque_ramp), start_.side_force};
+}
 
 double Stepper::lateral_creepage() const {
   const RigidContact& contact = sys_.model.reference;
@@ -206,7 +206,7 @@ void Stepper::step() {
   scope.lap(StepPart::waiting);
   sums_ = update_sums(bodies_, scope, exchange());
   book_update(scope);
-  const double axle_kinetic = advance_axle(axle_law(sys_, axle_rest_z_), loads, axle_drive(), scope.dt,
+  const double axle_kinetic = advance_axle(axle_law(sys_, start_.axle_z), loads, axle_drive(), scope.dt,
                                            scope.damping_rate, state_.axle, state_.groups, balance_);
   if (want_energy_) {
     book_kinetic_energy(axle_kinetic + track_.kinetic());
@@ -248,7 +248,7 @@ void Stepper::book_stored_energy(const std::array<double, 2>& turned) {
   }
   balance_.weight = sys_.gravity * (weight + sys_.axle.mass_z * state_.axle.z);
   for (const EndLoad& l : sys_.end_loads) balance_.weight -= l.force * state_.bodies[kRail].u[l.index];
-  balance_.spring = spring_energy(axle_law(sys_, axle_rest_z_), state_.axle.z, state_.groups);
+  balance_.spring = spring_energy(axle_law(sys_, start_.axle_z), state_.axle.z, state_.groups);
 }
 
 // Forces on slaves go to their masters; returns what the offsets hand to the rotation of a body that turns.

@@ -132,7 +132,7 @@ class Stepper {
   InterfaceStep interface_;
   EnergyBalance balance_, recorded_;
   std::array<UpdateSums, 2> sums_;  // of this step
-  double axle_rest_z_ = 0, side_force_ = 0, torque_ramp_ = 0;
+  RollingStart start_;
   bool want_energy_ = false;
   StepLaps* laps_ = nullptr;
   std::unique_ptr<StepEngine> engine_;

@@ -111,9 +111,9 @@ void describe(Archive& a, RestartState& m) {
     on("time", v.state.time);
     on("step", v.state.step);
     on("dt", v.dt);
-    on("axle_z0", v.axle_z0);
-    on("side_force", v.side_force);
-    on("torque_ramp", v.torque_ramp);
+    on("axle_z0", v.start.axle_z);
+    on("side_force", v.start.side_force);
+    on("torque_ramp", v.start.torque_ramp);
     on("reached_edge", v.reached_edge);
     on("mean_x", v.mean.x);
     on("mean_z", v.mean.z);

@@ -31,14 +31,15 @@ export function contours(x: number[], y: number[], z: Values[], levels: number[]
     for (let i = 0; i + 1 < x.length; ++i) {
       const [a, b, c, d] = [z[j][i], z[j][i + 1], z[j + 1][i + 1], z[j + 1][i]].map((v) => v ?? 0);
       const value = (s: number, t: number) => (1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * d + s * c);
-      const corner = (s: number, t: number): [number, Point] =>
-          [value(s, t), [x[i] + s * (x[i + 1] - x[i]), y[j] + t * (y[j + 1] - y[j])]];
+      const corner = (s: number, t: number):
+          [number, Point] => [value(s, t), [x[i] + s * (x[i + 1] - x[i]), y[j] + t * (y[j + 1] - y[j])]];
       const crossed = levels.filter((l) => Math.min(a, b, c, d) < l && l <= Math.max(a, b, c, d));
       for (const level of crossed)
         for (let t = 0; t < kParts; ++t)
           for (let s = 0; s < kParts; ++s) {
             const [low, high, left, right] = [t, t + 1, s, s + 1].map((v) => v / kParts);
-            const pieces = piecesIn([corner(left, low), corner(right, low), corner(right, high), corner(left, high)], level);
+            const pieces =
+                piecesIn([corner(left, low), corner(right, low), corner(right, high), corner(left, high)], level);
             for (let k = 0; k + 1 < pieces.length; k += 2) {
               line.x.push(pieces[k][0], pieces[k + 1][0], null);
               line.y.push(pieces[k][1], pieces[k + 1][1], null);

@@ -293,8 +293,10 @@ export function numbersTable(runs: Run[]): HTMLElement[] {
   }
   const head = ["quantity", "unit", ...runs.map(runLabel), ...(pair ? ["difference"] : [])];
   const barred = shownQuantities().some((q) => runs.some((run) => barOf(q, run)));
-  const bars = barred ? "±: of half-spaces what the size of their cells leaves uncertain, of finite elements the change from one " +
-          "measuring window to the next." : null;
+  const bars = barred
+      ? "±: of half-spaces what the size of their cells leaves uncertain, of finite elements the change from one " +
+          "measuring window to the next."
+      : null;
   const notes = [runs.length > 1 ? patchesNote(runs) : null, bars].flatMap((text) => (text ? [note(text)] : []));
   return [...notes, table("Contact", head, rows, {class: "numbers", id: "contact-numbers"})];
 }
