@@ -13,6 +13,7 @@
 #include "io/geometry_json.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/unstructured.hpp"
+#include "model/rolling_start.hpp"
 #include "record/vtk.hpp"
 #include "rules/track_facts.hpp"
 
@@ -140,7 +141,11 @@ void print_estimate(const Model& m, const RunEstimate& e) {
         e.limits.added_mass, e.limits.scaled_mass, fmt::join(blocks, ", "), 1e9 * e.limits.unscaled);
   }
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
-  if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
+  if (e.steps == 0) return;
+  const std::string why = why_from_rest(m.spec);
+  fmt::print("rolling        {} steps, about {} here{}; {}\n", e.steps, duration_text(e.seconds),
+             m.until_repeated ? ", more where windows do not repeat" : "",
+             why.empty() ? "from a steady start" : "from rest: " + why);
 }
 
 std::string mesh_table(const Model& model) {
