@@ -104,8 +104,8 @@ def draw_cut(axes, cells, material, axis, place, colours):
 def finite_elements(program, folder):
     with tempfile.TemporaryDirectory() as scratch:
         out = pathlib.Path(scratch) / "mesh"
-        subprocess.run([program, "check", ROOT / "cases/quick", "--mesh", "--out", out, "--quiet"], check=True,
-                       stdout=subprocess.DEVNULL)
+        subprocess.run([program, "check", ROOT / "cases/quick", "--set", "mesh.element_size=2 mm", "--mesh", "--out",
+                        out, "--quiet"], check=True, stdout=subprocess.DEVNULL)
         bodies = [(hexahedra(out / f"{name}.vtu"), colours)
                   for name, colours in (("rail", (STEEL, LAYER)), ("wheel", (WHEEL, LAYER)))]
     top = bodies[0][0][0][:, :, 2].max()
