@@ -322,7 +322,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, con
   m.reach = contact_reach(spec.irregularities, spec.geometry.wheel_radius);
   const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size + std::abs(contact.x) + m.reach;
   // A steady start has no time to settle where the fine range ends close behind the wheel.
-  const double behind = margin + (spec.run.rolling && why_from_rest(spec).empty() ? 4 * m.hertz.a : 0.0);
+  const double behind = margin + (why_from_rest(spec).empty() ? 4 * m.hertz.a : 0.0);
   const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio,
                         spec.mesh.largest};
 

@@ -6,6 +6,9 @@
 
 namespace railstrata {
 
+/// Velocity of a point at `arm` from an axle, of its spin about it.
+constexpr Vec3 spun(double spin, Vec3 arm) { return {spin * arm.z, 0, -spin * arm.x}; }
+
 struct ReferenceFrame {
   double speed = 0;           ///< m/s, along the rail
   double lateral_speed = 0;   ///< m/s

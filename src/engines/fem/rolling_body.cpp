@@ -197,7 +197,7 @@ void add_rigid_motion(const RollingBody& b, const StartMotion& beyond, BodyState
   for (const NodeLine& l : b.body.lines)
     for (int j = 0; j < l.count; ++j) {
       const Vec3 arm = b.arm(l.block, l.node, j);
-      const Vec3 v = aside + Vec3{beyond.spin * arm.z, 0, -beyond.spin * arm.x};
+      const Vec3 v = aside + spun(beyond.spin, arm);
       state.v[l.first + j] += l.component == 0 ? v.x : l.component == 1 ? v.y : v.z;
     }
 }

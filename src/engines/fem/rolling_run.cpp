@@ -183,8 +183,7 @@ class Roller {
     const PositionSamples& window = positions[group];
     const bool whole = window.samples.size() == sample_positions(sys_, window.position).size();
     if (!whole || !observer_.repeats) return;
-    const std::vector<PositionSamples> so_far(positions.begin(), positions.begin() + group + 1);
-    time_output([&] { repeated_ = observer_.repeats(so_far); });
+    time_output([&] { repeated_ = observer_.repeats(std::span(positions).first(group + 1)); });
     if (repeated_) positions.resize(group + 1);
   }
   void keep_state() {

@@ -1,5 +1,7 @@
 #pragma once
 // A whole run: static preload, run-up, rolling, samples around the wanted positions.
+#include <span>
+
 #include "body/plastic_field.hpp"
 #include "fem/rolling_sample.hpp"
 
@@ -66,7 +68,7 @@ struct RunObserver {
   std::function<void(const RollingSample&)> frame;  ///< evenly spaced frames, output.series_frames of them
   std::function<Demand()> demand;                   ///< asked wherever the stepper can be restarted
   /// Of a run until windows repeat (Model::until_repeated), after each whole window, with those so far: true ends it.
-  std::function<bool(const std::vector<PositionSamples>&)> repeats;
+  std::function<bool(std::span<const PositionSamples>)> repeats;
   std::function<void(const RollingState&)> finished;  ///< the last state of a rolling that was not stopped
   /// The state to go on from: on demand, when the run stops (`stopping`), and the last good one before a
   /// NumericalError. May throw: that ends the run.

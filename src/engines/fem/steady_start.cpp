@@ -6,6 +6,7 @@
 
 #include "body/field_algebra.hpp"
 #include "contact/enforcement_law.hpp"
+#include "fem/reference_frame.hpp"
 
 namespace railstrata {
 namespace {
@@ -15,8 +16,6 @@ Vec3 arm_of(const ContactSurface& surface, SurfaceIndex at) {
   const double z = surface.node[at.column].z, turn = surface.stations.at[at.station];
   return {-z * std::sin(turn), 0, z * std::cos(turn)};
 }
-
-Vec3 spun(double spin, Vec3 arm) { return {spin * arm.z, 0, -spin * arm.x}; }
 
 }  // namespace
 
@@ -70,7 +69,6 @@ SteadyQuestion SteadyCells::ask(const SurfaceTractions& traction, const std::arr
   out.dy = dy_;
   const std::size_t cells = static_cast<std::size_t>(nx_) * ny_;
   out.bound.assign(cells, 0.0);
-  out.pressure.assign(cells, 0.0);
   out.gap.assign(cells, std::numeric_limits<double>::infinity());
   for (int d = 0; d < 2; ++d) {
     out.traction[d].assign(cells, 0.0);
@@ -84,7 +82,6 @@ SteadyQuestion SteadyCells::ask(const SurfaceTractions& traction, const std::arr
     const ContactRow& row = rows_.rows[k];
     const std::size_t c = cell(row);
     const ContactRow* ahead = row_of[c + ny_];
-    out.pressure[c] = pressure_[k];
     out.gap[c] = row.gap;
     if (!ahead) continue;
     const double f =

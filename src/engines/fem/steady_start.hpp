@@ -28,7 +28,7 @@ namespace railstrata {
 struct SteadyQuestion {
   int nx = 0, ny = 0;
   double dx = 0, dy = 0;                        ///< m
-  std::vector<double> pressure, gap;            ///< Pa; m, infinite where the contact does not look
+  std::vector<double> gap;                      ///< m, infinite where the contact does not look
   std::vector<double> bound;                    ///< Pa, of the traction; 0 outside the patch
   std::array<std::vector<double>, 2> traction;  ///< Pa, on the rail: along rolling and across
   std::array<std::vector<double>, 2> slip;      ///< of the mesh under them, without a film's shear

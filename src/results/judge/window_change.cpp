@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "judge/check_limits.hpp"
-#include "judge/plausibility.hpp"
 
 namespace railstrata {
 namespace {

@@ -11,7 +11,7 @@ struct WindowChange {
   double largest = 0;    ///< of them all, over its tolerance
 };
 
-/// Tolerances: forces 0.5 % of F_z, p_max 0.5 %, q_max 2 %, creepages 2 % of the rigid slip, slip share 0.03.
+/// Tolerances: at the head of window_change.cpp; forces over F_z, creepages over the rigid slip.
 WindowChange change_between(const MeanContact& before, const MeanContact& last, const DriveSpec& drive);
 
 inline bool repeats(const WindowChange& change) { return change.largest <= 1; }

@@ -58,7 +58,7 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
   return out;
 }
 
-WindowChange last_change(const RollingSystem& system, const std::vector<PositionSamples>& windows) {
+WindowChange last_change(const RollingSystem& system, std::span<const PositionSamples> windows) {
   return change_between(mean_contact(system, windows[windows.size() - 2]), mean_contact(system, windows.back()),
                         system.spec().drive);
 }
@@ -124,7 +124,7 @@ FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, 
     if (observer.finished) observer.finished(state);
     if (has_residual(system, options) && varying_key(system.model.spec).empty()) residual = run_residual(system, state);
   };
-  run_observer.repeats = [&](const std::vector<PositionSamples>& windows) {
+  run_observer.repeats = [&](std::span<const PositionSamples> windows) {
     const bool own = options.ranks.is_root() && windows.size() > 1 && repeats(last_change(system, windows));
     return largest_of_all(options.ranks, own) > 0;
   };

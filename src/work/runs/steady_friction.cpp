@@ -35,7 +35,7 @@ TangentialProblem problem_of(const SteadyQuestion& asked, const PatchGrid& grid)
   out.traction_bound = asked.bound;
   out.extra_slip = {asked.slip[0], asked.slip[1]};
   NormalSolution normal;
-  normal.pressure = asked.pressure;
+  normal.pressure = asked.bound;  // where they are, not how large
   normal.gap = asked.gap;
   out.leading_weight = leading_weights(grid, normal);
   return out;
