@@ -51,13 +51,9 @@ def point_difference(fem, equal):
 
 
 def von_mises_below(row, element_mm):
-    """Largest below an element and whether it lies there: (MPa, bool)."""
-    value = float(row["rail_subsurface_von_mises_MPa"])
-    deep = float(row["rail_subsurface_von_mises_depth_mm"]) > element_mm
-    thickness = row.get("layer.0.thickness", "")
-    if row["rail_interface_von_mises_MPa"] and thickness and float(thickness.split()[0]) >= element_mm:
-        value = max(value, float(row["rail_interface_von_mises_MPa"]))
-    return value, deep
+    """The largest below the surface and whether it lies deeper than an element: (MPa, bool)."""
+    return (float(row["rail_subsurface_von_mises_MPa"]),
+            float(row["rail_subsurface_von_mises_depth_mm"]) > element_mm)
 
 
 def reason(values, bounds):

@@ -182,20 +182,20 @@ struct MakeRows {
     row.columns = patch.columns;
     row.stations = patch.stations;
     row.first = (patch.anchor - s.band_first + ring) % ring + patch.first;
-    if (patch.columns * patch.stations > t.patch) row.fault = static_cast<int>(Fault::patch_too_large);
+    if (patch.nodes() > t.patch) row.fault = static_cast<int>(Fault::patch_too_large);
     if (row.first < 0 || row.first + patch.stations > t.band) row.fault = static_cast<int>(Fault::off_the_band);
     if (row.fault) {
       row.columns = row.stations = 0;
       return;
     }
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(slot) * t.patch;
-    for (int k = 0; k < patch.columns * patch.stations; ++k) t.weights[first + k] = 0;
+    for (int k = 0; k < patch.nodes(); ++k) t.weights[first + k] = 0;
     const auto add = [&](int k, double weight) { t.weights[first + k] += weight; };
     const mortar_law::RowMeasure measured =
         mortar_law::integrate(t.rail, c, j, hit, patch, ring, yaw_back(t.wheel.yaw, t.normal(c)), add);
     row.area = measured.area;
     row.gap = measured.gap;
-    for (int k = 0; k < patch.columns * patch.stations; ++k) t.weights[first + k] /= row.area;
+    for (int k = 0; k < patch.nodes(); ++k) t.weights[first + k] /= row.area;
   }
   RAILSTRATA_POINTWISE void start(int slot, RowRecord& row) const {
     const ContactTables& t = contact;

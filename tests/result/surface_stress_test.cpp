@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "result/stress_maxima.hpp"
+#include "result/band_surface.hpp"
 
 using namespace railstrata;
 

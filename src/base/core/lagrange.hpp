@@ -11,12 +11,14 @@ struct LagrangeStencil {
   std::array<double, 4> weight{};
 };
 
-/// Through the four samples around t, among `count` ascending ones; beyond the outermost through the last four.
-inline LagrangeStencil lagrange_stencil(const double* at, int count, double t) {
+/// Through the `most` samples (at most four) around t, among `count` ascending ones; beyond the outermost through the
+/// last ones. Of three the nearest.
+inline LagrangeStencil lagrange_stencil(const double* at, int count, double t, int most = 4) {
   LagrangeStencil s;
-  s.count = std::min(4, count);
+  s.count = std::min(most, count);
   const int above = static_cast<int>(std::upper_bound(at, at + count, t) - at);
-  s.first = std::clamp(above - 2, 0, count - s.count);
+  const bool nearer_below = above > 0 && above < count && t - at[above - 1] < at[above] - t;
+  s.first = std::clamp(above - s.count / 2 - (s.count % 2 && nearer_below), 0, count - s.count);
   for (int i = 0; i < s.count; ++i) {
     s.weight[i] = 1;
     for (int j = 0; j < s.count; ++j)

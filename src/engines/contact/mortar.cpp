@@ -116,6 +116,8 @@ void MortarContact::reserve_window() {
   hits_.reserve(nodes);
   result_.rows.reserve(nodes);
   result_.weights.reserve(kWeights * nodes);
+  patches_.reserve(nodes);
+  sum_.reserve(kWeights * nodes);
 }
 
 void MortarContact::test_nodes(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double gap_limit) {
@@ -137,11 +139,11 @@ void MortarContact::test_nodes(const Field& u_rail, const Field& u_wheel, const 
   result_.reached_edge = std::any_of(edge_.begin(), edge_.end(), [](char e) { return e; });
 }
 
-int& MortarContact::facet_index(int column, int station) {
+std::size_t MortarContact::facet_at(int column, int station) const {
   const int w = station - window_first_ + 1;
   assert(column >= 0 && column < rail_.columns);
   assert(w >= 0 && w < window_stations_ + 2);
-  return facet_of_[static_cast<std::size_t>(w) * rail_.columns + column];
+  return static_cast<std::size_t>(w) * rail_.columns + column;
 }
 
 void MortarContact::choose_node(int c, int j) {
@@ -149,7 +151,7 @@ void MortarContact::choose_node(int c, int j) {
   chosen_station_.push_back(j);
   for (int dj = -1; dj <= 0; ++dj)
     for (int dc = -1; dc <= 0; ++dc)
-      if (int& f = facet_index(c + dc, j + dj); f < 0) {
+      if (int& f = facet_of_[facet_at(c + dc, j + dj)]; f < 0) {
         f = static_cast<int>(facets_.size());
         facets_.push_back({c + dc, j + dj, {}});
       }
@@ -218,14 +220,37 @@ void MortarContact::update_hits(const Field& u_rail, const Field& u_wheel, const
   });
 }
 
-void MortarContact::append_weights(const WheelPatch& patch, double area) {
+std::array<int, 4> MortarContact::facets_around(int c, int j) const {
+  return {facet_index(c - 1, j - 1), facet_index(c, j - 1), facet_index(c - 1, j), facet_index(c, j)};
+}
+
+void MortarContact::integrate_row(std::size_t r) {
+  ContactRow& row = result_.rows[r];
+  row.normal = rail_normal(row.column, row.station);
+  row.on_wheel = yaw_back(wheel_.yaw, row.normal);
+  const std::array<int, 4> around = facets_around(row.column, row.station);
+  const auto hit = [&](int q, int g) -> const Hit& { return hits_[around[q]][g]; };
+  double* const sum = &sum_[patches_[r].first_sum];
+  std::fill(sum, sum + patches_[r].on.nodes(), 0.0);
+  const auto add = [&](int k, double weight) { sum[k] += weight; };
+  const RowMeasure measured =
+      integrate(rail_, row.column, row.station, hit, patches_[r].on, wheel_.stations.nodes(), row.on_wheel, add);
+  row.area = measured.area;
+  row.gap = measured.gap;
+}
+
+void MortarContact::append_weights(std::size_t r) {
+  ContactRow& row = result_.rows[r];
+  row.first = static_cast<int>(result_.weights.size());
+  const WheelPatch& patch = patches_[r].on;
   const int ring = wheel_.stations.nodes();
+  const double* sum = &sum_[patches_[r].first_sum];
   for (int t = 0; t < patch.stations; ++t) {
     const int station = ((patch.anchor + patch.first + t) % ring + ring) % ring;
-    for (int n = 0; n < patch.columns; ++n)
-      if (const double m = sum_[static_cast<std::size_t>(t) * patch.columns + n]; m != 0)
-        result_.weights.push_back({wheel_.index(patch.column + n, station), m / area});
+    for (int n = 0; n < patch.columns; ++n, ++sum)
+      if (*sum != 0) result_.weights.push_back({wheel_.index(patch.column + n, station), *sum / row.area});
   }
+  row.count = static_cast<int>(result_.weights.size()) - row.first;
 }
 
 const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model) {
@@ -234,29 +259,21 @@ const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel,
   update_hits(u_rail, u_wheel, pose);
   result_.rows.clear();
   result_.weights.clear();
+  patches_.clear();
+  std::size_t sums = 0;
   for (std::size_t r = 0; r < chosen_column_.size(); ++r) {
-    const int c = chosen_column_[r], j = chosen_station_[r];
-    ContactRow row{};
-    row.column = c;
-    row.station = j;
-    row.rail = rail_.index(c, j);
-    row.first = static_cast<int>(result_.weights.size());
-    row.normal = rail_normal(c, j);
-    row.on_wheel = yaw_back(wheel_.yaw, row.normal);
-    // facets of which the node is the corner (1, 1), (0, 1), (1, 0), (0, 0)
-    const int around[] = {facet_index(c - 1, j - 1), facet_index(c, j - 1), facet_index(c - 1, j), facet_index(c, j)};
+    ContactRow& row = result_.rows.emplace_back();
+    row.column = chosen_column_[r];
+    row.station = chosen_station_[r];
+    row.rail = rail_.index(row.column, row.station);
+    const std::array<int, 4> around = facets_around(row.column, row.station);
     const auto hit = [&](int q, int g) -> const Hit& { return hits_[around[q]][g]; };
-    const int ring = wheel_.stations.nodes();
-    const WheelPatch patch = wheel_patch(hit, ring);
-    sum_.assign(static_cast<std::size_t>(patch.columns) * patch.stations, 0.0);
-    const auto add = [&](int k, double weight) { sum_[static_cast<std::size_t>(k)] += weight; };
-    const RowMeasure measured = integrate(rail_, c, j, hit, patch, ring, row.on_wheel, add);
-    row.area = measured.area;
-    row.gap = measured.gap;
-    append_weights(patch, row.area);
-    row.count = static_cast<int>(result_.weights.size()) - row.first;
-    result_.rows.push_back(row);
+    patches_.push_back({wheel_patch(hit, wheel_.stations.nodes()), sums});
+    sums += patches_.back().on.nodes();
   }
+  sum_.resize(sums);
+  for_each(static_cast<std::ptrdiff_t>(patches_.size()), [&](std::ptrdiff_t r) { integrate_row(r); });
+  for (std::size_t r = 0; r < patches_.size(); ++r) append_weights(r);
   return result_;
 }
 

@@ -98,9 +98,13 @@ class MortarContact {
   void start_corrections(const Field& u_rail, const Field& u_wheel, const AxlePose& pose);
 
   void update_hits(const Field& u_rail, const Field& u_wheel, const AxlePose& pose);
-  int& facet_index(int column, int station);
+  std::size_t facet_at(int column, int station) const;
+  int facet_index(int column, int station) const { return facet_of_[facet_at(column, station)]; }
   void choose_node(int column, int station);
-  void append_weights(const WheelPatch& patch, double area);
+  /// Facets of which a node is the corner (1, 1), (0, 1), (1, 0), (0, 0).
+  std::array<int, 4> facets_around(int column, int station) const;
+  void integrate_row(std::size_t row);
+  void append_weights(std::size_t row);
 
   ContactSurface rail_, wheel_;  // width of a ring: area of its facets per unit of the sweep coordinate
   struct Turn {
@@ -118,7 +122,12 @@ class MortarContact {
   std::vector<int> facet_of_;             // index in facets_ or -1, over the window and a station more at either end
   std::vector<std::array<Hit, 4>> hits_;  // at the Gauss points of facets_
   MortarRows result_;
-  std::vector<double> sum_;  // weights of a row over its wheel patch
+  struct RowPatch {
+    WheelPatch on;
+    std::size_t first_sum;
+  };
+  std::vector<RowPatch> patches_;  // of the rows
+  std::vector<double> sum_;        // their weights, not yet divided by the area
 };
 
 }  // namespace railstrata

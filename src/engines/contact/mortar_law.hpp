@@ -49,6 +49,7 @@ struct Hit {
 struct WheelPatch {
   int column = 0, columns = 0;
   int anchor = 0, first = 0, stations = 0;
+  RAILSTRATA_POINTWISE int nodes() const { return columns * stations; }
 };
 
 /// Area and gap of a row.

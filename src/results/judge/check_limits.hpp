@@ -123,10 +123,11 @@ inline constexpr std::array kCheckRows{
     CheckRow::of_engines("p_max", "Largest pressure", "finite elements against half-space", 0.04),
     CheckRow::of_engines("patch_length", "Patch length", "finite elements against half-space", 0.06),
     CheckRow::of_engines("q_max", "Largest shear", "finite elements against half-space", 0.07),
-    CheckRow::of_engines("von_mises_below_surface", "Largest von Mises stress below the surface",
-                         "rail with its layers and interfaces, finite elements against half-space; judged where the "
-                         "half-space’s largest lies deeper than one element",
-                         0.08),
+    CheckRow::of_engines(
+        "von_mises_below_surface", "Largest von Mises stress below the surface",
+        "rail (`subsurface`), finite elements against half-space; judged where the half-space’s largest lies "
+        "deeper than one element",
+        0.08),
     CheckRow::warning("patch_wider_than_layer", "Patch beyond the layer",
                       "twice the distance of the patch's far edge from the layer's middle",
                       "a larger layer.width holds it", {.of_case = "layer.width"}, unit::kMillimetres, kTakesBack),

@@ -53,14 +53,8 @@ struct Place {
 };
 
 Place von_mises_below_surface(const ReportRun& run) {
-  Place best;
-  for (const StressZone& zone : stress_zones()) {
-    if (zone.key == "surface") continue;
-    const std::string at = fmt::format("/stress/rail/{}/von_mises_max/", zone.key);
-    const double value = run.result.number(at + "value_Pa");
-    if (std::isfinite(value) && !(value <= best.value)) best = {value, run.result.number(at + "depth_m")};
-  }
-  return best;
+  const std::string at = "/stress/rail/subsurface/von_mises_max/";
+  return {run.result.number(at + "value_Pa"), run.result.number(at + "depth_m")};
 }
 
 double element_size(const ReportRun& run) {

@@ -96,7 +96,8 @@ std::string stress_markdown() {
   std::string out =
       "\n## stress\n\n`stress.<body>.<zone>.<measure>` for the bodies `rail` and `wheel`; null for a zone that the "
       "case does not have.\nMaxima below the surface are interpolated by parabolas between the points where the engine "
-      "computes stresses.\n\n| zone | meaning |\n|---|---|\n";
+      "computes stresses: of finite elements their centres and, at borders of a material, points recovered from "
+      "them.\n\n| zone | meaning |\n|---|---|\n";
   for (const StressZone& zone : stress_zones()) out += fmt::format("| `{}` | {} |\n", zone.key, zone.doc);
   out += "\n| measure | meaning |\n|---|---|\n";
   for (const StressMeasure& m : stress_measures())

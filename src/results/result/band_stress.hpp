@@ -33,7 +33,7 @@ BandStress band_stress(const SweptBody& body, BandSample sample, double contact_
 
 /// The surface of a finite element body.
 struct BandSurface {
-  std::vector<Sym3> stress;  ///< Pa, at the nodes (stress_maxima.hpp)
+  std::vector<Sym3> stress;  ///< Pa, at the nodes (band_surface.hpp)
   const ContactField& field;
   double poisson = 0;  ///< of the surface
   double radius = 0;   ///< m, of the wheel; 0: the rail; negative: a rail that is a ring
@@ -54,8 +54,14 @@ void points_around(const ContactField& f, double x, double y, const Use& use) {
         (k % 2 ? a : 1 - a) * (k / 2 ? b : 1 - b));
 }
 
-/// Stress at the upper face of row `row`, which is an interface: extrapolated linearly from the two nearest centres
-/// above it or below.
-Sym3 stress_at_interface(const BandStress& band, int column, int row, int station, bool below);
+/// Stress at a depth within the rows of one material around `row`, or at their border: of the parabola through the
+/// three nearest element centres, where there are more than three rows, else of the straight line through two. Nearer
+/// to the surface stress bends too much for a parabola of all three.
+Sym3 stress_at_depth(const BandStress& band, int column, int row, int station, double depth);
+
+/// Stress at the upper face of row `row`, which is an interface, recovered from the material above it or below.
+inline Sym3 stress_at_interface(const BandStress& band, int column, int row, int station, bool below) {
+  return stress_at_depth(band, column, below ? row : row - 1, station, band.body->contact.depth[row]);
+}
 
 }  // namespace railstrata

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "contact/enforcement.hpp"
+#include "core/callable_ref.hpp"
 #include "core/parabola.hpp"
-#include "material/elastic.hpp"
 #include "model/zone.hpp"
+#include "result/band_surface.hpp"
 
 namespace railstrata {
 namespace {
@@ -15,204 +14,159 @@ namespace {
 double largest_principal(const Sym3& s) { return principal_stresses(s).x; }
 using Measure = double (*)(const Sym3&);
 
-void offer(StressMaximum& best, double value, double x, double y, double depth) {
-  if (std::isnan(best.value) || value > best.value) best = {value, x, y, depth};
+void offer(StressMaximum& best, const StressMaximum& other) {
+  if (std::isnan(best.value) || other.value > best.value) best = other;
+}
+void offer(StressPair& best, const StressPair& other) {
+  offer(best.von_mises, other.von_mises);
+  offer(best.sigma1, other.sigma1);
 }
 
-// Largest value over the centres that `wanted` accepts, refined by parabolas in depth and along the rail where the
-// neighbours are accepted too.
-StressMaximum largest(const BandStress& b, Measure measure,
-                      const std::function<bool(int column, int row, int station)>& wanted) {
-  StressMaximum best;
-  int bc = 0, br = 0, bs = 0;
-  for (int s = 0; s < b.sample.stations; ++s)
-    for (int r = 0; r < b.sample.rows; ++r)
-      for (int c = 0; c < b.sample.columns; ++c) {
-        if (!wanted(c, r, s)) continue;
-        const double value = measure(b.at(c, r, s));
-        if (std::isnan(best.value) || value > best.value) {
-          best = {value, b.x(s), b.centre_y[c] - b.contact_y, b.centre_depth[r]};
-          bc = c;
-          br = r;
-          bs = s;
-        }
+/// The points of a band at one depth, in the material of a row.
+struct BandPlane {
+  enum class Kind { centre, border, between };
+  double depth = 0;
+  int row = 0;
+  Kind kind = Kind::centre;
+};
+
+/// The largest stresses of a band's planes.
+class BandSearch {
+ public:
+  /// Whether a place of a plane counts.
+  using Wanted = CallableRef<bool(const BandPlane&, int column, int station)>;
+
+  explicit BandSearch(const BandStress& band) : band_(band) {}
+
+  StressPair largest(const std::vector<BandPlane>& planes, const Wanted& wanted) const {
+    StressPair best;
+    for (const BandPlane& plane : planes)
+      offer(best, {largest(plane, von_mises, wanted), largest(plane, largest_principal, wanted)});
+    return best;
+  }
+
+  /// From `begin` down: the plane there, element centres and both sides of every face between rows.
+  std::vector<BandPlane> planes(double begin) const {
+    const std::vector<double>& face = band_.body->contact.depth;
+    std::vector<BandPlane> out;
+    for (int r = 0; r < band_.sample.rows; ++r) {
+      if (face[r] <= begin && begin < face[r + 1]) out.push_back({begin, r, BandPlane::Kind::between});
+      if (band_.centre_depth[r] > begin) out.push_back({band_.centre_depth[r], r, BandPlane::Kind::centre});
+      if (r == 0 || face[r] < begin) continue;
+      out.push_back({face[r], r - 1, BandPlane::Kind::border});
+      out.push_back({face[r], r, BandPlane::Kind::border});
+    }
+    return out;
+  }
+
+  /// Whether a plane is there at a place: a face counts where two materials meet.
+  bool exists(const BandPlane& plane, int column, int station) const {
+    if (plane.kind != BandPlane::Kind::border) return true;
+    const int other = plane.depth < band_.centre_depth[plane.row] ? plane.row - 1 : plane.row + 1;
+    return band_.layer(column, plane.row, station) != band_.layer(column, other, station);
+  }
+
+ private:
+  double value(const BandPlane& plane, Measure measure, int column, int station) const {
+    return measure(stress_at_depth(band_, column, plane.row, station, plane.depth));
+  }
+
+  StressMaximum largest(const BandPlane& plane, Measure measure, const Wanted& wanted) const {
+    StressMaximum best;
+    int column = 0, station = 0;
+    for (int s = 0; s < band_.sample.stations; ++s)
+      for (int c = 0; c < band_.sample.columns; ++c) {
+        if (!wanted(plane, c, s)) continue;
+        const double here = value(plane, measure, c, s);
+        if (!std::isnan(best.value) && here <= best.value) continue;
+        best = {here, band_.x(s), band_.centre_y[c] - band_.contact_y, plane.depth};
+        column = c;
+        station = s;
       }
-  if (std::isnan(best.value)) return best;
-  const auto refine = [&](double t0, double f0, double t1, double f1, double t2, double f2, double& place) {
-    const ParabolaTop t = parabola_top(t0, f0, t1, f1, t2, f2);
-    place = t.at;
-    best.value += t.above;
-  };
-  const double top = best.value;
-  if (br > 0 && br + 1 < b.sample.rows && wanted(bc, br - 1, bs) && wanted(bc, br + 1, bs))
-    refine(b.centre_depth[br - 1], measure(b.at(bc, br - 1, bs)), b.centre_depth[br], top, b.centre_depth[br + 1],
-           measure(b.at(bc, br + 1, bs)), best.depth);
-  if (bs > 0 && bs + 1 < b.sample.stations && wanted(bc, br, bs - 1) && wanted(bc, br, bs + 1))
-    refine(b.x(bs - 1), measure(b.at(bc, br, bs - 1)), b.x(bs), top, b.x(bs + 1), measure(b.at(bc, br, bs + 1)),
-           best.x);
-  return best;
-}
+    if (!std::isnan(best.value)) refine(plane, measure, wanted, column, station, best);
+    return best;
+  }
 
-StressPair largest_pair(const BandStress& b, const std::function<bool(int, int, int)>& wanted) {
-  return {largest(b, von_mises, wanted), largest(b, largest_principal, wanted)};
-}
+  /// By parabolas through the neighbours along the rail, across it and, of element centres, in depth.
+  void refine(const BandPlane& plane, Measure measure, const Wanted& wanted, int c, int s, StressMaximum& best) const {
+    const double top = best.value;
+    const auto along = [&](double before, double here, double after, const BandPlane& a, int ca, int sa,
+                           const BandPlane& b, int cb, int sb, double& place) {
+      if (!wanted(a, ca, sa) || !wanted(b, cb, sb)) return;
+      const double fa = value(a, measure, ca, sa), fb = value(b, measure, cb, sb);
+      if (fa > top || fb > top) return;
+      const ParabolaTop t = parabola_top(before, fa, here, top, after, fb);
+      place = t.at;
+      best.value += t.above;
+    };
+    if (s > 0 && s + 1 < band_.sample.stations)
+      along(band_.x(s - 1), band_.x(s), band_.x(s + 1), plane, c, s - 1, plane, c, s + 1, best.x);
+    if (c > 0 && c + 1 < band_.sample.columns) {
+      const auto y = [&](int k) { return band_.centre_y[k] - band_.contact_y; };
+      along(y(c - 1), y(c), y(c + 1), plane, c - 1, s, plane, c + 1, s, best.y);
+    }
+    if (const int r = plane.row; plane.kind == BandPlane::Kind::centre && r > 0 && r + 1 < band_.sample.rows) {
+      const BandPlane above{band_.centre_depth[r - 1], r - 1}, below{band_.centre_depth[r + 1], r + 1};
+      along(above.depth, plane.depth, below.depth, above, c, s, below, c, s, best.depth);
+    }
+  }
 
-// Largest value on either side of every interface between layers.
-StressPair at_interfaces(const BandStress& b) {
-  StressPair best;
-  const auto& depth = b.body->contact.depth;
-  for (int r = 1; r < b.sample.rows; ++r)
-    for (int c = 0; c < b.sample.columns; ++c)
-      for (int s = 0; s < b.sample.stations; ++s) {
-        if (b.layer(c, r - 1, s) == b.layer(c, r, s)) continue;
-        for (const bool below : {false, true}) {
-          const Sym3 stress = stress_at_interface(b, c, r, s, below);
-          const double x = b.x(s), y = b.centre_y[c] - b.contact_y;
-          offer(best.von_mises, von_mises(stress), x, y, depth[r]);
-          offer(best.sigma1, largest_principal(stress), x, y, depth[r]);
-        }
-      }
-  return best;
-}
+  const BandStress& band_;
+};
 
-void below_surface(const BandStress& b, double begin, bool layered, StressSummary& out) {
-  const auto deep = [&](int, int r, int) { return b.centre_depth[r] > begin; };
-  out.subsurface = largest_pair(b, deep);
+/// layer_begin: where the first layer begins; begin: what counts as subsurface.
+void below_surface(const BandStress& b, double layer_begin, double begin, bool layered, StressSummary& out) {
+  const BandSearch search(b);
+  const auto anywhere = [&](const BandPlane& p, int c, int s) { return search.exists(p, c, s); };
+  out.subsurface = search.largest(search.planes(begin), anywhere);
   if (!layered) return;
   // where a layer has ended the sample may have none of it
-  const auto if_any = [](StressPair pair) {
+  const auto if_any = [](const StressPair& pair) {
     return std::isnan(pair.von_mises.value) ? std::nullopt : std::optional(pair);
   };
-  out.layer = if_any(largest_pair(b, [&](int c, int r, int s) { return b.layer(c, r, s) > 0; }));
-  out.matrix = if_any(largest_pair(b, [&](int c, int r, int s) { return b.layer(c, r, s) == 0; }));
-  out.interface = if_any(at_interfaces(b));
+  const auto in_layer = [&](const BandPlane& p, int c, int s) {
+    return b.layer(c, p.row, s) > 0 && search.exists(p, c, s);
+  };
+  const auto in_matrix = [&](const BandPlane& p, int c, int s) {
+    return b.layer(c, p.row, s) == 0 && search.exists(p, c, s);
+  };
+  const auto at_border = [&](const BandPlane& p, int c, int s) {
+    return p.kind == BandPlane::Kind::border && search.exists(p, c, s);
+  };
+  const std::vector<BandPlane> planes = search.planes(layer_begin);
+  out.layer = if_any(search.largest(planes, in_layer));
+  out.matrix = if_any(search.largest(planes, in_matrix));
+  out.interface = if_any(search.largest(planes, at_border));
 }
 
-/// m, by which the surface turns upwards along the rail: of the wheel; negative of a ring below it; 0: straight.
-double rising_radius(const ContactSurface& rail) { return rail.rises ? -rail.radius : 0.0; }
-
-int material_at(const Block& block, const BandSample& sample, int column, int station) {
-  return sample.element.empty() ? block.section.quad_material[column] : block.material(column, sample.element[station]);
-}
-
-// Recovery at the inner surface nodes of a sample; `traction(column, station)` acts on this body. radius: by which it
-// rises along the rail.
-template <class Traction>
-std::vector<Sym3> recover_surface(const ContactSurface& surface, const BandSample& sample, const SweptBody& body,
-                                  const std::vector<Elastic>& materials, double radius, Traction&& traction) {
-  const int columns = sample.columns + 1, stations = sample.stations + 1,
-            nodes_per_station = columns * (sample.rows + 1);
-  const Block& block = body.blocks[body.contact.block];
-  std::vector<Sym3> out(static_cast<std::size_t>(columns) * stations);
-  auto u = [&](int c, int j) { return sample.displacement[static_cast<std::size_t>(j) * nodes_per_station + c]; };
-  for (int j = 1; j + 1 < stations; ++j)
-    for (int c = 1; c + 1 < columns; ++c) {
-      const double angle = radius != 0 ? sample.along[j] / radius : 0;  // of the section plane against the vertical
-      const Vec3 t1{std::cos(angle), 0, std::sin(angle)};
-      const double up = surface.rises ? -surface.outward[c].z : surface.outward[c].z;
-      const Vec3 n{-up * std::sin(angle), surface.outward[c].y, up * std::cos(angle)};
-      const Vec3 t2 = cross(n, t1);
-      const double along = sample.along[j + 1] - sample.along[j - 1],
-                   across = (t2.y > 0 ? 1 : -1) * (surface.width[c - 1] + surface.width[c]);
-      const Vec3 d1 = (1 / along) * (u(c, j + 1) - u(c, j - 1)), d2 = (1 / across) * (u(c + 1, j) - u(c - 1, j));
-      const auto of = [&](int material) {
-        return surface_stress(materials[material], n, t1, t2, dot(d1, t1), dot(d2, t2), dot(d1, t2) + dot(d2, t1),
-                              traction(c, j));
-      };
-      Sym3& stress = out[static_cast<std::size_t>(j) * columns + c];
-      const int behind = material_at(block, sample, c, j - 1), ahead = material_at(block, sample, c, j);
-      stress = of(ahead);
-      if (behind != ahead) stress = 0.5 * (stress + of(behind));
-    }
-  return out;
-}
-
-// Traction on the rail at a point of the field's plane, bilinear; zero outside.
-Vec3 traction_at(const ContactField& f, const ContactSurface& rail, double x, double y) {
-  Vec3 t{};
-  points_around(f, x, y, [&](std::size_t i, int column, double weight) {
-    t += weight * traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, rail.rail_normal(column, f.x[i]));
-  });
-  return t;
-}
-
-StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sample, const ContactSurface& surface,
-                          double contact_y) {
+StressPair at_surface(const BandStress& b, const BandSurface& surface) {
   StressPair best;
-  const int columns = sample.columns + 1;
-  for (int j = 1; j < sample.stations; ++j)
-    for (int c = 1; c + 1 < columns; ++c) {
-      const Sym3& s = stress[static_cast<std::size_t>(j) * columns + c];
-      const double y = surface.origin.y + surface.node[c].y - contact_y;
-      offer(best.von_mises, von_mises(s), sample.along[j], y, 0);
-      offer(best.sigma1, largest_principal(s), sample.along[j], y, 0);
+  const auto& nodes = b.body->blocks[b.body->contact.block].section.nodes;
+  for (int c = 1; c < b.sample.columns; ++c) {
+    const std::vector<Sym3> stresses = surface_column(b, surface, c);
+    const double y = nodes[c].y - b.contact_y;
+    for (std::size_t k = 0; k < stresses.size(); ++k) {
+      const double x = b.sample.along[k + 1];
+      offer(best, {{von_mises(stresses[k]), x, y, 0}, {largest_principal(stresses[k]), x, y, 0}});
     }
+  }
   return best;
-}
-
-/// Poisson's ratio at the surface in the middle of the contact band.
-double surface_poisson(const SweptBody& body, const std::vector<Elastic>& at_surface) {
-  return poisson(at_surface[body.blocks[body.contact.block].section.quad_material[body.contact.columns / 2]]);
-}
-
-/// Where the subsurface begins: subsurface_begin, no nearer than an element.
-double begin_of(const CaseSpec& spec, BodyId body, const MeanContact& m) {
-  const std::vector<std::size_t> layers = layers_on(spec, body);
-  const double first_layer = layers.empty() ? HUGE_VAL : spec.layers[layers.front()].thickness;
-  return std::max(spec.mesh.element_size, subsurface_begin(m.patch, first_layer));
-}
-
-std::vector<Sym3> stress_at_surface(const RollingSystem& sys, BodyId id, const MeanContact& m) {
-  const ContactField& f = m.field;
-  const ContactSurface &rail = sys.rail_surface(), &wheel = sys.wheel_surface();
-  if (id == BodyId::rail)
-    return recover_surface(rail, m.rail, sys.model.rail, sys.model.rail_at_surface, rising_radius(rail),
-                           [&](int c, int j) {
-                             const int i = j * f.columns + c;
-                             return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, rail.rail_normal(c, f.x[i]));
-                           });
-  return recover_surface(
-      wheel, m.wheel, sys.model.wheel, sys.model.wheel_at_surface, sys.rolling_radius,
-      [&](int c, int j) { return -traction_at(f, rail, m.wheel.along[j], wheel.origin.y + wheel.node[c].y); });
 }
 
 }  // namespace
 
-Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12,
-                    Vec3 traction) {
-  const double e = young(material), nu = poisson(material), snn = dot(traction, n);
-  const double s11 = e / (1 - nu * nu) * (e11 + nu * e22) + nu / (1 - nu) * snn,
-               s22 = e / (1 - nu * nu) * (e22 + nu * e11) + nu / (1 - nu) * snn;
-  auto dyad = [](Vec3 a, Vec3 b) {  // (ab + ba)/2
-    return Sym3{a.x * b.x,
-                a.y * b.y,
-                a.z * b.z,
-                0.5 * (a.x * b.y + a.y * b.x),
-                0.5 * (a.y * b.z + a.z * b.y),
-                0.5 * (a.x * b.z + a.z * b.x)};
-  };
-  return s11 * dyad(t1, t1) + s22 * dyad(t2, t2) + snn * dyad(n, n) + (2 * material.mu * g12) * dyad(t1, t2) +
-         (2 * dot(traction, t1)) * dyad(t1, n) + (2 * dot(traction, t2)) * dyad(t2, n);
-}
-
-BandSurface band_surface(const RollingSystem& sys, BodyId id, const MeanContact& m) {
-  if (id == BodyId::rail)
-    return {stress_at_surface(sys, id, m), m.field, surface_poisson(sys.model.rail, sys.model.rail_at_surface),
-            rising_radius(sys.rail_surface())};
-  return {stress_at_surface(sys, id, m), m.field, surface_poisson(sys.model.wheel, sys.model.wheel_at_surface),
-          sys.rolling_radius};
-}
-
 StressSummary band_stress_summary(const RollingSystem& sys, BodyId id, const MeanContact& m) {
   const bool rail = id == BodyId::rail;
   const SweptBody& body = rail ? sys.model.rail : sys.model.wheel;
-  const BandSample& sample = rail ? m.rail : m.wheel;
-  const double contact_y = sys.model.placement.contact.point.y;
+  const CaseSpec& spec = sys.model.spec;
+  const std::vector<std::size_t> layers = layers_on(spec, id);
+  const double layer_begin =
+      subsurface_begin(m.patch, layers.empty() ? HUGE_VAL : spec.layers[layers.front()].thickness);
+  const BandStress band =
+      band_stress(body, rail ? m.rail : m.wheel, sys.model.placement.contact.point.y - body.origin.y);
   StressSummary out;
-  below_surface(band_stress(body, sample, contact_y - body.origin.y), begin_of(sys.model.spec, id, m),
-                !layers_on(sys.model.spec, id).empty(), out);
-  out.surface =
-      surface_maxima(stress_at_surface(sys, id, m), sample, rail ? sys.rail_surface() : sys.wheel_surface(), contact_y);
+  below_surface(band, layer_begin, std::max(spec.mesh.element_size, layer_begin), !layers.empty(), out);
+  out.surface = at_surface(band, band_surface(sys, id, m));
   return out;
 }
 

@@ -86,13 +86,18 @@ const std::vector<StressBody>& stress_bodies() {
 const std::vector<StressZone>& stress_zones() {
   using S = StressSummary;
   static const std::vector<StressZone> zones{
-      {"surface", &S::surface, "at the surface", "At the running surface, from its tractions and strains"},
+      {"surface", &S::surface, "at the surface",
+       "At the running surface; finite elements: recovered from its tractions and strains, with the peaks between "
+       "nodes at "
+       "the front of slip and at the edges of the patch"},
       {"subsurface", &S::subsurface, "below the surface",
        "Deeper than a tenth of the patch's shorter semi-axis or half a thinner surface layer; in finite elements also "
        "deeper than one element edge"},
-      {"layer", &S::layer, "in the layers", "In the layers, at their own points"},
-      {"interface", &S::interface, "at the interfaces", "On both sides of every border between materials"},
-      {"matrix", &S::matrix, "in the matrix", "Below all layers"}};
+      {"layer", &S::layer, "in the layers", "In the layers, with their borders"},
+      {"interface", &S::interface, "at the interfaces",
+       "On both sides of every border between materials; finite elements: recovered from the element centres of the "
+       "side"},
+      {"matrix", &S::matrix, "in the matrix", "Below all layers, with their lower border"}};
   return zones;
 }
 

@@ -8,7 +8,7 @@
 #include "fatigue/shakedown_summary.hpp"
 #include "fatigue/streamlines.hpp"
 #include "passes/rolled_pass.hpp"
-#include "result/stress_maxima.hpp"
+#include "result/band_surface.hpp"
 #include "result/summary.hpp"
 #include "runs/run_control.hpp"
 
