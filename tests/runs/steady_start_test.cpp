@@ -55,6 +55,18 @@ TEST(SteadyStart, BeginsWhereItEnds) {
   EXPECT_LT(solution.positions.back().summary.energy.closure, 1e-3);
 }
 
+// The second window is whole at the earliest; later ones are added one by one.
+TEST(SteadyStart, IsLikelyToEndWithTheWindowThatItIsIn) {
+  const Model model = fem_system(coarse_case(), ".").model;
+  const RunSpec& run = model.spec.run;
+  ASSERT_GE(run.positions.size(), 4u);
+  const auto end_of = [&](int window) { return run.positions[window] + 0.5 * run.window; };
+  EXPECT_EQ(model.likely_end(), end_of(1));
+  EXPECT_EQ(model.likely_end(run.positions[0]), end_of(1));
+  EXPECT_EQ(model.likely_end(end_of(1)), end_of(2));
+  EXPECT_EQ(model.likely_end(2 * model.x_end), model.x_end);
+}
+
 // Without positions the run ends where two windows repeat, with what they differ by as error bars.
 TEST(SteadyStart, EndsWhenItsWindowsRepeat) {
   const RollingSystem system = fem_system(coarse_case(), ".");

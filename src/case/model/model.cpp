@@ -304,6 +304,13 @@ void plan_path(Model& m) {
 
 }  // namespace
 
+double Model::likely_end(double position) const {
+  if (!until_repeated) return x_end;
+  for (std::size_t k = 1; k < spec.run.positions.size(); ++k)
+    if (const double end = spec.run.positions[k] + 0.5 * spec.run.window; end > position) return end;
+  return x_end;
+}
+
 Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail) {
   Model m{.spec = spec,
           .placement = place(spec, folder),

@@ -137,6 +137,7 @@ class Roller {
     if (observer_.frame && stepper_.position() >= run_.next_frame) show_frame();
     take_due_samples();
   }
+  double likely_end() const { return sys_.model.until_repeated ? sys_.model.likely_end(stepper_.position()) : end_; }
   // Where more than scalars is read of a step, or energies are asked for.
   double next_look() const {
     double next = std::min(run_.next_history, wanted_[run_.next_sample].position);
@@ -160,7 +161,7 @@ class Roller {
     result().history.push_back(row);
     time_output([&] {
       if (observer_.history) observer_.history(row);
-      if (observer_.progress) observer_.progress(stepper_.position() / end_, row);
+      if (observer_.progress) observer_.progress(stepper_.position() / likely_end(), row);
     });
   }
   void show_frame() {

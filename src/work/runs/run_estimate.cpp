@@ -42,9 +42,7 @@ RunEstimate estimate_run(const Model& model) {
   RunEstimate e;
   StepPlan plan(system);
   e.limits = plan.limits;
-  const RunSpec& run = model.spec.run;
-  const double way = model.until_repeated ? run.positions.at(1) + 0.5 * run.window : model.x_end;
-  e.steps = std::lround(way / (model.spec.drive.speed * e.limits.chosen));
+  e.steps = std::lround(model.likely_end() / (model.spec.drive.speed * e.limits.chosen));
   e.seconds =
       kWholeStep * static_cast<double>(e.steps) * (force_seconds(system.rail()) + force_seconds(system.wheel()));
   e.memory_bytes = peak_memory() + preload_memory(system);
