@@ -96,6 +96,13 @@ TouchAt touch_at(const ContactField& f, double x, double y) {
   return out;
 }
 
+/// How deep the material at the surface reaches below a node.
+double depth_of_material(const BandStress& band, int node) {
+  int rows = 1;
+  while (rows < band.sample.rows && band.layer(node, rows, 0) == band.layer(node, 0, 0)) ++rows;
+  return band.body->contact.depth[rows];
+}
+
 }  // namespace
 
 Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12,
@@ -152,6 +159,7 @@ std::vector<Sym3> surface_column(const BandStress& band, const BandSurface& surf
   for (int j = 1; j < sample.stations; ++j)
     stresses.push_back(
         axes.turned(surface.stress[static_cast<std::size_t>(j) * (sample.columns + 1) + column], sample.along[j]));
+  if (depth_of_material(band, column) < sample.along[1] - sample.along[0]) return stresses;
   const std::vector<Sym3> recovered = stresses;
   const auto stress = [&](int i) { return recovered[i]; };
   SurfaceRow row{{}, {}, {}, stress, surface.poisson};

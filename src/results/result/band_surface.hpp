@@ -29,7 +29,8 @@ struct ColumnAxes {
 ColumnAxes column_axes(const BandStress& band, const BandSurface& surface, int left, int right);
 
 /// Stresses at the inner surface nodes of a column, stations 1, 2, ..., in the column's axes. Peaks between nodes, at
-/// the edges of the patch and at the front of slip (result/surface_peaks.hpp), stand at the node next to them.
+/// the edges of the patch and at the front of slip (result/surface_peaks.hpp), stand at the node next to them; not of a
+/// layer thinner than an element is long, whose stress follows the strain of what lies below.
 std::vector<Sym3> surface_column(const BandStress& band, const BandSurface& surface, int column);
 
 }  // namespace railstrata

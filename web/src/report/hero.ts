@@ -23,12 +23,14 @@ import {magnitudeScale, rgb, stateScale, type Scale} from "../scale";
 import {fixedText} from "../text";
 import type {Theme} from "../theme";
 import type {BodyName, Values} from "../types";
+import {contours} from "./contours";
 import {rowsOf, unpack, type Run} from "./data";
 import {
   contactY,
   hasTraction,
   kAboutArrows,
   largest,
+  levelsOf,
   patchesOf,
   patchWindow,
   stateLegend,
@@ -64,8 +66,25 @@ interface PatchPicture {
   scale: Scale;
   bar?: string;  // unit
   words: (v: number) => string;
-  arrows?: number;  // of the largest traction
+  levels?: number[];  // of lines of equal value
+  arrows?: number;    // of the largest traction
   about: (string|Node)[];
+}
+
+/// Lines of equal value over the coloured cells.
+function drawContours(
+    c: CanvasRenderingContext2D, p: Plane, patch: Patch, values: Values[], levels: number[], theme: Theme): void {
+  c.strokeStyle = theme.ink;
+  c.lineWidth = 1.2;
+  c.beginPath();
+  for (const line of contours(patch.x, patch.y, values, levels))
+    for (let k = 0; k + 1 < line.x.length; ++k) {
+      const [[x0, y0], [x1, y1]] = [k, k + 1].map((i) => [line.x[i], line.y[i]]);
+      if (x0 === null || y0 === null || x1 === null || y1 === null) continue;
+      c.moveTo(px(p, x0), py(p, y0));
+      c.lineTo(px(p, x1), py(p, y1));
+    }
+  c.stroke();
 }
 
 function patchPicture(patches: Patch[], what: PatchPicture): Painted {
@@ -76,6 +95,8 @@ function patchPicture(patches: Patch[], what: PatchPicture): Painted {
     const pieces = patches.flatMap(
         (patch) => cellsOf(plane, patch, what.values(patch), (v) => rgb(what.scale.colour(v, theme)), what.words));
     paintPieces(c, pieces);
+    const levels = what.levels;
+    if (levels) patches.forEach((patch) => drawContours(c, plane, patch, what.values(patch), levels, theme));
     if (what.arrows)
       for (const a of patches.flatMap((patch) => tractionArrows(patch, [x, y], what.arrows!)))
         drawArrow(
@@ -113,6 +134,7 @@ function patchPictures(run: Run): Painted[] {
     column: "p_MPa",
     values: (patch) => patch.p,
     scale: magnitudeScale(p),
+    levels: levelsOf(p),
     bar: "MPa",
     words: (v) => `p ${v.toFixed(1)} MPa`,
     about:
@@ -126,6 +148,7 @@ function patchPictures(run: Run): Painted[] {
     column: "q_MPa",
     values: (patch) => patch.q,
     scale: magnitudeScale(q),
+    levels: levelsOf(q),
     bar: "MPa",
     words: (v) => `|q| ${v.toFixed(1)} MPa`,
     arrows: q,

@@ -213,9 +213,9 @@ function kindOf(kind: Kind, run: Run): Kind {
 /// Lines of equal value over the coloured cells.
 const kLevels = [0.05, 0.2, 0.4, 0.6, 0.8, 0.95];  // of the largest
 
-function levelsOf(kind: Kind, top: number): number[] {
+export function levelsOf(top: number, signed = false): number[] {
   const levels = kLevels.map((share) => share * top);
-  return kind.signed ? [...levels.map((l) => -l), ...levels] : levels;
+  return signed ? [...levels.map((l) => -l), ...levels] : levels;
 }
 
 /// Six maps for each patch of each run, those of one quantity in one unit on one scale.
@@ -235,7 +235,7 @@ export function patchMaps(runs: Run[]): Figure[] {
     ...scaleOf(kind, top, patch),
     windowX,
     windowY,
-    lines: kind.state ? undefined : contours(patch.x, patch.y, kind.values(patch), levelsOf(kind, top)),
+    lines: kind.state ? undefined : contours(patch.x, patch.y, kind.values(patch), levelsOf(top, kind.signed)),
     arrows: kind.arrows ? tractionArrows(patch, [windowX, windowY], top) : undefined,
     marker: {x: 0, y: 0, text: "place of the patch"},
   });
