@@ -40,11 +40,8 @@ class RecordedStudy(unittest.TestCase):
                 self.assertLess(abs(row["patch_length_mm"]), self.limits["patch_length_mm"])
                 if row["deep"]:
                     self.assertLess(abs(row["von_mises"]), self.limits["von_mises"])
-        # README.md there
-        told = {("control", "thickness 0.2 mm"), ("layers", "thickness 0.5 mm, young_ratio 4"),
-                ("layers", "thickness 6 mm, young_ratio 4")}
-        too_far = {(r["group"], r["case"]) for r in self.table if abs(r["q_equal"]) > self.limits["q_max_MPa"]}
-        self.assertEqual(too_far, told)
+                self.assertLess(abs(row["q_max_MPa"]), self.limits["q_max_MPa"])
+                self.assertLess(abs(row["q_equal"]), 10)  # README.md there: where the front lies between nodes
 
     def test_the_recorded_agreement_is_that_of_the_tables(self):
         with open(FOLDER / "agreement.csv", newline="", encoding="utf-8") as file:
