@@ -4,7 +4,7 @@
 //
 // Lines: median, 90 % and 99 % quantile of a solution, each started from the one before (warm) or anew (cold), without
 // a layer and with 2 mm at 2 E0; with a yaw, and a roll besides; rs_jacobian by six inputs after each solution. Then
-// states of a running wheelset, successive along its way or at random.
+// states of a running wheel, successive along its way or at random, and of a wheelset, both contacts under its load.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -28,11 +28,11 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-constexpr const char *kPlain = "[geometry]\nlateral_shift = \"0 mm\"\n",
-                     *kEuropean =
-                         "[geometry]\nlateral_shift = \"0 mm\"\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\n",
-                     *kLayered =
-                         "[geometry]\nlateral_shift = \"0 mm\"\n[[layer]]\nthickness = \"2 mm\"\nyoung_ratio = 2\n";
+#define RAILS "[geometry]\nlateral_shift = \"0 mm\"\n"
+#define EUROPEAN RAILS "wheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\n"
+#define LAYER "[[layer]]\nthickness = \"2 mm\"\nyoung_ratio = 2\n"
+constexpr const char *kPlain = RAILS, *kEuropean = EUROPEAN, *kLayered = RAILS LAYER,
+                     *kEuropeanLayered = EUROPEAN LAYER;
 
 struct Sweep {
   const char* text = kPlain;
@@ -100,6 +100,8 @@ SWEEP(european_warm, {kEuropean, true});
 SWEEP(european_cold, {kEuropean, false});
 SWEEP(layered_warm, {kLayered, true});
 SWEEP(layered_cold, {kLayered, false});
+SWEEP(european_layered_warm, {kEuropeanLayered, true});
+SWEEP(european_layered_cold, {kEuropeanLayered, false});
 SWEEP(yaw_1e6_warm, {kPlain, true, 1e-6});
 SWEEP(yaw_warm, {kPlain, true, 5e-3});
 SWEEP(european_yaw_warm, {kEuropean, true, 5e-3});
@@ -108,6 +110,7 @@ SWEEP(roll_warm, {kPlain, true, 5e-3, 1e-3});
 SWEEP(plain_derivatives, {kPlain, true, 5e-3, 0, true});
 SWEEP(european_derivatives, {kEuropean, true, 5e-3, 0, true});
 SWEEP(layered_derivatives, {kLayered, true, 5e-3, 0, true});
+SWEEP(european_layered_derivatives, {kEuropeanLayered, true, 5e-3, 0, true});
 
 /// Shift within 6 mm, yaw within 5e-3, the roll that cones of 1:20 give with the shift, load 85 kN and 30 % more or
 /// less, creepages within 1e-3. share: of each but the roll, -1 to 1.
@@ -159,6 +162,44 @@ STATES(successive, kPlain, true);
 STATES(random, kPlain, false);
 STATES(european_successive, kEuropean, true);
 STATES(european_random, kEuropean, false);
+
+/// Shift within 6 mm, yaw within 5e-3, 160 kN and 30 % more or less: 1,000 steps along two waves of hunting, cells of 1
+/// mm. Height and roll are found.
+void run_of_wheelset(benchmark::State& state, const char* text) {
+  railstrata::set_threads(1);
+  constexpr int kSolutions = 1000;
+  rs_error error{};
+  rs_wheelset* set = rs_wheelset_from_text(text, nullptr, 0, nullptr, 0, &error);
+  for (int side : {RS_LEFT, RS_RIGHT}) rs_set_cell(rs_wheelset_contact(set, side), 1e-3, &error);
+  rs_wheelset_state s{};
+  s.size = sizeof(s);
+  s.given = RS_WHEELSET_LOAD;
+  s.speed = 30;
+  rs_wheelset_forces forces{};
+  forces.size = sizeof(forces);
+  std::vector<double> seconds;
+  int failed = 0;
+  for (auto _ : state) {
+    for (int k = 0; k < kSolutions; ++k) {
+      const double wave = 4 * std::numbers::pi * k / kSolutions;
+      s.y = 6e-3 * std::sin(wave);
+      s.yaw = 5e-3 * std::sin(wave + 1.5);
+      s.load = 160e3 * (1 + 0.3 * std::sin(2.5 * wave + 0.3));
+      const double begun = cpu_seconds();
+      failed += rs_wheelset_solve(set, &s, &forces, &error) != RS_OK;
+      seconds.push_back(cpu_seconds() - begun);
+    }
+  }
+  rs_wheelset_free(set);
+  tell(state, seconds, "");
+  state.counters["failed"] = failed;
+}
+#define WHEELSET(name, text) \
+  BENCHMARK_CAPTURE(run_of_wheelset, name, text)->Unit(benchmark::kMillisecond)->Iterations(1)
+WHEELSET(plain, kPlain);
+WHEELSET(layered, kLayered);
+WHEELSET(european, kEuropean);
+WHEELSET(european_layered, kEuropeanLayered);
 
 }  // namespace
 

@@ -7,9 +7,20 @@
 
 #include "judge/judgement.hpp"
 #include "reader/case_file.hpp"
+#include "tests/ask/both_pairs.hpp"
 
 namespace railstrata {
 namespace {
+
+using Overrides = std::vector<std::string>;
+struct AskOf : testing::TestWithParam<Overrides> {
+  Overrides with(Overrides more) const {
+    more.insert(more.end(), GetParam().begin(), GetParam().end());
+    return more;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Pairs, AskOf, testing::ValuesIn(kBothPairs),
+                         [](const auto& pair) { return pair.param.empty() ? "LMA_CN60" : "S1002_UIC60"; });
 
 Answer solve(const std::vector<std::string>& overrides) {
   const LoadedCase loaded = parse_case("[case]\ntitle = \"from a text\"\n", "none.toml", overrides);
@@ -29,9 +40,9 @@ void expect_same_bits(const Answer& a, const Answer& b) {
 
 }  // namespace
 
-TEST(Ask, TwoThreadsAtATimeGetTheBitsOfOneAfterTheOther) {
-  const std::vector<std::vector<std::string>> cases{{"drive.traction_coefficient=0.1"},
-                                                    {"drive.traction_coefficient=0.3", "geometry.lateral_shift=2 mm"}};
+TEST_P(AskOf, TwoThreadsAtATimeGetTheBitsOfOneAfterTheOther) {
+  const std::vector<Overrides> cases{with({"drive.traction_coefficient=0.1"}),
+                                     with({"drive.traction_coefficient=0.3", "geometry.lateral_shift=2 mm"})};
   const Answer first = solve(cases[0]), second = solve(cases[1]);
   EXPECT_NE(first.result.rigid_slip.x, second.result.rigid_slip.x);
   for (int round = 0; round < 3; ++round) {
@@ -44,8 +55,8 @@ TEST(Ask, TwoThreadsAtATimeGetTheBitsOfOneAfterTheOther) {
   }
 }
 
-TEST(Ask, GivesPatchForcesStressesAndSummary) {
-  const Answer s = solve({});
+TEST_P(AskOf, GivesPatchForcesStressesAndSummary) {
+  const Answer s = solve(with({}));
   EXPECT_EQ(s.summary.title, "from a text");
   EXPECT_EQ(s.summary.run.engine, Engine::bem);
   EXPECT_GT(s.summary.run.threads, 0);
@@ -57,9 +68,8 @@ TEST(Ask, GivesPatchForcesStressesAndSummary) {
   EXPECT_LT(below.stress.zz, -0.5 * s.result.patch.largest_pressure);  // a millimetre below the middle of the patch
 }
 
-TEST(Ask, WhatIsWantedLaterIsAddedToTheSameBits) {
-  const std::vector<std::string> overrides{"material.rail.yield_strength=400 MPa",
-                                           "material.wheel.yield_strength=400 MPa"};
+TEST_P(AskOf, WhatIsWantedLaterIsAddedToTheSameBits) {
+  const Overrides overrides = with({"material.rail.yield_strength=400 MPa", "material.wheel.yield_strength=400 MPa"});
   const LoadedCase loaded = parse_case("[case]\ntitle = \"from a text\"\n", "none.toml", overrides);
   const Placement placement = place(loaded.spec, ".");
   AskOptions how;
@@ -73,8 +83,8 @@ TEST(Ask, WhatIsWantedLaterIsAddedToTheSameBits) {
   EXPECT_EQ(in_steps.summary.fatigue.size(), 2U);
 }
 
-TEST(Ask, AStaticCaseIsWithoutFriction) {
-  const Answer s = solve({"run.rolling=false"});
+TEST_P(AskOf, AStaticCaseIsWithoutFriction) {
+  const Answer s = solve(with({"run.rolling=false"}));
   EXPECT_EQ(s.result.force.x, 0);
   EXPECT_EQ(s.result.patch.largest_traction, 0);
 }

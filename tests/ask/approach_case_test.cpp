@@ -16,6 +16,9 @@ const std::string kCircle =
     "[geometry]\nrail_profile = \"arc:R=840 mm\"\nwheel_profile = \"arc:R=840 mm\"\nwheel_radius = \"420 mm\"\n"
     "wheel_shape = \"disc\"\nbore_radius = \"20 mm\"\ncant = 0.0\n";
 
+const std::string kEuropean =
+    "[geometry]\nrail_profile = \"UIC60\"\nwheel_profile = \"S1002\"\nlateral_shift = \"3 mm\"\n";
+
 Answer solved(const std::string& text, double cell, const std::vector<std::string>& overrides = {}) {
   const LoadedCase loaded = parse_case(text, "a.toml", overrides);
   BemOptions options;
@@ -36,7 +39,7 @@ TEST(GivenApproach, AndLoadAreTwoWaysOfSayingOneState) {
   for (const std::string& driven :
        {std::string("[drive]\ntraction_coefficient = 0.25\nlateral_traction_coefficient = 0.1\n"),
         std::string("[drive]\ncreepage = -0.001\nlateral_creepage = 0.0005\n")})
-    for (const std::string& geometry : {std::string("[geometry]\nlateral_shift = \"6 mm\"\n"), kCircle}) {
+    for (const std::string& geometry : {std::string("[geometry]\nlateral_shift = \"6 mm\"\n"), kEuropean, kCircle}) {
       const std::string layer = "[[layer]]\nyoung_ratio = 3\n";
       const Answer by_load = solved(geometry + driven + layer, 0.5e-3);
       const ContactSummary &a = by_load.summary.contact,

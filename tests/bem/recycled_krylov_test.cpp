@@ -33,15 +33,15 @@ TEST(RecycledKrylov, SolvesEachRightSideAndSearchesOnceWhatTheyShare) {
     sum[i] = one[i] - 3 * other[i];
   }
   RecycledKrylov space;
-  space.solve(apply, as_it_is, one, x, 1e-8);
+  space.solve(apply, as_it_is, one, x, 1e-8 * std::sqrt(dot(one, one)));
   EXPECT_LT(residual(one, x), 1.01e-8);
   const std::size_t first = space.directions();
   EXPECT_GT(first, 5u);
-  space.solve(apply, as_it_is, other, x, 1e-8);
+  space.solve(apply, as_it_is, other, x, 1e-8 * std::sqrt(dot(other, other)));
   EXPECT_LT(residual(other, x), 1.01e-8);
   const std::size_t second = space.directions();
   EXPECT_LT(second, 2 * first);
-  space.solve(apply, as_it_is, sum, x, 1e-7);
+  space.solve(apply, as_it_is, sum, x, 1e-7 * std::sqrt(dot(sum, sum)));
   EXPECT_LT(residual(sum, x), 1.01e-7);
   EXPECT_EQ(space.directions(), second);
 }

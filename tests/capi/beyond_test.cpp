@@ -83,7 +83,7 @@ TEST_P(Beyond, IsAnErrorWhereTheStructHasNoPlaceForTheMarkOrALoadIsGiven) {
   rs_state loaded_state = state_of(RS_LOAD);
   loaded_state.load = 1e9;
   EXPECT_EQ(contact.solve(loaded_state), RS_NO_ANSWER);
-  Set set(GetParam().empty() ? "" : kEuropeanCase);
+  Set set(case_of(GetParam()));
   ASSERT_EQ(set.solve(loaded()), RS_OK) << set.error.message;
   rs_wheelset_state state = loaded();
   state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;
@@ -93,7 +93,7 @@ TEST_P(Beyond, IsAnErrorWhereTheStructHasNoPlaceForTheMarkOrALoadIsGiven) {
 }
 
 TEST_P(Beyond, AWheelsetThatIsPressedTooFarIsMarkedWheelByWheel) {
-  Set set(GetParam().empty() ? "" : kEuropeanCase);
+  Set set(case_of(GetParam()));
   ASSERT_EQ(set.solve(loaded(1e-3)), RS_OK) << set.error.message;
   rs_wheelset_state state = loaded(1e-3);
   state.given = RS_WHEELSET_Z | RS_WHEELSET_ROLL;

@@ -40,10 +40,12 @@ struct Contacts {
   std::array<rs_error, kMany> errors{};
 };
 
-TEST(CMany, ContactsHaveTheBitsOfOneAfterTheOtherForAnyNumberOfThreads) {
+struct CMany : OfBothPairs {};
+INSTANTIATE_TEST_SUITE_P(Pairs, CMany, testing::ValuesIn(kBothPairs), OfBothPairs::name);
+
+TEST_P(CMany, ContactsHaveTheBitsOfOneAfterTheOtherForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3, 0}) {
-    const std::vector<const char*>& pair = kBothPairs[static_cast<std::size_t>(threads % 2)];
-    Contacts many(pair), alone(pair);
+    Contacts many(GetParam()), alone(GetParam());
     for (int step = 0; step < 2; ++step) {
       ASSERT_EQ(many.solve(threads), RS_OK);
       for (std::size_t k = 0; k < kMany; ++k) {
@@ -57,8 +59,8 @@ TEST(CMany, ContactsHaveTheBitsOfOneAfterTheOtherForAnyNumberOfThreads) {
   }
 }
 
-TEST(CMany, AnErrorOfOneLeavesTheAnswersOfTheOthers) {
-  Contacts many;
+TEST_P(CMany, AnErrorOfOneLeavesTheAnswersOfTheOthers) {
+  Contacts many(GetParam());
   many.states[2].creepage_x = 1e9;
   EXPECT_EQ(many.solve(2), RS_CASE);
   for (std::size_t k = 0; k < kMany; ++k) {
@@ -69,8 +71,8 @@ TEST(CMany, AnErrorOfOneLeavesTheAnswersOfTheOthers) {
   EXPECT_EQ(rs_solve_many(kMany, many.handles.data(), many.states.data(), many.forces.data(), nullptr, 2), RS_CASE);
 }
 
-TEST(CMany, MistakesOfTheCallSolveNothing) {
-  Contacts many;
+TEST_P(CMany, MistakesOfTheCallSolveNothing) {
+  Contacts many(GetParam());
   const auto refused = [&](const std::string& word, int threads = 1) {
     EXPECT_EQ(many.solve(threads), RS_CASE) << word;
     for (const rs_error& error : many.errors)
@@ -90,8 +92,9 @@ TEST(CMany, MistakesOfTheCallSolveNothing) {
   EXPECT_EQ(rs_solve_many(0, nullptr, nullptr, nullptr, nullptr, 0), RS_OK);
 }
 
-TEST(CMany, WheelsetsHaveTheBitsOfOneAfterTheOther) {
-  Set set(kEuropeanCase), other(kEuropeanCase);
+TEST_P(CMany, WheelsetsHaveTheBitsOfOneAfterTheOther) {
+  const std::string text = case_of(GetParam());
+  Set set(text), other(text);
   rs_wheelset* const copy = rs_wheelset_copy(set.handle, nullptr);
   rs_wheelset* const handles[] = {set.handle, copy};
   const rs_wheelset_state states[] = {loaded(1e-3), loaded(-2e-3)};

@@ -51,14 +51,18 @@ TEST_P(CPatchForcesOf, AddUpAndTurnAboutAnyPoint) {
               1e-6 * std::abs(about_point.spin_moment));
 }
 
-TEST(CPatchForces, NameThePlacesOnBothProfiles) {
-  Handle contact({"geometry.cant=0"});
+TEST_P(CPatchForcesOf, NameThePlacesOnBothProfiles) {
+  std::vector<const char*> upright = GetParam();
+  upright.push_back("geometry.cant=0");
+  Handle contact(upright);
   ASSERT_EQ(contact.solve(pulling(1e-3)), RS_OK) << contact.error.message;
   const rs_patch p = patch_of(contact, 0);
   EXPECT_NEAR(p.on_rail[0], p.point[1], 1e-15);
   EXPECT_GT(p.point[2], p.on_rail[1]) << "half way to the wheel that just touches";
   EXPECT_NEAR(p.on_rail[1], p.point[2], 2e-6);
-  EXPECT_NEAR(p.rolling_radius, 0.43 - p.on_wheel[1], 1e-5);  // less by the yaw
+  double radius = 0;
+  ASSERT_EQ(rs_contact_number(contact.handle, "geometry.wheel_radius", &radius, nullptr), RS_OK);
+  EXPECT_NEAR(p.rolling_radius, radius - p.on_wheel[1], 1e-5);  // less by the yaw
   EXPECT_EQ(p.contact_angle, contact.forces.contact_angle);
   EXPECT_EQ(p.cells, contact.forces.cells);
   EXPECT_EQ(p.p_max, contact.forces.p_max);
@@ -82,8 +86,8 @@ TEST(CPatchForces, OfTreadAndGaugeCornerAreApart) {
   EXPECT_NEAR(sum, contact.forces.force_z, 1e-12 * sum);
 }
 
-TEST(CPatchForces, RefuseWhatIsNotThere) {
-  Handle contact;
+TEST_P(CPatchForcesOf, RefuseWhatIsNotThere) {
+  Handle contact(GetParam());
   rs_patch out{};
   out.size = sizeof(out);
   EXPECT_EQ(rs_patch_forces(contact.handle, 0, nullptr, &out, &contact.error), RS_CASE);
@@ -94,6 +98,16 @@ TEST(CPatchForces, RefuseWhatIsNotThere) {
   out.size = 8;
   EXPECT_EQ(rs_patch_forces(contact.handle, 0, nullptr, &out, &contact.error), RS_CASE);
 }
+
+/// Rails from arrays under the wheels of both pairs.
+struct CProfiles : OfBothPairs {
+  std::vector<const char*> with(const std::string& rail) const {
+    std::vector<const char*> out = GetParam();
+    out.push_back(rail.c_str());
+    return out;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Pairs, CProfiles, testing::ValuesIn(kBothPairs), OfBothPairs::name);
 
 /// A rail head of the radius R with steep flanks, every 0.3 mm.
 std::vector<double> round_head(double radius) {
@@ -107,7 +121,7 @@ std::vector<double> round_head(double radius) {
   return out;
 }
 
-TEST(CProfiles, FromAnArrayAreThoseOfAFile) {
+TEST_P(CProfiles, FromAnArrayAreThoseOfAFile) {
   const std::string file = testing::TempDir() + "round_head.csv";
   const std::vector<double> head = round_head(0.2);
   {
@@ -116,7 +130,7 @@ TEST(CProfiles, FromAnArrayAreThoseOfAFile) {
     for (std::size_t k = 0; k < head.size(); k += 2) out << head[k] << ' ' << head[k + 1] << '\n';
   }
   const std::string from_file = "geometry.rail_profile=" + file;
-  Handle wanted({from_file.c_str()}), contact;
+  Handle wanted(with(from_file)), contact(GetParam());
   ASSERT_EQ(contact.solve(pulling(0)), RS_OK);
   const double before = contact.forces.p_max;
   ASSERT_EQ(rs_set_profile(contact.handle, RS_RAIL, head.data(), head.size() / 2, &contact.error), RS_OK)
@@ -133,7 +147,7 @@ TEST(CProfiles, FromAnArrayAreThoseOfAFile) {
 }
 
 // A height that is given counts from the profile's point at y = 0: 94 um are most of an approach.
-TEST(CProfiles, ThatAreMovedToZeroHaveARemarkWithTheirName) {
+TEST_P(CProfiles, ThatAreMovedToZeroHaveARemarkWithTheirName) {
   std::vector<double> head = round_head(0.2);
   for (std::size_t k = 1; k < head.size(); k += 2) head[k] += 94e-6;
   const std::string file = testing::TempDir() + "high_head.csv";
@@ -143,7 +157,7 @@ TEST(CProfiles, ThatAreMovedToZeroHaveARemarkWithTheirName) {
     for (std::size_t k = 0; k < head.size(); k += 2) out << head[k] << ' ' << head[k + 1] << '\n';
   }
   const std::string from_file = "geometry.rail_profile=" + file;
-  Handle contact({from_file.c_str()});
+  Handle contact(with(from_file));
   ASSERT_EQ(contact.solve(pulling(0)), RS_OK) << contact.error.message;
   const std::string moved = "z was shifted by -94.0 um";
   EXPECT_NE(std::string(rs_remarks(contact.handle)).find("high_head.csv: " + moved), std::string::npos);
@@ -158,8 +172,8 @@ TEST(CProfiles, ThatAreMovedToZeroHaveARemarkWithTheirName) {
   std::remove(file.c_str());
 }
 
-TEST(CProfiles, RefuseAnArrayThatIsNone) {
-  Handle contact;
+TEST_P(CProfiles, RefuseAnArrayThatIsNone) {
+  Handle contact(GetParam());
   const double points[] = {0, 0, 1e-3, 0};
   EXPECT_EQ(rs_set_profile(contact.handle, RS_RAIL, points, 2, &contact.error), RS_CASE);
   EXPECT_NE(std::string(contact.error.message).find("too few"), std::string::npos) << contact.error.message;

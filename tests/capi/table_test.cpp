@@ -4,10 +4,11 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "capi/railstrata.h"
+#include "creep/creep_table.hpp"
 #include "io/table_file.hpp"
-#include "tests/places.hpp"
+#include "tests/capi/contact_handle.hpp"
 
 namespace railstrata {
 namespace {
@@ -85,6 +86,46 @@ TEST_F(CTable, InScaledCreepagesIsAskedForPlainOnes) {
   TableInterpolation(scaled).at(at, held);
   EXPECT_EQ(read[0], held[0]);
   EXPECT_EQ(read[1], held[1]);
+  rs_table_close(table);
+}
+
+struct CTableOf : OfBothPairs {};
+INSTANTIATE_TEST_SUITE_P(Pairs, CTableOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
+
+TEST_P(CTableOf, HasTheForcesOfAContactAtItsPoints) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "table.h5";
+  CreepTable solved(
+      load_case(kQuick), {GetParam().begin(), GetParam().end()},
+      parse_number_axes("--axis", {"creepage_x=-1e-3,2e-4,1e-3", "lateral_shift=0,1 mm", "load=60 kN,90 kN"}));
+  CreepTableOptions options;
+  options.bem.cell = 0.5e-3;
+  solved.solve(options);
+  write_force_table(file, solved.table(), {});
+  Handle contact(GetParam());
+  rs_table* table = rs_table_open(file.c_str(), &contact.error);
+  ASSERT_TRUE(table) << contact.error.message;
+  std::vector<double> numbers(static_cast<std::size_t>(rs_table_numbers(table)));
+  const auto number = [&](const std::string& name) {
+    for (int k = 0; k < rs_table_numbers(table); ++k)
+      if (name == rs_table_number(table, k)) return numbers[static_cast<std::size_t>(k)];
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  rs_state state = state_of(RS_CREEPAGE_X | RS_LATERAL_SHIFT | RS_LOAD);
+  for (const double creepage : {-1e-3, 2e-4, 1e-3})
+    for (const double shift : {0.0, 1e-3})
+      for (const double load : {60e3, 90e3}) {
+        const double at[] = {creepage, shift, load};
+        EXPECT_EQ(rs_table_at(table, at, numbers.data()), 0);
+        state.creepage_x = creepage;
+        state.lateral_shift = shift;
+        state.load = load;
+        ASSERT_EQ(contact.solve(state), RS_OK) << contact.error.message;
+        EXPECT_NEAR(number("force_x"), contact.forces.force_x, 1e-4 * load) << creepage << " " << shift;
+        EXPECT_NEAR(number("lateral_force"), contact.forces.lateral_force, 1e-4 * load) << creepage << " " << shift;
+        EXPECT_NEAR(number("normal_force"), contact.forces.normal_force, 1e-4 * load) << creepage << " " << shift;
+      }
   rs_table_close(table);
 }
 

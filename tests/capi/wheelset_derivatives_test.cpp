@@ -107,14 +107,10 @@ void expect_slopes(const std::string& text, double y, double yaw) {
     for (const Input& input : inputs) expect_differences(set, cold, state, input);
 }
 
-constexpr const char* kChinese =
-    "[geometry]\nwheel_profile = \"LMA\"\nrail_profile = \"CN60\"\ncant = \"1:40\"\n"
-    "[drive]\nfriction_coefficient = 0.35\n";
-
 TEST(SlowWheelsetDerivatives, AreThoseOfColdSolutions) {
   expect_slopes(kEuropeanCase, 2e-3, 1e-3);
   expect_slopes(kEuropeanCase, -3.1e-3, -2e-3);
-  expect_slopes(kChinese, 4e-3, 1e-3);
+  expect_slopes(kChineseCase, 4e-3, 1e-3);
 }
 
 // Tread and gauge corner, tried apart and in one plane.
@@ -164,8 +160,13 @@ TEST(WheelsetDerivatives, WhereACellBeginsToTouchAreThoseOfTheSideWhereItTouches
                 kClose * std::abs(d.left_force[2]));
 }
 
-TEST(WheelsetDerivatives, UnderALoadKeepLoadAndMoment) {
-  Set set(kEuropeanCase);
+struct WheelsetDerivativesOf : OfBothPairs {
+  const std::string text{case_of(GetParam())};
+};
+INSTANTIATE_TEST_SUITE_P(Pairs, WheelsetDerivativesOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
+
+TEST_P(WheelsetDerivativesOf, UnderALoadKeepLoadAndMoment) {
+  Set set(text);
   ASSERT_EQ(set.solve(running(2e-3, 1e-3)), RS_OK) << set.error.message;
   EXPECT_NEAR(derivative(set, RS_BY_LOAD).force[2], 1, 1e-9);
   EXPECT_NEAR(derivative(set, RS_BY_ROLL_MOMENT).moment[0], -1, 1e-9);
@@ -174,8 +175,8 @@ TEST(WheelsetDerivatives, UnderALoadKeepLoadAndMoment) {
   EXPECT_NEAR(by_y.moment[0] / by_y.force[1], 0, 1e-9);
 }
 
-TEST(WheelsetDerivatives, OfResultsAndOfNoSolutionAreRefused) {
-  Set set(kEuropeanCase);
+TEST_P(WheelsetDerivativesOf, OfResultsAndOfNoSolutionAreRefused) {
+  Set set(text);
   rs_wheelset_derivatives out{};
   out.size = sizeof out;
   const auto answer = [&](int input) { return rs_wheelset_jacobian(set.handle, &input, 1, &out, &set.error); };

@@ -1,6 +1,7 @@
 #pragma once
 // A wheelset of the C interface that frees itself.
 #include <string>
+#include <vector>
 
 #include "tests/capi/contact_handle.hpp"
 
@@ -9,6 +10,13 @@ namespace railstrata {
 inline constexpr const char* kEuropeanCase =
     "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\nwheel_radius = \"460 mm\"\n"
     "[drive]\nfriction_coefficient = 0.35\n";
+
+/// The other pair without a layer.
+inline constexpr const char* kChineseCase =
+    "[geometry]\nwheel_profile = \"LMA\"\nrail_profile = \"CN60\"\ncant = \"1:40\"\n"
+    "[drive]\nfriction_coefficient = 0.35\n";
+/// The wheelset of a pair: none is the quick case.
+inline std::string case_of(const std::vector<const char*>& pair) { return pair.empty() ? "" : kEuropeanCase; }
 
 struct Set {
   explicit Set(const std::string& text = {}) {

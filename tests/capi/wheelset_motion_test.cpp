@@ -15,7 +15,7 @@ namespace railstrata {
 namespace {
 
 struct MotionOf : OfBothPairs {
-  const std::string text{GetParam().empty() ? "" : kEuropeanCase};
+  const std::string text{case_of(GetParam())};
 };
 INSTANTIATE_TEST_SUITE_P(Pairs, MotionOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
 
@@ -72,19 +72,21 @@ TEST_P(MotionOf, RollingBackIsRollingOnSeenFromBehind) {
 }
 
 TEST(WheelsetMotion, AWheelsetThatStandsHasAnAnswerBetweenThoseOfBothDirections) {
-  Set set(kEuropeanCase);
-  rs_wheelset_state state = loaded(2e-3);
-  state.y_rate = 2e-6;  // slip of 2e-4 over 0.01 m/s
-  state.speed = 0;
-  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
-  const rs_wheelset_forces still = set.forces;
-  EXPECT_LT(still.wheel[RS_LEFT].lateral_force, -1000);
-  EXPECT_NEAR(still.wheel[RS_LEFT].creepage_y, 2e-4, 1e-5);
-  EXPECT_NEAR(still.force[0], 0, 1e-4 * 160e3);
-  for (const double speed : {1e-9, -1e-9}) {
-    state.speed = speed;
+  for (const char* text : {kChineseCase, kEuropeanCase}) {
+    Set set(text);
+    rs_wheelset_state state = loaded(2e-3);
+    state.y_rate = 2e-6;  // slip of 2e-4 over 0.01 m/s
+    state.speed = 0;
     ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
-    for (int i : {0, 1, 2}) EXPECT_NEAR(set.forces.force[i], still.force[i], 2e-4 * 160e3) << speed;
+    const rs_wheelset_forces still = set.forces;
+    EXPECT_LT(still.wheel[RS_LEFT].lateral_force, -1000);
+    EXPECT_NEAR(still.wheel[RS_LEFT].creepage_y, 2e-4, 1e-5);
+    EXPECT_NEAR(still.force[0], 0, 1e-4 * 160e3);
+    for (const double speed : {1e-9, -1e-9}) {
+      state.speed = speed;
+      ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+      for (int i : {0, 1, 2}) EXPECT_NEAR(set.forces.force[i], still.force[i], 2e-4 * 160e3) << speed;
+    }
   }
 }
 
@@ -194,8 +196,8 @@ TEST(WheelsetMotion, PatchesAddUpToTheirWheelInTheAxesOfTheTrack) {
   EXPECT_EQ(rs_wheelset_patch(set.handle, RS_LEFT, 0, nullptr, &out, &set.error), RS_CASE);
 }
 
-TEST(WheelsetMotion, RemarksNameTheirWheel) {
-  Set set;
+TEST_P(MotionOf, RemarksNameTheirWheel) {
+  Set set(text);
   EXPECT_STREQ(rs_wheelset_remarks(set.handle), "");
   EXPECT_STREQ(rs_wheelset_remarks(nullptr), "");
   ASSERT_EQ(set.solve(loaded(2e-3)), RS_OK) << set.error.message;
@@ -208,13 +210,13 @@ TEST(WheelsetMotion, RemarksNameTheirWheel) {
   EXPECT_EQ(rs_wheelset_remarks(set.handle), wanted);
 }
 
-TEST(WheelsetMotion, ACopyGoesOnWithTheSameBitsAndOutlivesItsOriginal) {
+TEST_P(MotionOf, ACopyGoesOnWithTheSameBitsAndOutlivesItsOriginal) {
   rs_wheelset_forces alone{};
   rs_wheelset* copy = nullptr;
   rs_contact* left = nullptr;
   rs_error error{};
   {
-    Set set;
+    Set set(text);
     ASSERT_EQ(set.solve(loaded(1e-3)), RS_OK) << set.error.message;
     rs_wheelset_keep(set.handle);
     copy = rs_wheelset_copy(set.handle, &error);
@@ -239,8 +241,8 @@ TEST(WheelsetMotion, ACopyGoesOnWithTheSameBitsAndOutlivesItsOriginal) {
   EXPECT_EQ(rs_wheelset_copy(nullptr, &error), nullptr);
 }
 
-TEST(WheelsetMotion, AStateOfAnOlderHeaderHasTheBitsOfOneWithoutTheMembersThatItLacks) {
-  Set set, other;
+TEST_P(MotionOf, AStateOfAnOlderHeaderHasTheBitsOfOneWithoutTheMembersThatItLacks) {
+  Set set(text), other(text);
   rs_wheelset_state state = loaded(1e-3);
   ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
   state.size = offsetof(rs_wheelset_state, wheel_pitch_rate);
@@ -251,8 +253,8 @@ TEST(WheelsetMotion, AStateOfAnOlderHeaderHasTheBitsOfOneWithoutTheMembersThatIt
   EXPECT_EQ(other.solve(state), RS_CASE);
 }
 
-TEST(WheelsetMotion, AContactRollsAlongItsXWhateverTheSpeed) {
-  Handle contact;
+TEST_P(MotionOf, AContactRollsAlongItsXWhateverTheSpeed) {
+  Handle contact(GetParam());
   rs_state state = state_of(RS_SPEED | RS_CREEPAGE_X | RS_LOAD);
   state.load = 80e3;
   state.creepage_x = -1e-3;

@@ -15,9 +15,12 @@ namespace railstrata {
 namespace {
 
 /// LMA on CN60 under a layer, and the European pair.
-const std::string kPairs[] = {{}, kEuropeanCase};
+struct WheelsetOf : OfBothPairs {
+  const std::string text{case_of(GetParam())};
+};
+INSTANTIATE_TEST_SUITE_P(Pairs, WheelsetOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
 
-void expect_load_and_moment(const std::string& text) {
+TEST_P(WheelsetOf, BearsLoadAndRollMoment) {
   Set set(text);
   ASSERT_NE(set.handle, nullptr) << set.error.message;
   rs_wheelset_state state = loaded(2e-3, 1e-3);
@@ -36,64 +39,49 @@ void expect_load_and_moment(const std::string& text) {
   EXPECT_NEAR(set.forces.z, state.z, 1e-8);
 }
 
-TEST(Wheelset, BearsLoadAndRollMoment) {
-  for (const std::string& text : kPairs) expect_load_and_moment(text);
-}
-
-TEST(Wheelset, TheMirrorImageOfAStateHasThoseOfItsForces) {
-  for (const std::string& text : kPairs) {
-    Set set(text), other(text);
-    rs_wheelset_state state = loaded(3e-3, 2e-3), image = loaded(-3e-3, -2e-3);
-    state.y_rate = 0.01;
-    state.rail_y[RS_LEFT] = 1e-3;
-    image.y_rate = -0.01;
-    image.rail_y[RS_RIGHT] = -1e-3;
-    ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
-    ASSERT_EQ(other.solve(image), RS_OK) << other.error.message;
-    const rs_wheel &a = set.forces.wheel[RS_LEFT], &b = other.forces.wheel[RS_RIGHT];
-    const double sign[] = {1, -1, 1};
-    for (int i : {0, 1, 2}) {
-      EXPECT_NEAR(a.force[i], sign[i] * b.force[i], 10);
-      EXPECT_NEAR(a.moment[i], -sign[i] * b.moment[i], 10);
-    }
-    EXPECT_NEAR(a.contact_angle, -b.contact_angle, 1e-6);
-    EXPECT_NEAR(set.forces.roll, -other.forces.roll, 1e-9);
+TEST_P(WheelsetOf, TheMirrorImageOfAStateHasThoseOfItsForces) {
+  Set set(text), other(text);
+  rs_wheelset_state state = loaded(3e-3, 2e-3), image = loaded(-3e-3, -2e-3);
+  state.y_rate = 0.01;
+  state.rail_y[RS_LEFT] = 1e-3;
+  image.y_rate = -0.01;
+  image.rail_y[RS_RIGHT] = -1e-3;
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  ASSERT_EQ(other.solve(image), RS_OK) << other.error.message;
+  const rs_wheel &a = set.forces.wheel[RS_LEFT], &b = other.forces.wheel[RS_RIGHT];
+  const double sign[] = {1, -1, 1};
+  for (int i : {0, 1, 2}) {
+    EXPECT_NEAR(a.force[i], sign[i] * b.force[i], 10);
+    EXPECT_NEAR(a.moment[i], -sign[i] * b.moment[i], 10);
   }
+  EXPECT_NEAR(a.contact_angle, -b.contact_angle, 1e-6);
+  EXPECT_NEAR(set.forces.roll, -other.forces.roll, 1e-9);
 }
 
-TEST(Wheelset, RailsThatMoveAlongChangeNothing) {
-  for (const std::string& text : kPairs) {
-    Set set(text), other(text);
-    rs_wheelset_state state = loaded(1e-3), moved = loaded(3e-3);
-    for (int side : {RS_LEFT, RS_RIGHT}) {
-      moved.rail_y[side] = 2e-3;
-      moved.rail_z[side] = 1e-3;
-    }
-    ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
-    ASSERT_EQ(other.solve(moved), RS_OK) << other.error.message;
-    EXPECT_NEAR(other.forces.z - set.forces.z, 1e-3, 1e-9);
-    for (int i : {0, 1, 2}) EXPECT_NEAR(other.forces.force[i], set.forces.force[i], 5);
+TEST_P(WheelsetOf, RailsThatMoveAlongChangeNothing) {
+  Set set(text), other(text);
+  rs_wheelset_state state = loaded(1e-3), moved = loaded(3e-3);
+  for (int side : {RS_LEFT, RS_RIGHT}) {
+    moved.rail_y[side] = 2e-3;
+    moved.rail_z[side] = 1e-3;
   }
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  ASSERT_EQ(other.solve(moved), RS_OK) << other.error.message;
+  EXPECT_NEAR(other.forces.z - set.forces.z, 1e-3, 1e-9);
+  for (int i : {0, 1, 2}) EXPECT_NEAR(other.forces.force[i], set.forces.force[i], 5);
 }
 
-TEST(Wheelset, TrialStepsLeaveNoTraceAfterAReset) {
-  for (const std::string& text : kPairs) {
-    Set set(text);
-    ASSERT_EQ(set.solve(loaded(1e-3)), RS_OK) << set.error.message;
-    rs_wheelset_keep(set.handle);
-    ASSERT_EQ(set.solve(loaded(1.2e-3, 1e-4)), RS_OK) << set.error.message;
-    const rs_wheelset_forces first = set.forces;
-    ASSERT_EQ(set.solve(loaded(5e-3, -1e-3)), RS_OK) << set.error.message;
-    rs_wheelset_reset(set.handle);
-    ASSERT_EQ(set.solve(loaded(1.2e-3, 1e-4)), RS_OK) << set.error.message;
-    for (int i : {0, 1, 2}) EXPECT_EQ(set.forces.force[i], first.force[i]);
-  }
+TEST_P(WheelsetOf, TrialStepsLeaveNoTraceAfterAReset) {
+  Set set(text);
+  ASSERT_EQ(set.solve(loaded(1e-3)), RS_OK) << set.error.message;
+  rs_wheelset_keep(set.handle);
+  ASSERT_EQ(set.solve(loaded(1.2e-3, 1e-4)), RS_OK) << set.error.message;
+  const rs_wheelset_forces first = set.forces;
+  ASSERT_EQ(set.solve(loaded(5e-3, -1e-3)), RS_OK) << set.error.message;
+  rs_wheelset_reset(set.handle);
+  ASSERT_EQ(set.solve(loaded(1.2e-3, 1e-4)), RS_OK) << set.error.message;
+  for (int i : {0, 1, 2}) EXPECT_EQ(set.forces.force[i], first.force[i]);
 }
-
-struct WheelsetOf : OfBothPairs {
-  const std::string text{GetParam().empty() ? "" : kEuropeanCase};
-};
-INSTANTIATE_TEST_SUITE_P(Pairs, WheelsetOf, testing::ValuesIn(kBothPairs), OfBothPairs::name);
 
 TEST_P(WheelsetOf, AWheelThatLiftsIsAnAnswer) {
   Set set(text);
@@ -131,8 +119,8 @@ TEST_P(WheelsetOf, WithoutALoadTheWheelsTouchWithoutForces) {
   EXPECT_EQ(set.solve(state), RS_NO_ANSWER);
 }
 
-TEST(Wheelset, WhatIsNoNumberIsAMistakeWithItsName) {
-  Set set;
+TEST_P(WheelsetOf, WhatIsNoNumberIsAMistakeWithItsName) {
+  Set set(text);
   rs_wheelset_state rate = loaded(), rail = loaded();
   rate.y_rate = std::nan("");
   rail.rail_z[RS_RIGHT] = std::nan("");
@@ -349,8 +337,8 @@ TEST(Wheelset, OnOneFlangeAloneIsInEquilibriumWithTheOtherWheelLifted) {
   }
 }
 
-TEST(Wheelset, ARollMomentBeyondOneWheelIsRefusedWithWhatBothBear) {
-  Set set(kEuropeanCase);
+TEST_P(WheelsetOf, ARollMomentBeyondOneWheelIsRefusedWithWhatBothBear) {
+  Set set(text);
   rs_wheelset_state state = loaded(1e-3);
   state.roll_moment = 130e3;
   EXPECT_EQ(set.solve(state), RS_NO_ANSWER);
@@ -469,8 +457,8 @@ TEST(Wheelset, ConesRollInTheWavesOfKlingel) {
   RecordProperty("klingel", std::to_string(klingel));
 }
 
-TEST(Wheelset, FreeingAContactOfItLeavesItWhole) {
-  Set set;
+TEST_P(WheelsetOf, FreeingAContactOfItLeavesItWhole) {
+  Set set(text);
   rs_contact_free(rs_wheelset_contact(set.handle, RS_LEFT));
   EXPECT_EQ(set.solve(loaded(0)), RS_OK) << set.error.message;
 }

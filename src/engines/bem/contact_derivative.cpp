@@ -1,6 +1,7 @@
 #include "bem/contact_derivative.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "bem/varying_bound.hpp"
 
@@ -9,6 +10,23 @@ namespace {
 
 double descent_in(const CaseSpec& spec, const Placement& placement, double descent) {
   return spec.vehicle.approach ? descent_of(placement, *spec.vehicle.approach) : descent;
+}
+
+/// In the order of sums_of_contact.
+enum ContactSum : std::size_t { kNormal, kMoment, kAlong, kAcross };
+
+/// The normal force, the moment about it, and the forces that are not given.
+std::vector<TractionSum> sums_of_contact(const PatchGrid& grid, const RollingContact& contact) {
+  const Plane area(grid.size(), grid.cell_area());
+  TractionSum moment{{}, area, area};
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    moment.q_x[k] *= -grid.y_of(k);
+    moment.q_y[k] *= grid.x_of(k);
+  }
+  std::vector<TractionSum> out{{area, {}, {}}, std::move(moment)};
+  out.push_back(contact.x.force ? TractionSum{} : TractionSum{{}, area, {}});
+  out.push_back(contact.y.force ? TractionSum{} : TractionSum{{}, {}, area});
+  return out;
 }
 
 }  // namespace
@@ -36,6 +54,7 @@ bool ContactDerivatives::linear() const {
   const bool force_over_result = spec_.vehicle.approach && (c.x.force.value_or(0) != 0 || c.y.force.value_or(0) != 0),
              one_place = !one_.place().beside_low && !one_.place().beside_high;
   return c.kind == RollingKind::steady && !c.heat && !force_over_result && one_place &&
+         !(c.third_body.thickness > 0 && c.third_body.modulus_by_pressure != 0) &&
          !VaryingBound::needed(TangentialProblem{c, {}, {}, {}});
 }
 
@@ -55,50 +74,54 @@ ContactDerivatives::Beside ContactDerivatives::beside(const PlacedCase& there, d
 }
 
 RollingDerivatives& ContactDerivatives::rolling() {
-  if (!rolling_) rolling_.emplace(*patch_.influence, patch_.grid, patch_.contact, solved_.solution);
+  if (sums_.empty()) sums_ = sums_of_contact(patch_.grid, patch_.contact);
+  if (!rolling_) rolling_.emplace(*patch_.influence, patch_.grid, patch_.contact, solved_.solution, sums_);
   return *rolling_;
 }
 
-PlaneTractions ContactDerivatives::moved(const Beside& there, const RollingDerivative& slope, double step) const {
-  PlaneTractions out{there.plane, {}};
-  place_cells(there.patch, there.plane, out.field);
-  const auto along = [&](const Plane& now, const Plane& by, Plane& moved) {
-    for (std::size_t k = 0; k < now.size(); ++k) moved[k] = now[k] + step * by[k];
-  };
-  const Plane& pressure = solved_.solution.normal.pressure;
-  for (std::size_t k = 0; k < pressure.size(); ++k)
-    out.field.p[k] = pressure[k] > 0 ? moved_above_zero(pressure[k], step * slope.normal.pressure[k]) : 0.0;
-  along(solved_.solution.tangential.q_x, slope.tangential.q_x, out.field.q_x);
-  along(solved_.solution.tangential.q_y, slope.tangential.q_y, out.field.q_y);
+PlaneTractions ContactDerivatives::tractions_in(const CasePatch& patch, const RigidContact& plane) const {
+  PlaneTractions out{plane, {}};
+  place_cells(patch, plane, out.field);
+  out.field.p = solved_.solution.normal.pressure;
+  out.field.q_x = solved_.solution.tangential.q_x;
+  out.field.q_y = solved_.solution.tangential.q_y;
   return out;
 }
 
-std::array<PlaneTractions, 2> ContactDerivatives::tractions(const PlacedCase& more, const PlacedCase& less,
-                                                            const std::array<double, 2>& descents, double step) {
+PlaneTractions ContactDerivatives::here() const { return tractions_in(patch_, one_.plane()); }
+
+void ContactDerivatives::weigh(std::vector<TractionSum> sums) {
+  sums_ = std::move(sums);
+  rolling_.reset();
+}
+
+CarriedChange ContactDerivatives::change_of(const PlacedCase& more, const PlacedCase& less,
+                                            const std::array<double, 2>& descents, double step) {
   const Beside above = beside(more, descents[0]), below = beside(less, descents[1]);
-  const RollingDerivative slope = rolling().by(above.patch.contact, below.patch.contact, step);
-  return {moved(above, slope, step), moved(below, slope, -step)};
+  return {tractions_in(above.patch, above.plane), tractions_in(below.patch, below.plane),
+          rolling().by(above.patch.contact, below.patch.contact, step).sums};
 }
 
 /// As of the target's approach, not of what follows it.
 ContactDerivative ContactDerivatives::between(const Beside& more, const Beside& less, double step) {
   const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
-  const RollingDerivative d = rolling().sums_by(more.patch.contact, less.patch.contact, step);
+  const RollingContact &above = more.patch.contact, &below = less.patch.contact;
+  const RollingSlopes d = rolling().by(above, below, step);
   const double normal = solved_.solution.normal.load, lateral = solved_.solution.tangential.force_y,
-               cosine = std::cos(one_.plane().angle), sine = std::sin(one_.plane().angle),
-               force_y = d.tangential.force_y;
+               cosine = std::cos(one_.plane().angle), sine = std::sin(one_.plane().angle), load = d.sums[kNormal],
+               force_y = above.y.force ? slope(*above.y.force, *below.y.force) : d.sums[kAcross];
   ContactDerivative out;
   out.angle = slope(more.plane.angle, less.plane.angle);
-  out.force.x = d.tangential.force_x;
-  out.force.y = d.normal.load * sine + force_y * cosine + (normal * cosine - lateral * sine) * out.angle;
-  out.force.z = -d.normal.load * cosine + force_y * sine + (normal * sine + lateral * cosine) * out.angle;
-  out.force.normal = d.normal.load;
+  out.force.x = above.x.force ? slope(*above.x.force, *below.x.force) : d.sums[kAlong];
+  out.force.y = load * sine + force_y * cosine + (normal * cosine - lateral * sine) * out.angle;
+  out.force.z = -load * cosine + force_y * sine + (normal * sine + lateral * cosine) * out.angle;
+  out.force.normal = load;
   out.force.tangential = force_y;
-  out.force.moment = d.tangential.moment;
-  out.creepage_x = d.tangential.creepage_x;
-  out.creepage_y = d.tangential.creepage_y;
-  out.spin = slope(more.patch.contact.spin, less.patch.contact.spin);
-  out.approach = d.normal.approach;
+  out.force.moment = d.sums[kMoment];
+  out.creepage_x = d.creepage_x;
+  out.creepage_y = d.creepage_y;
+  out.spin = slope(above.spin, below.spin);
+  out.approach = d.approach;
   return out;
 }
 

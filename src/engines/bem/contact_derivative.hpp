@@ -6,6 +6,7 @@
 
 #include "bem/case_patch.hpp"
 #include "bem/one_patch.hpp"
+#include "bem/rolling_derivatives.hpp"
 #include "bem/solve_bem.hpp"
 
 namespace railstrata {
@@ -29,10 +30,16 @@ struct PlaneTractions {
   ContactField field;
 };
 
+/// What changes with an input: places of the cells, under the tractions of the solution; sums of these per unit.
+struct CarriedChange {
+  PlaneTractions more, less;
+  std::vector<double> sums;
+};
+
 /// All derivatives are taken at a descent d of the wheel, which the plane follows too. Under a weight G it follows each
 /// input u by V(u, d) = N cos(delta) - T sin(delta) = G (solve_bem.hpp):
 ///   dV/du + dV/dd d' = dG/du,   dV = dN cos(delta) - dT sin(delta) - (N sin(delta) + T cos(delta)) d delta.
-/// Geometry changes by differences, all else by one solution of the linear equations.
+/// Geometry changes by differences, all else by the adjoint systems of rolling_derivatives.hpp.
 class ContactDerivatives {
  public:
   /// solved: the patch of the case under a descent [m] of the wheel, kept by reference; whole: as of its BemNeighbour.
@@ -43,10 +50,12 @@ class ContactDerivatives {
   bool linear() const;
   /// more, less: the case with the input larger and smaller by `step`.
   ContactDerivative by(const PlacedCase& more, const PlacedCase& less, double step);
-  /// The tractions of more and of less, whose wheels are lowered by `descents` [m]: those of the solution, and `step`
-  /// times their derivatives.
-  std::array<PlaneTractions, 2> tractions(const PlacedCase& more, const PlacedCase& less,
-                                          const std::array<double, 2>& descents, double step);
+  PlaneTractions here() const;
+  /// Sums over the cells of here() instead of a contact's own, for change_of.
+  void weigh(std::vector<TractionSum> sums);
+  /// descents: of the wheels of more and of less, m.
+  CarriedChange change_of(const PlacedCase& more, const PlacedCase& less, const std::array<double, 2>& descents,
+                          double step);
 
  private:
   /// The patch of a case that differs a little, at a descent.
@@ -57,7 +66,7 @@ class ContactDerivatives {
   Beside beside(const PlacedCase& there, double descent) const;
   OnePatch lowered(const CaseSpec& spec, const Placement& placement, double descent) const;
   RollingDerivatives& rolling();
-  PlaneTractions moved(const Beside& there, const RollingDerivative& slope, double step) const;
+  PlaneTractions tractions_in(const CasePatch& patch, const RigidContact& plane) const;
   ContactDerivative between(const Beside& more, const Beside& less, double step);
   const ContactDerivative& by_descent();
 
@@ -68,6 +77,7 @@ class ContactDerivatives {
   bool whole_;
   OnePatch one_;
   CasePatch patch_;
+  std::vector<TractionSum> sums_;
   std::optional<RollingDerivatives> rolling_;
   std::optional<ContactDerivative> by_descent_;
 };

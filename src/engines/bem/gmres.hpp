@@ -173,13 +173,12 @@ void gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x,
 /// Keeps the directions z_k and the orthonormal w_i of A z_k = sum over i <= k of R_ik w_i. Of one operator.
 class RecycledKrylov {
  public:
-  /// Until |b - A x| <= relative |b|, or without an end: as far as the directions get. apply(in, out) is A,
-  /// precondition(in, out) an approximate inverse.
+  /// Until |b - A x| <= goal, or without an end: as far as the directions get. apply(in, out) is A, precondition(in,
+  /// out) an approximate inverse.
   template <class Apply, class Precondition>
-  void solve(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative) {
+  void solve(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double goal) {
     constexpr std::size_t kMost = 400;  // directions
     left_ = b;
-    const double goal = relative * std::sqrt(dot(b, b));
     std::vector<double> parts(columns_.size(), 0.0);
     double square = columns_.empty() ? dot(left_, left_) : orthogonalize(images_.basis, columns_.size(), left_, parts);
     while (std::sqrt(square) > goal && columns_.size() < kMost) {

@@ -21,6 +21,9 @@
 //   (2/3) (beta/pi) (1 + lambda) g_1 ln(g_2/g_1)
 // of it is left to the first cell, along the normal; to first order in beta, Dundurs' constant of what lies within a
 // cell of the surface: the ratio of the influences of pressure one cell away.
+#include <cstddef>
+#include <vector>
+
 #include "bem/normal_problem.hpp"
 
 namespace railstrata {
@@ -40,5 +43,14 @@ double film_share(const InfluenceOperator& influence, double more = 0);
 /// an incompressible layer as thin as a cell, which is no half-space at any distance that cells know.
 PlanePair leading_slip_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid,
                                    const NormalSolution& normal, const Plane& weight);
+
+/// By how much the lambda of a first cell and its slip by pressure [m] change with the gap of an empty cell ahead of
+/// it, 1/m and 1.
+struct LeadingByGap {
+  std::size_t first = 0, empty = 0;
+  double weight = 0, slip_x = 0, slip_y = 0;
+};
+std::vector<LeadingByGap> leading_by_gap(const InfluenceOperator& influence, const PatchGrid& grid,
+                                         const NormalSolution& normal, double film = 0);
 
 }  // namespace railstrata

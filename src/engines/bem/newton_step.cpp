@@ -1,15 +1,10 @@
 #include "bem/newton_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace railstrata {
-namespace {
-
-constexpr double kOfDerivative = 1e-6;  // accuracy of the linear systems
-
-}  // namespace
-
 NewtonStep::NewtonStep(TangentialState& state)
     : s_(state),
       normal_(2 * state.n, 0.0),
@@ -112,39 +107,46 @@ void NewtonStep::linearise() {
   prepare_border();
 }
 
-const Plane& NewtonStep::derivative(const Plane& change) {
-  right_side_ = change;
-  s_.for_both([&](std::size_t i) { project(i, right_side_[i], right_side_[s_.n + i]); });
-  for (std::size_t c = 2 * s_.n; c < right_side_.size(); ++c) right_side_[c] *= force_row_;
-  searched_.solve([&](const Plane& in, Plane& out) { product(in, out); },
-                  [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, kOfDerivative);
-  return step_;
+Plane NewtonStep::right_side_of(const Plane& sum) const {
+  Plane out = sum;
+  s_.for_both([&](std::size_t i) { project(i, out[i], out[s_.n + i]); });
+  for (std::size_t c = 2 * s_.n; c < sum.size(); ++c) out[c] *= force_row_;
+  return out;
 }
 
-Plane NewtonStep::adjoint(const Plane& sum) {
-  right_side_ = sum;
-  s_.for_both([&](std::size_t i) { project(i, right_side_[i], right_side_[s_.n + i]); });
-  for (std::size_t c = 2 * s_.n; c < sum.size(); ++c) right_side_[c] *= force_row_;
+double NewtonStep::length_of(const Plane& sum) const {
+  const Plane side = right_side_of(sum);
+  return std::sqrt(dot(side, side));
+}
+
+Plane NewtonStep::adjoint(const Plane& sum, double left) {
   Plane out;
-  searched_transposed_.solve([&](const Plane& in, Plane& image) { product_transposed(in, image); },
-                             [&](const Plane& in, Plane& image) { precondition_transposed(in, image); }, right_side_,
-                             out, kOfDerivative);
+  searched_.solve([&](const Plane& in, Plane& image) { product_transposed(in, image); },
+                  [&](const Plane& in, Plane& image) { precondition_transposed(in, image); }, right_side_of(sum), out,
+                  left);
   for (std::size_t c = 2 * s_.n; c < out.size(); ++c) out[c] *= force_row_;
   return out;
+}
+
+void NewtonStep::weights_of_slip(const Plane& z, Plane& out, Plane& lateral) const {
+  out.resize(2 * s_.n);
+  lateral.resize(s_.n);
+  s_.for_both([&](std::size_t i) {
+    double x = z[i], y = z[s_.n + i];
+    project(i, x, y);
+    lateral[i] = y;
+    out[i] = x + (steer_.empty() ? 0.0 : steer_[i] * y);
+    out[s_.n + i] = y + (steer_.empty() ? 0.0 : steer_[s_.n + i] * y);
+  });
 }
 
 /// `product`, transposed; the rows of the creepages weigh like those of tractions.
 void NewtonStep::product_transposed(const Plane& in, Plane& out) {
   const std::size_t m = directions_.size(), n = s_.n;
-  integral_.resize(2 * n);
-  s_.for_both([&](std::size_t i) {
-    double x = in[i], y = in[n + i];
-    project(i, x, y);
-    integral_[i] = x + (steer_.empty() ? 0.0 : steer_[i] * y);
-    integral_[n + i] = y + (steer_.empty() ? 0.0 : steer_[n + i] * y);
-  });
-  const Components creep = s_.for_both_summed(integral_.data(), [](std::size_t) {});
-  s_.L.apply_transposed(integral_.data(), out.data());
+  weights_of_slip(in, weights_, lateral_);
+  const Components creep = s_.for_both_summed(weights_.data(), [](std::size_t) {});
+  s_.L.weights_of_displacement(weights_.data(), displacement_);
+  s_.L.weights_of_traction(displacement_, out.data());
   double force[2] = {0, 0};
   for (std::size_t c = 0; c < m; ++c) {
     force[directions_[c]] = force_row_ * in[2 * n + c];
@@ -207,7 +209,6 @@ void NewtonStep::product(const Plane& in, Plane& out) {
   if (s_.varying) change_bound([&](std::size_t i) { return std::pair(s_.L.x(i) - creep[0], s_.L.y(i) - creep[1]); });
   const Components force = s_.for_both_summed(in.data(), [&](std::size_t i) {
     double x = s_.L.x(i) - creep[0], y = s_.L.y(i) - creep[1];
-    if (!steer_.empty()) y += steer_[i] * x + steer_[s_.n + i] * y;
     project(i, x, y);
     const double d = s_.set[i] == kSlip ? diagonal_[i] : 0.0;
     out[i] = x + d * in[i];

@@ -28,14 +28,18 @@ class NewtonStep {
   /// the linear system; close: a slip that may be left in every cell, 0: `accuracy` alone ends it. Cells that leave
   /// the circle are kLoosened.
   void take(double accuracy, double close = 0);
-  /// Linearises for derivative(): sets as they stand, slipping cells turn on their circle. Without VaryingBound.
+  /// Linearises for what follows: sets as they stand, slipping cells turn on their circle. In steady rolling, without
+  /// VaryingBound.
   void linearise();
-  /// Change of the tractions, then of the given forces' creepages, that takes back a change of the slip (two planes)
-  /// and of the given forces (missing_force). Each call is cheaper than those before.
-  const Plane& derivative(const Plane& change);
-  /// The weights w by which a sum c over what derivative() gives follows from each change, c · derivative(change) =
-  /// w · change: by the adjoint system A^T z = c, in steady rolling. Each call is cheaper than those before.
-  Plane adjoint(const Plane& sum);
+  /// Unit tractions of slipping cells, two planes.
+  const Plane& normal() const { return normal_; }
+  /// The weights z of changes of the slip (two planes) and of the given forces (missing_force) in a sum over the
+  /// tractions' changes and then the given forces' creepages that take them back: A^T z = sum, until what is left is no
+  /// longer than `left`. Each call is cheaper than those before.
+  Plane adjoint(const Plane& sum, double left);
+  /// Of these weights those of the slip of each cell; lateral: of lateral_slip alone, a plane.
+  void weights_of_slip(const Plane& z, Plane& out, Plane& lateral) const;
+  double length_of(const Plane& sum) const;  ///< that `left` counts
 
  private:
   using Components = std::array<double, 2>;
@@ -57,18 +61,20 @@ class NewtonStep {
   void precondition_transposed(const Plane& in, Plane& out);
   void integrate_from_trailing_edge(const double* w, double* out) const;
   double first_step(std::size_t i) const;
+  Plane right_side_of(const Plane& sum) const;
   void advance();
 
   TangentialState& s_;
   Plane normal_, diagonal_;  // of slipping cells: unit traction; (s.n)/g
-  Plane steer_;  // of derivative(): change of lateral_slip beyond that of the slip itself, by the slip's x and y
+  Plane steer_;  // of linearise(): change of lateral_slip beyond that of the slip itself, by the slip's x and y
   Plane step_, right_side_, integral_, slowed_;
   std::vector<int> directions_;
   double force_row_;  // a force residual weighs like a slip residual
   std::vector<Plane> border_;
   double border_force_[2][2] = {{1, 0}, {0, 1}};
   GmresSpace space_;
-  RecycledKrylov searched_, searched_transposed_;  // of derivative() and of adjoint()
+  Plane weights_, lateral_, displacement_;  // of adjoint()
+  RecycledKrylov searched_;
 };
 
 }  // namespace railstrata

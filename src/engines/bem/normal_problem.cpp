@@ -269,15 +269,12 @@ NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid&
   return ActiveSetSolver(influence, grid, gap, target, options).solve(start);
 }
 
-NormalDerivatives::NormalDerivatives(const InfluenceOperator& influence, const PatchGrid& grid,
-                                     const NormalSolution& solution)
-    : influence_(influence), grid_(grid), active_(grid.size()) {
-  for (std::size_t i = 0; i < active_.size(); ++i) active_[i] = solution.pressure[i] > 0;
+NormalInverse::NormalInverse(const InfluenceOperator& influence, const Plane& pressure)
+    : influence_(influence), active_(pressure.size()) {
+  for (std::size_t i = 0; i < active_.size(); ++i) active_[i] = pressure[i] > 0;
 }
 
-/// On the cells in contact; zero elsewhere.
-Plane NormalDerivatives::pressure_for(const Plane& displacement) {
-  constexpr double kAccuracy = 1e-7;
+Plane NormalInverse::of(const Plane& displacement, double left) {
   const auto keep = [&](Plane& plane) { for_cells(plane.size(), [&](std::size_t i) { plane[i] *= active_[i]; }); };
   const auto cut = [&](auto&& product) {
     return [&](const Plane& in, Plane& out) {
@@ -289,26 +286,8 @@ Plane NormalDerivatives::pressure_for(const Plane& displacement) {
   keep(wanted);
   searched_.solve(cut([&](const double* in, double* out) { influence_.normal(in, out); }),
                   cut([&](const double* in, double* out) { influence_.precondition_normal(in, out); }), wanted,
-                  pressure, kAccuracy);
+                  pressure, left);
   return pressure;
-}
-
-/// In contact gap + u_n(p) = approach: a load adds the pressure by an approach to that by the gap alone.
-NormalSolution NormalDerivatives::by(const Plane& gap, NormalTarget target) {
-  const std::size_t n = grid_.size();
-  NormalSolution d;
-  d.pressure = d.gap = Plane(n, 0.0);
-  const bool moved = std::any_of(gap.begin(), gap.end(), [](double g) { return g != 0; });
-  if (!moved && target.load.value_or(0) == 0 && target.approach.value_or(0) == 0) return d;
-  if (by_approach_.empty()) by_approach_ = pressure_for(Plane(n, 1.0));
-  if (moved) d.pressure = pressure_for(gap);
-  const double wanted = target.load.value_or(0) / grid_.cell_area();
-  d.approach = target.load ? (wanted + sum(d.pressure)) / sum(by_approach_) : *target.approach;
-  for_cells(n, [&](std::size_t i) { d.pressure[i] = d.approach * by_approach_[i] - d.pressure[i]; });
-  d.load = sum(d.pressure) * grid_.cell_area();
-  influence_.normal(d.pressure.data(), d.gap.data());
-  for_cells(n, [&](std::size_t i) { d.gap[i] = active_[i] ? 0.0 : gap[i] + d.gap[i] - d.approach; });
-  return d;
 }
 
 }  // namespace railstrata

@@ -43,23 +43,18 @@ struct NormalSolution {
 NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap,
                             NormalTarget target, const NormalOptions& options = {}, const Plane& start = {});
 
-/// Changes of a solution with the gap and the target, cells in contact as they are; each is cheaper than those before.
-class NormalDerivatives {
+/// The pressure in cells in contact that makes a displacement there; each is cheaper than those before.
+class NormalInverse {
  public:
-  /// influence and grid are kept by reference.
-  NormalDerivatives(const InfluenceOperator& influence, const PatchGrid& grid, const NormalSolution& solution);
-  /// Pressure and approach per unit of an input of which gap [m] and target change by `gap` and `target`; `gap` of the
-  /// result is that of the empty cells.
-  NormalSolution by(const Plane& gap, NormalTarget target);
+  /// pressure: > 0 in contact. influence is kept by reference.
+  NormalInverse(const InfluenceOperator& influence, const Plane& pressure);
+  /// To what is left of the displacement [m], the root of its squares; zero elsewhere.
+  Plane of(const Plane& displacement, double left);
 
  private:
-  Plane pressure_for(const Plane& displacement);
-
   const InfluenceOperator& influence_;
-  const PatchGrid& grid_;
   Mask active_;
   RecycledKrylov searched_;
-  Plane by_approach_;  // pressure, Pa/m
 };
 
 }  // namespace railstrata

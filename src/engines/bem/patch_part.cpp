@@ -20,7 +20,8 @@ Range widened(int first, int last, int ring, int count) {
   return out;
 }
 
-/// The cells with `bound` > 0 and rings more; none on a line and without such cells.
+}  // namespace
+
 std::optional<PatchPart> widened_part(const PatchGrid& grid, const Plane& bound, int ring_x, int ring_y) {
   int first_x = grid.nx, last_x = -1, first_y = grid.ny, last_y = -1;
   for (int i = 0; i < grid.nx; ++i)
@@ -35,8 +36,6 @@ std::optional<PatchPart> widened_part(const PatchGrid& grid, const Plane& bound,
   const Range x = widened(first_x, last_x, ring_x, grid.nx), y = widened(first_y, last_y, ring_y, grid.ny);
   return PatchPart{grid, x.first, y.first, x.count, y.count};
 }
-
-}  // namespace
 
 std::optional<PatchPart> part_with(const PatchGrid& grid, const Plane& bound, int ring) {
   const std::optional<PatchPart> part = widened_part(grid, bound, ring, ring);

@@ -60,6 +60,10 @@ struct PatchPart {
 /// less than a third of them, on a line, and without such cells.
 std::optional<PatchPart> part_with(const PatchGrid& grid, const Plane& bound, int ring);
 
+/// The cells with `bound` > 0 and so many more on every side as the grid has, even numbers of cells; none on a line and
+/// without such cells.
+std::optional<PatchPart> widened_part(const PatchGrid& grid, const Plane& bound, int ring_x, int ring_y);
+
 /// As few as steady rolling needs, a cell before and behind, even numbers of cells; none on a line, without cells with
 /// `bound` > 0, and where that is the grid.
 std::optional<PatchPart> tight_part_with(const PatchGrid& grid, const Plane& bound);

@@ -70,14 +70,6 @@ double factor_at(const RollingContact& contact, std::vector<TablePoint> ContactH
                     contact.temperature.empty() ? contact.heat->before_sliding() : contact.temperature[cell]);
 }
 
-Plane traction_bound(const RollingContact& contact, const Plane& pressure) {
-  Plane bound = pressure;
-  for (std::size_t i = 0; i < bound.size(); ++i)
-    bound[i] *= (contact.local_friction.empty() ? contact.friction : contact.local_friction[i]) *
-                factor_at(contact, &ContactHeat::friction, i);
-  return bound;
-}
-
 /// The film of each cell; none where it is the same everywhere.
 std::vector<ThirdBody> films(const RollingContact& contact, const Plane& pressure) {
   std::vector<ThirdBody> out;
@@ -90,6 +82,16 @@ std::vector<ThirdBody> films(const RollingContact& contact, const Plane& pressur
   return out;
 }
 
+}  // namespace
+
+Plane traction_bound(const RollingContact& contact, const Plane& pressure) {
+  Plane bound = pressure;
+  for (std::size_t i = 0; i < bound.size(); ++i)
+    bound[i] *= (contact.local_friction.empty() ? contact.friction : contact.local_friction[i]) *
+                factor_at(contact, &ContactHeat::friction, i);
+  return bound;
+}
+
 TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
                                   const RollingContact& contact, const NormalSolution& normal) {
   TangentialProblem t{contact, traction_bound(contact, normal.pressure), films(contact, normal.pressure), {}};
@@ -98,9 +100,10 @@ TangentialProblem tangential_part(const InfluenceOperator& influence, const Patc
   return t;
 }
 
-/// q: solution or derivative.
-template <class Tractions>
-Plane gap_with_displacement_by_traction(const InfluenceOperator& influence, const Plane& gap, const Tractions& q) {
+namespace {
+
+Plane gap_with_displacement_by_traction(const InfluenceOperator& influence, const Plane& gap,
+                                        const TangentialSolution& q) {
   Plane out = influence.normal_from_traction(q.q_x, q.q_y);
   add_scaled(out, 1, gap);
   return out;
@@ -242,63 +245,6 @@ RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGri
   if (s.tangential.bound.empty() && !contact.local_friction.empty())
     s.tangential.bound = traction_bound(contact, s.normal.pressure);
   return s;
-}
-
-RollingDerivatives::RollingDerivatives(const InfluenceOperator& influence, const PatchGrid& grid,
-                                       const RollingContact& contact, const RollingSolution& solution)
-    : influence_(influence),
-      grid_(grid),
-      contact_(contact),
-      solution_(solution),
-      normal_(influence, grid, solution.normal),
-      tangential_(influence, grid, tangential_part(influence, grid, contact, solution.normal), solution.tangential) {}
-
-TangentialProblem RollingDerivatives::beside(const RollingContact& there, const NormalSolution& change,
-                                             double by) const {
-  NormalSolution normal = solution_.normal;
-  for (std::size_t i = 0; i < grid_.size(); ++i) {
-    if (normal.pressure[i] > 0)
-      normal.pressure[i] = moved_above_zero(normal.pressure[i], by * change.pressure[i]);
-    else
-      normal.gap[i] = moved_above_zero(normal.gap[i], by * change.gap[i]);
-  }
-  return tangential_part(influence_, grid_, there, normal);
-}
-
-RollingDerivatives::NormalInput RollingDerivatives::normal_input(const RollingContact& more, const RollingContact& less,
-                                                                 double step) const {
-  const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
-  NormalInput out{Plane(grid_.size()), {}};
-  for (std::size_t i = 0; i < out.gap.size(); ++i) out.gap[i] = slope(more.gap[i], less.gap[i]);
-  if (contact_.target.load) out.target.load = slope(*more.target.load, *less.target.load);
-  if (contact_.target.approach) out.target.approach = slope(*more.target.approach, *less.target.approach);
-  return out;
-}
-
-RollingDerivative RollingDerivatives::sums_by(const RollingContact& more, const RollingContact& less, double step) {
-  if (influence_.couples()) return by(more, less, step);
-  const auto [gap, target] = normal_input(more, less, step);
-  RollingDerivative d{normal_.by(gap, target), {}};
-  d.tangential = tangential_.sums_by(beside(more, d.normal, step), beside(less, d.normal, -step), step);
-  return d;
-}
-
-RollingDerivative RollingDerivatives::by(const RollingContact& more, const RollingContact& less, double step) {
-  constexpr double kSettled = 1e-6;  // change of the pressure's derivative between two rounds
-  constexpr int kMostRounds = 40;
-  const auto [gap_alone, target] = normal_input(more, less, step);
-  RollingDerivative d;
-  for (int round = 0; round < kMostRounds; ++round) {
-    const Plane gap = round > 0 ? gap_with_displacement_by_traction(influence_, gap_alone, d.tangential) : gap_alone;
-    NormalSolution next = normal_.by(gap, target);
-    const double peak = std::max(largest_of(next.pressure), largest_of(d.normal.pressure));
-    const bool settled =
-        round > 0 && (peak == 0 || largest_difference(next.pressure, d.normal.pressure) / peak <= kSettled);
-    d.normal = std::move(next);
-    d.tangential = tangential_.by(beside(more, d.normal, step), beside(less, d.normal, -step), step);
-    if (!influence_.couples() || settled) return d;
-  }
-  throw NumericalError("the iteration between the derivatives of normal and tangential contact did not converge");
 }
 
 void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,

@@ -6,8 +6,6 @@
 // caused by the other's traction, until the pressure repeats. Both are solved only as accurately as the other is known:
 // the tangential problem takes one Newton step per outer iteration, the normal one a tolerance that follows the last
 // change of the pressure. So the coupled problem costs little more Newton steps than the tangential problem alone.
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "bem/contact_heat.hpp"
@@ -51,42 +49,11 @@ struct RollingSolution {
 RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
                               const RollingOptions& options = {}, const RollingSolution* start = nullptr);
 
-/// Change of a solution per unit of an input, sets as they are. Steady rolling without `heat` and bounds that vary with
-/// slip.
-struct RollingDerivative {
-  NormalSolution normal;  ///< pressure, approach and load
-  TangentialDerivative tangential;
-};
-/// A pressure or gap and a change of it on both sides: a cell that it would take out of contact or into it stays where
-/// it is, with the same difference.
-inline double moved_above_zero(double value, double change) { return std::max(value, 2 * std::abs(change)) + change; }
-/// The linear equations of one solution; each derivative is cheaper than those before.
-class RollingDerivatives {
- public:
-  /// All are kept by reference.
-  RollingDerivatives(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
-                     const RollingSolution& solution);
-  /// more, less: the problem with the input larger and smaller by `step`, so small that tractions hardly change.
-  RollingDerivative by(const RollingContact& more, const RollingContact& less, double step);
-  /// Where the bodies do not couple, with creepages, forces and moment of the tractions alone, at less cost.
-  RollingDerivative sums_by(const RollingContact& more, const RollingContact& less, double step);
-
- private:
-  struct NormalInput {
-    Plane gap;  ///< m
-    NormalTarget target;
-  };
-  /// Per unit of the input.
-  NormalInput normal_input(const RollingContact& more, const RollingContact& less, double step) const;
-  TangentialProblem beside(const RollingContact& there, const NormalSolution& change, double by) const;
-
-  const InfluenceOperator& influence_;
-  const PatchGrid& grid_;
-  const RollingContact& contact_;
-  const RollingSolution& solution_;
-  NormalDerivatives normal_;
-  TangentialDerivatives tangential_;
-};
+/// The tangential problem under a pressure.
+TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
+                                  const RollingContact& contact, const NormalSolution& normal);
+/// f p in each cell, Pa.
+Plane traction_bound(const RollingContact& contact, const Plane& pressure);
 
 /// Makes `contact` the transient step in which the wheel rolls on by one cell (dx) from the state `before`. Gap and
 /// load may change from step to step too.

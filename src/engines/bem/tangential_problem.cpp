@@ -8,7 +8,6 @@
 #include "bem/cell_slip.hpp"
 #include "bem/newton_step.hpp"
 #include "bem/normal_problem.hpp"
-#include "bem/patch_part.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -222,27 +221,9 @@ class Solver {
   int outer_ = 0;
 };
 
-TangentialProblem taken(const PatchPart& part, const TangentialProblem& p) {
-  TangentialProblem out = p;
-  for (Plane* plane : {&out.traction_bound, &out.leading_weight, &out.plastic_before, &out.lost_before})
-    *plane = part.take(*plane);
-  for (PlanePair* pair : {&out.extra_slip, &out.before, &out.traction_before}) *pair = part.take(*pair);
-  out.local_spin = part.take_rows(p.local_spin);
-  out.film = part.take(p.film);
-  return out;
-}
-
 constexpr Plane TangentialSolution::*kSolutionPlanes[] = {
     &TangentialSolution::q_x,           &TangentialSolution::q_y,   &TangentialSolution::plastic,
     &TangentialSolution::lost_friction, &TangentialSolution::bound, &TangentialSolution::film_flexibility};
-
-TangentialSolution taken(const PatchPart& part, const TangentialSolution& s) {
-  TangentialSolution out = s;
-  for (Plane TangentialSolution::*plane : kSolutionPlanes) out.*plane = part.take(s.*plane);
-  for (PlanePair* pair : {&out.slip, &out.cell_slip}) *pair = part.take(*pair);
-  out.state = part.take(s.state);
-  return out;
-}
 
 /// On the whole grid: nothing bears friction outside the part.
 TangentialSolution put_back(const PatchPart& part, TangentialSolution s) {
@@ -260,135 +241,24 @@ void add_film(const TangentialSolution& s, PlanePair& u) {
   }
 }
 
-/// A solution in a problem beside its own: sets stand, slipping cells are on their bound.
-void take_over(const TangentialSolution& s, TangentialState& state) {
-  for (std::size_t i = 0; i < state.n; ++i) state.set[i] = s.state[i] == ContactState::separated ? kOutside : kStick;
-  state.adopt(s, false);
-  state.update_slip();
-}
-
 }  // namespace
 
-/// On the part of the grid that bears tractions.
-struct TangentialDerivatives::Linear {
-  Linear(const InfluenceOperator& whole, const PatchGrid& cells, const TangentialProblem& asked,
-         const TangentialSolution& solved)
-      : part(tight_part_with(cells, asked.traction_bound)),
-        own(part ? whole.part(part->nx, part->ny) : nullptr),
-        influence(part ? *own : whole),
-        grid(part ? part->grid() : cells),
-        problem(on_part(asked)),
-        solution(on_part(solved)),
-        here(influence, grid, problem),
-        newton(here) {
-    take_over(solution, here);
-    newton.linearise();
-  }
-  /// What an input changes while no traction turns, per unit: slip and given forces, as of derivative(), and tractions,
-  /// which slipping cells have on their bound.
-  struct Change {
-    Plane slip, q;
-  };
-  Change change(const TangentialProblem& more, const TangentialProblem& less, double step) const {
-    TangentialState up(influence, grid, more), down(influence, grid, less);
-    for (TangentialState* state : {&up, &down}) take_over(solution, *state);
-    const std::size_t n = here.n;
-    const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
-    const std::vector<int>& given = newton.directions();
-    Change out{Plane(2 * n + given.size()), Plane(2 * n)};
-    for (std::size_t i = 0; i < n; ++i) {
-      out.slip[i] = slope(up.slip[i], down.slip[i]);
-      out.slip[n + i] = slope(up.lateral_slip(i), down.lateral_slip(i));
-    }
-    for (std::size_t i = 0; i < 2 * n; ++i) out.q[i] = slope(up.q[i], down.q[i]);
-    for (std::size_t c = 0; c < given.size(); ++c)
-      out.slip[2 * n + c] = slope(up.missing_force(given[c]), down.missing_force(given[c]));
-    return out;
-  }
-  /// A sum over derivative(), and the weights of changes in it.
-  struct Adjoint {
-    Plane sum, weights;
-    double of(const Change& c) const { return dot(weights, c.slip) + dot(c.q, sum); }
-  };
-  /// Of each direction the creepage where its force is given, else the force; then the moment.
-  const std::vector<Adjoint>& adjoints() {
-    const std::size_t n = here.n, given = newton.directions().size();
-    const double area = grid.cell_area();
-    for (int k = static_cast<int>(found.size()); k < 3; ++k) {
-      Adjoint& a = found.emplace_back();
-      a.sum.assign(2 * n + given, 0.0);
-      const auto sought = std::find(newton.directions().begin(), newton.directions().end(), k);
-      if (sought != newton.directions().end())
-        a.sum[2 * n + static_cast<std::size_t>(sought - newton.directions().begin())] = 1;
-      else
-        for (std::size_t i = 0; i < n; ++i) {
-          a.sum[i] = k == 0 ? area : k == 2 ? -area * grid.y_of(i) : 0.0;
-          a.sum[n + i] = here.traction_y(k == 1 ? area : k == 2 ? area * grid.x_of(i) : 0.0);
-        }
-      a.weights = newton.adjoint(a.sum);
-      a.sum.resize(2 * n);
-    }
-    return found;
-  }
-  template <class Whole>
-  Whole on_part(const Whole& whole) const {
-    return part ? taken(*part, whole) : whole;
-  }
-
-  std::optional<PatchPart> part;
-  std::shared_ptr<const InfluenceOperator> own;
-  const InfluenceOperator& influence;
-  PatchGrid grid;
-  TangentialProblem problem;
-  TangentialSolution solution;
-  TangentialState here;
-  NewtonStep newton;
-  std::vector<Adjoint> found;
-};
-
-TangentialDerivatives::TangentialDerivatives(const InfluenceOperator& influence, const PatchGrid& grid,
-                                             const TangentialProblem& problem, const TangentialSolution& solution)
-    : linear_(std::make_unique<Linear>(influence, grid, problem, solution)) {}
-
-TangentialDerivatives::~TangentialDerivatives() = default;
-
-TangentialDerivative TangentialDerivatives::by(const TangentialProblem& more, const TangentialProblem& less,
-                                               double step) {
-  auto& [part, own, influence, grid, problem, s, here, newton, found] = *linear_;
-  const Linear::Change change = linear_->change(linear_->on_part(more), linear_->on_part(less), step);
-  const std::size_t n = here.n;
-  const Plane& turned = newton.derivative(change.slip);
-  TangentialDerivative d{Plane(n), Plane(n)};
-  for (std::size_t k = 0; k < n; ++k) {
-    d.q_x[k] = turned[k] + change.q[k];
-    d.q_y[k] = here.traction_y(turned[n + k] + change.q[n + k]);
-    d.moment += (grid.x_of(k) * d.q_y[k] - grid.y_of(k) * d.q_x[k]) * grid.cell_area();
-  }
-  d.force_x = sum(d.q_x) * grid.cell_area();
-  d.force_y = sum(d.q_y) * grid.cell_area();
-  d.creepage_x = problem.x.force ? 0.0 : (more.x.creepage - less.x.creepage) / (2 * step);
-  d.creepage_y = problem.y.force ? 0.0 : (more.y.creepage - less.y.creepage) / (2 * step);
-  for (std::size_t c = 0; c < newton.directions().size(); ++c)
-    (newton.directions()[c] ? d.creepage_y : d.creepage_x) =
-        newton.directions()[c] ? here.slip_y(turned[2 * n + c]) : turned[2 * n + c];
-  if (!part) return d;
-  d.q_x = part->put(d.q_x);
-  d.q_y = part->put(d.q_y);
-  return d;
+TangentialProblem on_part(const PatchPart& part, const TangentialProblem& p) {
+  TangentialProblem out = p;
+  for (Plane* plane : {&out.traction_bound, &out.leading_weight, &out.plastic_before, &out.lost_before})
+    *plane = part.take(*plane);
+  for (PlanePair* pair : {&out.extra_slip, &out.before, &out.traction_before}) *pair = part.take(*pair);
+  out.local_spin = part.take_rows(p.local_spin);
+  out.film = part.take(p.film);
+  return out;
 }
 
-TangentialDerivative TangentialDerivatives::sums_by(const TangentialProblem& more, const TangentialProblem& less,
-                                                    double step) {
-  const Linear::Change change = linear_->change(linear_->on_part(more), linear_->on_part(less), step);
-  const std::vector<Linear::Adjoint>& sums = linear_->adjoints();
-  const auto slope = [&](double above, double below) { return (above - below) / (2 * step); };
-  TangentialDerivative d;
-  d.force_x = more.x.force ? slope(*more.x.force, *less.x.force) : sums[0].of(change);
-  d.creepage_x = more.x.force ? sums[0].of(change) : slope(more.x.creepage, less.x.creepage);
-  d.force_y = more.y.force ? slope(*more.y.force, *less.y.force) : sums[1].of(change);
-  d.creepage_y = more.y.force ? linear_->here.slip_y(sums[1].of(change)) : slope(more.y.creepage, less.y.creepage);
-  d.moment = sums[2].of(change);
-  return d;
+TangentialSolution on_part(const PatchPart& part, const TangentialSolution& s) {
+  TangentialSolution out = s;
+  for (Plane TangentialSolution::*plane : kSolutionPlanes) out.*plane = part.take(s.*plane);
+  for (PlanePair* pair : {&out.slip, &out.cell_slip}) *pair = part.take(*pair);
+  out.state = part.take(s.state);
+  return out;
 }
 
 TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid,
@@ -399,9 +269,9 @@ TangentialSolution solve_tangential(const InfluenceOperator& influence, const Pa
                                                                      : part_with(grid, problem.traction_bound, kRing);
   if (!part) return Solver(influence, grid, problem, options).solve(start);
   const std::shared_ptr<const InfluenceOperator> own = influence.part(part->nx, part->ny);
-  const TangentialProblem problem_there = taken(*part, problem);
+  const TangentialProblem problem_there = on_part(*part, problem);
   const std::optional<TangentialSolution> start_there =
-      start ? std::optional<TangentialSolution>(taken(*part, *start)) : std::nullopt;
+      start ? std::optional<TangentialSolution>(on_part(*part, *start)) : std::nullopt;
   const PatchGrid grid_there = part->grid();
   return put_back(*part, Solver(*own, grid_there, problem_there, options).solve(start_there ? &*start_there : nullptr));
 }

@@ -22,12 +22,12 @@
 // (varying_bound.hpp). Solved by an active-set Newton method: unknown are both components in stick and the direction in
 // slip; each linear system by GMRES with FFT products. L has a positive semi-definite symmetric part, and slip along
 // the traction adds a positive diagonal, so every linear system is solvable.
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "bem/influence_operator.hpp"
 #include "bem/patch_grid.hpp"
+#include "bem/patch_part.hpp"
 #include "bem/plane_algebra.hpp"
 #include "contact/contact_field.hpp"
 #include "friction/falling_friction.hpp"
@@ -109,29 +109,9 @@ TangentialSolution solve_tangential(const InfluenceOperator& influence, const Pa
                                     const TangentialProblem& problem, const TangentialOptions& options = {},
                                     const TangentialSolution* start = nullptr);
 
-/// Change of a solution per unit of an input, sets of sticking and slipping cells as they are. Of steady rolling
-/// without a bound that varies with slip (VaryingBound::needed).
-struct TangentialDerivative {
-  Plane q_x, q_y;                         ///< Pa; empty: the sums alone were asked for
-  double creepage_x = 0, creepage_y = 0;  ///< of given forces
-  double force_x = 0, force_y = 0, moment = 0;
-};
-/// The linear equations of one solution; each derivative is cheaper than those before.
-class TangentialDerivatives {
- public:
-  /// influence is kept by reference.
-  TangentialDerivatives(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem,
-                        const TangentialSolution& solution);
-  ~TangentialDerivatives();
-  /// more, less: the problem with the input larger and smaller by `step`.
-  TangentialDerivative by(const TangentialProblem& more, const TangentialProblem& less, double step);
-  /// Creepages, forces and moment alone, of any number of inputs by three adjoint systems.
-  TangentialDerivative sums_by(const TangentialProblem& more, const TangentialProblem& less, double step);
-
- private:
-  struct Linear;
-  std::unique_ptr<Linear> linear_;
-};
+/// On a part of the grid.
+TangentialProblem on_part(const PatchPart& part, const TangentialProblem& problem);
+TangentialSolution on_part(const PatchPart& part, const TangentialSolution& solution);
 
 /// Values of cells after the wheel has rolled on by one cell; new ones are zero.
 Plane rolled_on(const PatchGrid& grid, const Plane& values);

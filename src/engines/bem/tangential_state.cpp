@@ -97,30 +97,36 @@ void SlipOperator::extrapolate_at_leading_cells() {
     }
 }
 
-/// Without first cells and film L is a convolution: the transposed one is L of the grid turned by half a turn. A first
-/// cell has w/(1 - w) of its slip more and takes as much of the cell ahead.
-void SlipOperator::apply_transposed(const double* in, double* out) {
-  turned_.resize(2 * n_);
-  for (std::size_t k = 0; k < 2 * n_; ++k) turned_[(k < n_ ? n_ : 3 * n_) - 1 - k] = in[k];
-  const auto place_of = [&](std::size_t i) { return n_ - 1 - i; };
+void SlipOperator::weights_of_displacement(const double* of_slip, Plane& out) const {
+  out.assign(2 * n_, 0.0);
+  const auto add = [&](std::size_t i, double value) {
+    if (value != 0) out[i] += value * inverse_step_;
+  };
+  for (const std::size_t half : {std::size_t{0}, n_})
+    for (std::size_t i = 0; i < n_; ++i) {
+      add(half + i, of_slip[half + i]);
+      if (i + ahead_ < n_) add(half + i + ahead_, -of_slip[half + i]);
+    }
   for (const LeadingCell& first : leading_)
     for (const std::size_t half : {std::size_t{0}, n_}) {
-      const double more = first.weight * in[half + first.index];
-      turned_[half + place_of(first.index)] += more;
-      turned_[half + place_of(first.index + ahead_)] -= more;
+      const double more = first.weight * of_slip[half + first.index];
+      add(half + first.index, more);
+      add(half + first.index + ahead_, -2 * more);
+      add(half + first.index + 2 * ahead_, more);
     }
   if (lateral_share_ != 1)
-    for (std::size_t i = n_; i < 2 * n_; ++i) turned_[i] *= lateral_share_;
-  influence_.tangential(turned_.data(), turned_.data() + n_, u_.data(), u_.data() + n_ + ahead_, grid_.nx + 1);
+    for (std::size_t i = n_; i < 2 * n_; ++i) out[i] *= lateral_share_;
+}
+
+void SlipOperator::weights_of_traction(const Plane& of_displacement, double* out) {
+  influence_.tangential(of_displacement.data(), of_displacement.data() + n_, out, out + n_, grid_.nx);
   ++products_;
-  for (std::size_t i = 0; i < n_; ++i) {
-    const std::size_t k = place_of(i);
-    const double film = film_.empty() ? 0.0 : film_[i], behind_x = k + ahead_ < n_ ? turned_[k + ahead_] : 0.0,
-                 behind_y = k + ahead_ < n_ ? turned_[n_ + k + ahead_] : 0.0;
-    out[i] = (u_[k] - u_[k + ahead_] + film * (turned_[k] - behind_x)) * inverse_step_;
-    out[n_ + i] = (u_[n_ + ahead_ + k] - u_[n_ + 2 * ahead_ + k] + film * (turned_[n_ + k] - behind_y)) *
-                  inverse_step_ * lateral_share_;
+  for (std::size_t i = 0; i < film_.size(); ++i) {
+    out[i] += film_[i] * of_displacement[i];
+    out[n_ + i] += film_[i] * of_displacement[n_ + i];
   }
+  if (lateral_share_ != 1)
+    for (std::size_t i = n_; i < 2 * n_; ++i) out[i] *= lateral_share_;
 }
 
 void SlipOperator::traction_of(const Plane& displacement, double* out) {
@@ -209,6 +215,12 @@ void TangentialState::follow_slip() {
   for_both([&](std::size_t i) {
     if (set[i] == kStick) carried[i] = varying->at_rest(i);
   });
+}
+
+void take_over(const TangentialSolution& s, TangentialState& state) {
+  for (std::size_t i = 0; i < state.n; ++i) state.set[i] = s.state[i] == ContactState::separated ? kOutside : kStick;
+  state.adopt(s, false);
+  state.update_slip();
 }
 
 }  // namespace railstrata

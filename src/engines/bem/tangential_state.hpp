@@ -33,8 +33,11 @@ class SlipOperator {
     const std::size_t k = n_ + ahead_ + i;
     return (u_[k] - (steady_ ? u_[k + ahead_] : 0.0)) * inverse_step_;
   }
-  /// out = L^T in, of steady rolling.
-  void apply_transposed(const double* in, double* out);
+  /// In steady rolling the weights of displacements that weights of slips make: of the surfaces, x and y. What is not 0
+  /// lies two rows from the grid's end.
+  void weights_of_displacement(const double* of_slip, Plane& out) const;
+  /// From these weights those of the tractions: together out = L^T in.
+  void weights_of_traction(const Plane& of_displacement, double* out);
   /// The traction on the periodic grid that makes a displacement.
   void traction_of(const Plane& displacement, double* out);
 
@@ -60,7 +63,6 @@ class SlipOperator {
   std::size_t n_, ahead_;
   Plane u_;       // rail minus wheel displacement, with a row of cells ahead
   Plane scaled_;  // traction or displacement as the influence has it; with a lateral share
-  Plane turned_;  // a slip of the grid turned by half a turn
   int products_ = 0;
 };
 
@@ -135,5 +137,8 @@ struct TangentialState {
   /// A bound that varies takes the slip along the traction; cells that stick are bound by its value at rest.
   void follow_slip();
 };
+
+/// Takes a solution of the state's own problem: sets stand, slipping cells are on their bound.
+void take_over(const TangentialSolution& solution, TangentialState& state);
 
 }  // namespace railstrata

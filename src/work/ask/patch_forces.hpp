@@ -51,16 +51,20 @@ struct Wrench {
 constexpr Wrench operator+(const Wrench& a, const Wrench& b) { return {a.force + b.force, a.moment + b.moment}; }
 constexpr Wrench operator*(double s, const Wrench& w) { return {s * w.force, s * w.moment}; }
 
-/// Sum over the cells of dF and arm x dF, dF = dA (-q_x, -p sin(delta) - q_y cos(delta), p cos(delta) - q_y
-/// sin(delta)). arm_of(x, point): from where the moment is asked for to a point of the model frame; x from the middle
-/// of the tape circle.
+/// dF = dA (-q_x, -p sin(delta) - q_y cos(delta), p cos(delta) - q_y sin(delta)): on the wheel, model axes.
+inline Vec3 force_of(const RigidContact& plane, double area, double p, double q_x, double q_y) {
+  const double c = std::cos(plane.angle), s = std::sin(plane.angle);
+  return area * Vec3{-q_x, -p * s - q_y * c, p * c - q_y * s};
+}
+
+/// Sum over the cells of dF and arm x dF. arm_of(x, point): from where the moment is asked for to a point of the model
+/// frame; x from the middle of the tape circle.
 template <class ArmOf>
 Wrench wrench_of(const RigidContact& plane, const ContactField& f, ArmOf&& arm_of) {
-  const double c = std::cos(plane.angle), s = std::sin(plane.angle);
   Wrench out;
   for (std::size_t k = 0; k < f.p.size(); ++k) {
     if (!(f.p[k] > 0)) continue;
-    const Vec3 force = f.area[k] * Vec3{-f.q_x[k], -f.p[k] * s - f.q_y[k] * c, f.p[k] * c - f.q_y[k] * s};
+    const Vec3 force = force_of(plane, f.area[k], f.p[k], f.q_x[k], f.q_y[k]);
     out.force += force;
     out.moment += cross(arm_of(plane.x + f.x[k], Vec2{f.y[k], f.z[k]}), force);
   }

@@ -38,6 +38,27 @@ Wrench carried_by(const Wheel& w, const RigidContact& plane, const ContactField&
   return {yaw(rail, on_rail.force), yaw(rail, on_rail.moment)};
 }
 
+std::vector<TractionSum> wrench_sums(const Wheel& w, const RigidContact& plane, const ContactField& field) {
+  const std::size_t n = field.p.size();
+  std::vector<TractionSum> out(6, {Plane(n, 0.0), Plane(n, 0.0), Plane(n, 0.0)});
+  Plane TractionSum::*const tractions[] = {&TractionSum::p, &TractionSum::q_x, &TractionSum::q_y};
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(field.p[k] > 0)) continue;
+    const Vec3 place = arm(w, plane.x + field.x[k], Vec2{field.y[k], field.z[k]});
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 force = force_of(plane, field.area[k], c == 0, c == 1, c == 2), moment = cross(place, force);
+      const double numbers[] = {force.x, force.y, force.z, moment.x, moment.y, moment.z};
+      for (std::size_t i = 0; i < out.size(); ++i) (out[i].*tractions[c])[k] = numbers[i];
+    }
+  }
+  return out;
+}
+
+Wrench wrench_from(const Wheel& w, const std::vector<double>& sums) {
+  const Rotation<double> rail = rotation_by(w.rail.yaw);
+  return {yaw(rail, {sums[0], sums[1], sums[2]}), yaw(rail, {sums[3], sums[4], sums[5]})};
+}
+
 Wrench in_track(const Wheelset& set, std::size_t side, const Wrench& of_wheel) {
   const InTrack sign(side, *set.solved);
   return {sign.polar(of_wheel.force), sign.axial(of_wheel.moment)};

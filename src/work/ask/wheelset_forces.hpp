@@ -1,6 +1,9 @@
 #pragma once
 // From what a wheel has in its own axes to the axes of the track.
+#include <vector>
+
 #include "ask/wheelset.hpp"
+#include "bem/rolling_derivatives.hpp"
 
 namespace railstrata {
 
@@ -10,6 +13,9 @@ Wrench carried_by(const Wheel& wheel);
 
 /// The same of the cells of one plane.
 Wrench carried_by(const Wheel& wheel, const RigidContact& plane, const ContactField& field);
+/// The six numbers of that as sums over the tractions in these cells, and the wrench that such sums are.
+std::vector<TractionSum> wrench_sums(const Wheel& wheel, const RigidContact& plane, const ContactField& field);
+Wrench wrench_from(const Wheel& wheel, const std::vector<double>& sums);
 /// What a wheel carries so, in the axes of the track.
 Wrench in_track(const Wheelset& set, std::size_t side, const Wrench& of_wheel);
 

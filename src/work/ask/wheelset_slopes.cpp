@@ -154,9 +154,16 @@ class WheelSlopes {
   }
 
   Wrench linearised(const State& above, const State& below, double step) {
-    const auto [more, less] = equations_->of->tractions(more_.contact.case_in(above), less_.contact.case_in(below),
-                                                        {above.descent, below.descent}, step);
-    return slope(carried_by(more_, more.plane, more.field), carried_by(less_, less.plane, less.field), step);
+    ContactDerivatives& of = *equations_->of;
+    if (!weighed_) {
+      const PlaneTractions here = of.here();
+      of.weigh(wrench_sums(wheel_, here.plane, here.field));
+      weighed_ = true;
+    }
+    const auto [more, less, sums] =
+        of.change_of(more_.contact.case_in(above), less_.contact.case_in(below), {above.descent, below.descent}, step);
+    return slope(carried_by(more_, more.plane, more.field), carried_by(less_, less.plane, less.field), step) +
+           wrench_from(wheel_, sums);
   }
 
   Wrench between(const std::array<double, 2>& descents, double step) {
@@ -178,6 +185,7 @@ class WheelSlopes {
   Wheel more_, less_;
   bool at_home_ = false;  ///< these two stand where the wheel stands
   std::unique_ptr<ContactEquations> equations_;
+  bool weighed_ = false;  ///< they have the wheel's sums
   std::optional<std::array<Wrench, kSlips>> by_slip_;
 };
 
