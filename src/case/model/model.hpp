@@ -57,7 +57,7 @@ struct Model {
   /// m, where a run that has come to `position` is likely to end: if it ends where windows repeat, at the end of the
   /// present window, the second one at the earliest; else at x_end.
   double likely_end(double position = 0) const;
-  double reach = 0;             ///< m, how much farther from the axle heights make the wheel touch
+  double reach = 0;  ///< m, how much farther from the axle heights make the wheel touch
   /// Section curves of the running surfaces in section coordinates of the bodies.
   Vec2 rail_section_point(double s) const { return rail_to_model(placement.track, placement.rail.at(s).position); }
   Vec2 rail_section_normal(double s) const { return rail_to_model(placement.track, placement.rail.at(s).outward); }
