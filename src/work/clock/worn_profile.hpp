@@ -16,6 +16,9 @@ struct WornSurface {
   double gauge_widening = 0;
 };
 
+/// A surface between two of the same rail, so much of the way from one to the other.
+WornSurface mixed(const WornSurface& one, const WornSurface& other, double share);
+
 class WornProfile {
  public:
   /// Points at most `cell` [m] apart.
@@ -40,7 +43,7 @@ class WornProfile {
   void grind(double depth);
 
   const WornSurface& worn() const { return now_; }
-  /// The surface of the same rail as it was before.
+  /// The surface of the same rail at another time.
   void stand(WornSurface before);
 
  private:
