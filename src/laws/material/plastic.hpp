@@ -157,11 +157,11 @@ RAILSTRATA_POINTWISE RecalledShare<T> recalled_share(const PlasticParameters<Rea
 }
 
 /// Whether a trial of Newton's method is farther from the yield condition than rounding of its next steps would show,
-/// in any lane: 1e-10 of the yield strength. A lane that stays elastic is not.
+/// in any lane: 1e-13 of the yield strength. A lane that stays elastic is not.
 template <class T, class Real>
 RAILSTRATA_POINTWISE bool unsettled(const T& increment, const T& excess, const Real& yield) {
   const T size = excess > T{} ? excess : -excess;
-  return any_positive((increment > T{} ? size : excess) - Real(1e-10) * yield);
+  return any_positive((increment > T{} ? size : excess) - Real(1e-13) * yield);
 }
 
 /// The yield condition at the end of a step, for a plastic increment Δp that is tried:
