@@ -10,7 +10,6 @@
 #include "bem/contact_places.hpp"
 #include "clock/clock_lives.hpp"
 #include "clock/clock_state.hpp"
-#include "clock/contact_mark.hpp"
 #include "clock/wheel_kinds.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
@@ -26,11 +25,16 @@ constexpr double kThinnest = 0.05e-3;  // m, of a layer that still is one
 constexpr double kBeside = 15e-3;      // m, of metal beside the outermost contacts
 constexpr int kSteps = 3;              // of the metal through a stretch
 
-/// A step of wear, or a grinding: m, of the metal's columns, and the surface after it. Traffic in wheels.
+/// What a load's contact was, to see whether it has changed.
+struct ContactMark {
+  double p_max = 0;
+  std::vector<double> at;  ///< m, of its patches on the unworn profile
+};
+
+/// A step of wear, or a grinding: m, of the metal's columns. Traffic in wheels since the stretch's beginning.
 struct Sinking {
   double from = 0, to = 0;
   std::vector<double> before, after;
-  WornSurface surface = {};
 };
 
 class Clock {
@@ -80,9 +84,7 @@ class Clock {
   void put_wheels();
   std::vector<ContactMark> marks() const;
   bool changed(const std::vector<ContactMark>& from) const;
-  void add(Sinking sinking);
   void wear_until_changed();
-  void go_to_middle(const WornSurface& begin);
   double wear_step(double most);
   void roll_metal();
   void gather(double from, double wheels);
@@ -104,7 +106,7 @@ class Clock {
   WornProfile surface_;
   std::optional<Metal> metal_;
   std::optional<GatheredDamage> damages_;
-  std::vector<CollectiveRow> rows_;   ///< on the surface of the day; empty: not solved
+  std::vector<CollectiveRow> rows_;   ///< solved for the next stretch; empty: they are not
   std::vector<std::size_t> load_of_;  ///< of the metal's wheels, the row
   std::vector<Sinking> sinkings_;
 };
@@ -112,7 +114,6 @@ class Clock {
 CaseSpec Clock::case_of_day() const {
   CaseSpec out = spec_;
   out.geometry.gauge += surface_.gauge_widening();
-  out.run.judged = JudgedBodies::rail;
   return out;
 }
 
@@ -128,7 +129,7 @@ void Clock::solve(bool with_stresses) {
   how.bem = options_.bem;
   how.rail = &surface_.profile();
   how.keep_results = with_stresses;
-  how.wanted = {.rail = false, .wheel = false, .shakedown = with_stresses, .planes = false, .life = false};
+  how.wanted = {.rail = false, .wheel = false, .shakedown = with_stresses, .life = false};
   how.control = nullptr;
   solve_collective(rows_, folder_, how);
   if (asked_to_stop(options_.control)) throw Interrupted("stopped between two profiles");
@@ -148,7 +149,7 @@ void Clock::solve(bool with_stresses) {
 }
 
 void Clock::begin() {
-  solve(false);
+  solve(true);
   double kilograms = 0;
   for (const CollectiveRow& row : rows_) {
     now_.out.wheels += row.passages;
@@ -227,13 +228,20 @@ std::vector<ContactMark> Clock::marks() const {
   return out;
 }
 
-/// In the mean square of all wheels.
+/// In the mean square of all wheels; a patch that has come or gone is the change that is allowed, and none counts for
+/// more than four of it, so that a few loads that go from tread to flange do not end every stretch.
 bool Clock::changed(const std::vector<ContactMark>& from) const {
+  constexpr double kMost = 4;
   const std::vector<ContactMark> now = marks();
   double sum = 0;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    sum += rows_[i].passages / now_.out.wheels *
-           std::pow(change_between(now[i], from[i], {options_.change, options_.moved}), 2);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    double by = std::abs(now[i].p_max - from[i].p_max) / (options_.change * std::max(from[i].p_max, now[i].p_max));
+    if (now[i].at.size() != from[i].at.size()) by = std::max(by, 1.0);
+    for (std::size_t k = 0; k < std::min(now[i].at.size(), from[i].at.size()); ++k)
+      by = std::max(by, std::abs(now[i].at[k] - from[i].at[k]) / options_.moved);
+    by = std::min(by, kMost);
+    if (now[i].p_max > 0 || from[i].p_max > 0) sum += rows_[i].passages / now_.out.wheels * by * by;
+  }
   return sum > 1;
 }
 
@@ -262,7 +270,7 @@ void Clock::put_wheels() {
         load_of_.push_back(i);
       } catch (const CaseError& e) {
         if (now_.noted.insert(row.name + "/flow").second)
-          now_.out.notes.push_back(fmt::format("{}: up to {:.3g} MGT its metal is not followed: {}", row.name,
+          now_.out.notes.push_back(fmt::format("{}: at {:.3g} MGT its metal is not followed: {}", row.name,
                                                1e-9 * now_.out.reached, fault_line(e)));
       }
     }
@@ -270,12 +278,6 @@ void Clock::put_wheels() {
   }
   now_.followed = now_.followed || !wheels.empty();
   metal_->put(std::move(wheels));
-}
-
-void Clock::add(Sinking sinking) {
-  sinking.after = removed_of_columns();
-  sinking.surface = surface_.worn();
-  sinkings_.push_back(std::move(sinking));
 }
 
 /// Wears the profile by at most so many wheels; how many they were.
@@ -293,7 +295,8 @@ double Clock::wear_step(double most) {
     for (const double d : depth) step.push_back(std::isfinite(d) ? d * wheels / now_.out.wheels : 0);
     surface_.wear(cells, step);
   }
-  add(std::move(sinking));
+  sinking.after = removed_of_columns();
+  sinkings_.push_back(std::move(sinking));
   now_.wheels += wheels;
   now_.out.reached += wheels * now_.kilograms;
   return wheels;
@@ -310,7 +313,8 @@ void Clock::wear_until_changed() {
     if (now_.out.reached >= now_.next_grinding * kReached) {
       Sinking grinding{.from = now_.wheels, .to = now_.wheels, .before = removed_of_columns(), .after = {}};
       surface_.grind(spec_.life.grinding.depth);
-      add(std::move(grinding));
+      grinding.after = removed_of_columns();
+      sinkings_.push_back(std::move(grinding));
       now_.next_grinding += *spec_.life.grinding.every;
     }
     if (at_horizon()) return;
@@ -410,34 +414,20 @@ void Clock::roll_metal() {
     step *= options_.growth;
     progress(begin + all * std::min(done, kSteps) / kSteps);  // steps take alike long
   }
-  surface_.stand(sinkings_.back().surface);
   note(moment);
 }
 
-/// The surface as it was in the middle of the stretch's traffic.
-void Clock::go_to_middle(const WornSurface& begin) {
-  const double middle = 0.5 * (sinkings_.front().from + now_.wheels);
-  std::size_t k = 0;
-  while (sinkings_[k].to < middle) ++k;
-  const Sinking& at = sinkings_[k];
-  surface_.stand(mixed(k > 0 ? sinkings_[k - 1].surface : begin, at.surface, (middle - at.from) / (at.to - at.from)));
-}
-
-/// The metal has the stresses of the middle for all of the stretch: those of its beginning would be too large by half
-/// of what changes in it.
 void Clock::stretch() {
-  if (rows_.empty()) solve(false);
+  if (rows_.empty()) solve(true);
   if (!now_.out.ended.empty()) return;
-  const WornSurface begin = surface_.worn();
+  const std::vector<CollectiveRow> before = [&] {
+    put_wheels();
+    return rows_;
+  }();
   wear_until_changed();
-  const std::string ended = now_.out.ended;
-  std::vector<CollectiveRow> after = std::move(rows_);
-  go_to_middle(begin);
-  solve(true);
-  if (!ended.empty()) now_.out.ended = ended;
-  put_wheels();
+  rows_ = before;  // whose stresses the metal has
   roll_metal();
-  rows_ = std::move(after);
+  rows_.clear();
 }
 
 double Clock::largest_pressure() const {

@@ -2,10 +2,10 @@
 // A rail through its traffic: one state of the metal, one surface, one count of gross tonnes.
 //
 // Stretch after stretch of traffic: all loads are solved on the profile of the day; wear and grinding take the surface
-// down, and contacts are solved again (without stresses) step by step of wear, until the loads' largest pressures or
-// their places have changed by more than is allowed (contact_mark.hpp). The metal then rolls through that traffic under
-// the stresses of the stretch's middle (passes/metal.hpp), and its damage gathers at points that wear brings nearer to
-// the surface (gathered_damage.hpp). Loads that are alike count as one.
+// down, and contacts are solved again (without stresses) step by step of wear, until a load's largest pressure or its
+// place has changed by more than is allowed. The metal then rolls through that traffic under the stresses of the
+// stretch's beginning (passes/metal.hpp), and its damage gathers at points that wear brings nearer to the surface
+// (gathered_damage.hpp). Loads that are alike count as one.
 //
 // Assumptions: those of passes (one patch after the other, an endless rail, the pressure of elastic bodies) and of the
 // wear laws; wheels of all loads come in any order, thoroughly mixed.

@@ -28,7 +28,7 @@ const std::vector<MomentColumn>& moments() {
       {{"gauge_widening", kMillimetres, [](const M& m) { return m.gauge_widening; }},
        "of the track by worn gauge faces, both rails alike"},
       {{"p_max", kMPa, [](const M& m) { return m.p_max; }},
-       "largest pressure of all loads, in the middle of the stretch"},
+       "largest pressure of all loads, under which the stretch was followed"},
       {{"layer_left", kMillimetres, [](const M& m) { return m.layer_left; }},
        "of the uppermost layer, where least is left"},
       {{"ductility_used", kNone, [](const M& m) { return m.ductility; }},

@@ -131,8 +131,8 @@ std::string wearing_in(const std::vector<ClockMoment>& history, const std::vecto
   if (worn == history.end() || first->mgt.best >= until) return {};
   return fmt::format(
       "the first crack comes while the profile wears in, which takes {:.3g} MGT: the pressure of elastic bodies, "
-      "{:.0f} MPa at first and {:.0f} MPa in the end, is more than the metal bears, so this life is a lower limit, and "
-      "damage until then is not resolved: stretches of traffic of another length change it by a quarter; give "
+      "{:.0f} "
+      "MPa at first and {:.0f} MPa in the end, is more than the metal bears, so this life is a lower limit; give "
       "worn_rail.csv as geometry.rail_profile, and geometry.gauge wider by {:.2f} mm, for the life from then on",
       until, 1e-6 * history.front().p_max, 1e-6 * history.back().p_max, 1e3 * history.back().gauge_widening);
 }

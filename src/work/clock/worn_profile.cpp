@@ -18,18 +18,6 @@ double between(const std::vector<double>& x, const std::vector<double>& values, 
 
 }  // namespace
 
-WornSurface mixed(const WornSurface& one, const WornSurface& other, double share) {
-  WornSurface out = other;
-  const auto mix = [share](auto from, auto to) { return from + share * (to - from); };
-  for (std::size_t i = 0; i < out.points.size(); ++i) {
-    out.points[i] = mix(one.points[i], other.points[i]);
-    out.day_s[i] = mix(one.day_s[i], other.day_s[i]);
-    out.removed[i] = mix(one.removed[i], other.removed[i]);
-  }
-  out.gauge_widening = mix(one.gauge_widening, other.gauge_widening);
-  return out;
-}
-
 WornProfile::WornProfile(const Placement& unworn, double cell)
     : unworn_(unworn.rail),
       profile_(unworn.rail),

@@ -16,9 +16,6 @@ struct WornSurface {
   double gauge_widening = 0;
 };
 
-/// A surface between two of the same rail, so much of the way from one to the other.
-WornSurface mixed(const WornSurface& one, const WornSurface& other, double share);
-
 class WornProfile {
  public:
   /// Points at most `cell` [m] apart.
@@ -43,7 +40,7 @@ class WornProfile {
   void grind(double depth);
 
   const WornSurface& worn() const { return now_; }
-  /// The surface of the same rail at another time.
+  /// The surface of the same rail as it was before.
   void stand(WornSurface before);
 
  private:
