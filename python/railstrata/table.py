@@ -51,7 +51,7 @@ class Table:
             key: _column([values[k] for values, _, _ in rows]) for k, key in enumerate(self.keys)}
         for name, path, factor in columns:
             found = [_at(summary, path) for summary in self.summaries]
-            self._columns[name] = np.array([float("nan") if v is None else v * factor for v in found], float)
+            self._columns[name] = np.array([float("nan") if v is None else float(v) * factor for v in found], float)
         self._columns["fault"] = [fault for _, _, fault in rows]
 
     @property

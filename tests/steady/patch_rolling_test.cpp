@@ -120,7 +120,7 @@ TEST(PatchRolling, APassWithinABodyIsThatOfTheBodyAlone) {
   PatchRolling alone(patch_grid(.5, .2), 4.2), within(patch_grid(.5, .2), 4.2);
   alone.body.run_pass(alone.contact, alone.state);
   const Field before(6 * within.body.grid().points(), 0.0);
-  within.body.run_pass_within(before, within.contact, within.body.balls_of(within.contact), within.state);
+  within.body.run_pass_within(before, within.body.path_of(within.contact), within.state);
   double most = 0;
   for (std::size_t n = 0; n < alone.state.history.size(); ++n) {
     most = std::max(most, std::abs(alone.state.history[n]));

@@ -28,7 +28,7 @@ fs::path shipped_folder() {
   if (const char* wanted = std::getenv("RAILSTRATA_DATA"); wanted != nullptr && *wanted != '\0') return wanted;
   const fs::path program = program_file().parent_path();
   if (program.empty()) return {};
-  for (const char* place : {RAILSTRATA_DATA_FROM_PROGRAM, ".."})
+  for (const char* place : {RAILSTRATA_DATA_FROM_PROGRAM, "..", "../.."})
     if (is_there(program / place / "cases/quick/case.toml")) return (program / place).lexically_normal();
   return {};
 }

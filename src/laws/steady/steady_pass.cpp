@@ -135,9 +135,8 @@ double SteadyBody::compare(Work& work) const {
   return error;
 }
 
-void SteadyBody::iterate(const Field& contact_strain, PassState& state, const PassLimits& limits, Work& work,
+void SteadyBody::iterate(const ContactPath& contact, PassState& state, const PassLimits& limits, Work& work,
                          PassResult& out) const {
-  assert(contact_strain.size() == grid().path().active_size());
   assert(state.residual_strain.size() == grid().active_size());
   const SteadyGrid& g = grid();
   work.guess = limits.iterations > 0 ? state.residual_strain : std::move(state.residual_strain);
@@ -150,7 +149,7 @@ void SteadyBody::iterate(const Field& contact_strain, PassState& state, const Pa
   Anderson anderson;
   for (;;) {
     if (asked_to_stop(limits.control)) throw Interrupted("stopped in a pass");
-    follow(contact_strain, state, work);
+    follow(contact, state, work);
     if (limits.iterations == 0) break;
     response_.apply(work.field, &out.surface, work.rows);
     work.clean = false;
@@ -173,9 +172,8 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   Work work;
   Field surface_before;
   work.before = uniform_strain(state.history, &surface_before);
-  work.balls = balls_of(contact_strain);
   PassResult out;
-  iterate(contact_strain, state, limits, work, out);
+  iterate(path_of(contact_strain), state, limits, work, out);
   add_section(surface_before, out.surface);
   conclude(out.before, uniform_strain(state.history), state, out);
   const double most = *std::max_element(out.accumulated.begin(), out.accumulated.end());
@@ -183,13 +181,11 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   return out;
 }
 
-PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact_strain,
-                                       const std::vector<StrainBall>& balls, PassState& state,
+PassResult SteadyBody::run_pass_within(const Field& before, const ContactPath& contact, PassState& state,
                                        const PassLimits& limits) const {
   constexpr double kNear = 0.05;  // of the strength, beside what neighbours that flow in this pass have added so far
   Work work;
   work.before = before;
-  work.balls = balls;
   work.rows.assign(rows_.size(), state.passes == 0);
   double added = 0;
   for (const double e : state.residual_strain) added = std::max(added, std::abs(e));
@@ -199,7 +195,7 @@ PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact
     if (work.rows[r] || !std::isfinite(rows_[r].law.yield)) continue;
     const double near = kNear + 3 * rows_[r].law.mu * added / rows_[r].law.yield;
     const Surroundings around(*this, columns, before, state.residual_strain);
-    work.rows[r] = !(largest_excess(columns, balls, around, state.history) <= -near);
+    work.rows[r] = !(largest_excess(columns, contact.balls, around, state.history) <= -near);
   }
   PassResult out;
   if (std::find(work.rows.begin(), work.rows.end(), true) == work.rows.end()) {
@@ -207,7 +203,7 @@ PassResult SteadyBody::run_pass_within(const Field& before, const Field& contact
     ++state.passes;
     return out;
   }
-  iterate(contact_strain, state, limits, work, out);
+  iterate(contact, state, limits, work, out);
   for (std::size_t n = 0; n < work.residual.size(); ++n) state.residual_strain[n] += work.residual[n];
   return out;
 }

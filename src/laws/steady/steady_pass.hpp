@@ -92,6 +92,12 @@ struct StrainBall {
   int first = 0, last = 0;  ///< places of the path before and from which on it is far below the strength
 };
 
+/// The strain of a contact as the law takes it.
+struct ContactPath {
+  std::vector<StrainBall> balls;  ///< per point of the section
+  Field strain;                   ///< columns that go through the law together side by side, place after place
+};
+
 /// A body and its grid; constant, but one pass at a time.
 class SteadyBody {
  public:
@@ -111,14 +117,12 @@ class SteadyBody {
   /// number; Interrupted when it is given up, the state is then as it was.
   PassResult run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits = {}) const;
   /// The same within a wider body that is uniform along x: `before` (six components by point of the section) is the
-  /// strain there by what earlier passes have left; `balls` those of the contact's strain. After the first pass
-  /// rows where no point comes near its yield strength are left out. Without iterations the first guess is taken as it
-  /// is and stays; else that of the next pass is of one more iteration. What the result has beyond histories and
-  /// strains is empty.
-  PassResult run_pass_within(const Field& before, const Field& contact_strain, const std::vector<StrainBall>& balls,
-                             PassState& state, const PassLimits& limits = {}) const;
-  /// Of every point of the section.
-  std::vector<StrainBall> balls_of(const Field& contact_strain) const;
+  /// strain there by what earlier passes have left; `contact`: path_of its strain. After the first pass rows where no
+  /// point comes near its yield strength are left out. Without iterations the first guess is taken as it is and stays;
+  /// else that of the next pass is of one more iteration. What the result has beyond histories and strains is empty.
+  PassResult run_pass_within(const Field& before, const ContactPath& contact, PassState& state,
+                             const PassLimits& limits = {}) const;
+  ContactPath path_of(const Field& contact_strain) const;
   /// The way of points of the section through the pass that `result` and `state` are of, at the places of the path in
   /// their order.
   std::vector<std::vector<StationState>> streamlines(const Field& contact_strain, const PassResult& result,
@@ -131,19 +135,20 @@ class SteadyBody {
 
  private:
   struct Work;
-  void follow(const Field& contact_strain, const PassState& state, Work& work) const;
+  std::vector<StrainBall> balls_of(const Field& contact_strain) const;
+  void follow(const ContactPath& contact, const PassState& state, Work& work) const;
   struct Columns;
   struct Surroundings;
   double largest_excess(const Columns& columns, const std::vector<StrainBall>& balls, const Surroundings& around,
                         const std::vector<double>& history) const;
   bool rests(const Columns& columns, const Surroundings& around, const Pack* history) const;
   template <class Visit>
-  void take_law(const Columns& columns, const Field& contact_strain, const Surroundings& around, int from, int to,
+  void take_law(const Columns& columns, const ContactPath& contact, const Surroundings& around, int from, int to,
                 Pack* history, Visit&& visit) const;
   double compare(Work& work) const;
   void add_section(const Field& section, Field& surface) const;
   Field uniform_strain(const std::vector<double>& history, Field* surface = nullptr) const;
-  void iterate(const Field& contact_strain, PassState& state, const PassLimits& limits, Work& work,
+  void iterate(const ContactPath& contact, PassState& state, const PassLimits& limits, Work& work,
                PassResult& out) const;
   void conclude(const std::vector<double>& before, const Field& strain, const PassState& state, PassResult& out) const;
 

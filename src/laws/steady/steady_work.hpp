@@ -11,14 +11,13 @@ namespace railstrata {
 
 /// Arrays of one pass.
 struct SteadyBody::Work {
-  Field before;                   // strain of the earlier passes, per component and point of the section
-  std::vector<StrainBall> balls;  // of the contact's strain, per point of the section
-  std::vector<bool> rows;         // that are followed; empty: all
-  Field field;                    // plastic strain of this pass everywhere, then the strain it causes
-  bool clean = true;              // `field` holds zeros
-  Field guess, residual;          // at active stations
-  std::vector<double> after;      // histories behind the load
-  std::vector<double> late;       // p of each point in the last quarter of the stations behind the load
+  Field before;               // strain of the earlier passes, per component and point of the section
+  std::vector<bool> rows;     // that are followed; empty: all
+  Field field;                // plastic strain of this pass everywhere, then the strain it causes
+  bool clean = true;          // `field` holds zeros
+  Field guess, residual;      // at active stations
+  std::vector<double> after;  // histories behind the load
+  std::vector<double> late;   // p of each point in the last quarter of the stations behind the load
 
   bool follows(int row) const { return rows.empty() || rows[static_cast<std::size_t>(row)]; }
 };
@@ -35,6 +34,10 @@ struct SteadyBody::Columns {
       : row(static_cast<int>(block / blocks_of(g))),
         first(kLanes * static_cast<int>(block % blocks_of(g))),
         count(std::min(kLanes, g.ny - first)) {}
+  /// Of ContactPath::strain, where place k of so many begins.
+  std::size_t place(const SteadyGrid& g, std::size_t places, std::size_t k) const {
+    return (static_cast<std::size_t>(row * blocks_of(g) + first / kLanes) * places + k) * 6 * kLanes;
+  }
 };
 
 /// Strain at some columns beside that of the contact.

@@ -114,6 +114,24 @@ std::vector<Between> between_stations(const SteadyGrid& g) {
   return out;
 }
 
+ContactPath SteadyBody::path_of(const Field& contact_strain) const {
+  assert(contact_strain.size() == grid().path().active_size());
+  ContactPath out{balls_of(contact_strain), {}};
+  const SteadyGrid g = grid().path();
+  const std::size_t places = between_.size();
+  const int blocks = g.rows() * Columns::blocks_of(g);
+  out.strain.resize(places * static_cast<std::size_t>(blocks) * 6 * kLanes);
+  for_each(blocks, [&](std::ptrdiff_t n) {
+    const Columns columns(g, n);
+    for (std::size_t k = 0; k < places; ++k)
+      for (int c = 0; c < 6; ++c)
+        store(out.strain.data() + columns.place(g, places, k) + c * kLanes,
+              take_lanes(contact_strain.data() + g.active_index(c, columns.row, static_cast<int>(k), columns.first),
+                         columns.count));
+  });
+  return out;
+}
+
 std::vector<StrainBall> SteadyBody::balls_of(const Field& contact_strain) const {
   const SteadyGrid g = grid().path();
   const int active = g.active_stations();
@@ -216,26 +234,32 @@ bool SteadyBody::rests(const Columns& columns, const Surroundings& around, const
 
 /// visit(k, strain): after place k of the path, of those from `from` to `to`.
 template <class Visit>
-void SteadyBody::take_law(const Columns& columns, const Field& contact_strain, const Surroundings& around, int from,
+void SteadyBody::take_law(const Columns& columns, const ContactPath& contact, const Surroundings& around, int from,
                           int to, Pack* history, Visit&& visit) const {
   const SteadyGrid& g = grid();
   const auto [r, first, count] = columns;
-  const AlongColumns contact(g, contact_strain, r, first, count), residual(g, around.guess, r, first, count);
+  const AlongColumns residual(g, around.guess, r, first, count);
   const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
   const bool flows = std::isfinite(row.law.yield);
+  Pack beside[4][6];  // strain at the four stations around
   for (int k = from; k < to; ++k) {
     const Between& at = between_[static_cast<std::size_t>(k)];
+    if (k == from || at.station[3] != between_[static_cast<std::size_t>(k - 1)].station[3] ||
+        at.station[0] != between_[static_cast<std::size_t>(k - 1)].station[0])
+      for (int n = 0; n < 4; ++n)
+        for (int c = 0; c < 6; ++c) beside[n][c] = residual(c, at.station[n]);
+    const double* there = contact.strain.data() + columns.place(g, between_.size(), static_cast<std::size_t>(k));
     Pack e[6];
     for (int c = 0; c < 6; ++c) {
-      e[c] = around.always[c] + contact(c, k);
-      for (int n = 0; n < 4; ++n) e[c] += at.weight[n] * residual(c, at.station[n]);
+      e[c] = around.always[c] + load(there + c * kLanes);
+      for (int n = 0; n < 4; ++n) e[c] += at.weight[n] * beside[n][c];
     }
     if (flows) advance(row.law, terms_[r], e, history);
     visit(k, e);
   }
 }
 
-void SteadyBody::follow(const Field& contact_strain, const PassState& state, Work& work) const {
+void SteadyBody::follow(const ContactPath& contact, const PassState& state, Work& work) const {
   const SteadyGrid& g = grid();
   const int active = g.active_stations();
   std::vector<double> share(static_cast<std::size_t>(g.nx));
@@ -254,7 +278,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
         if (!work.follows(r)) return;
         const Surroundings around(*this, columns, work.before, work.guess);
         const bool yields = std::isfinite(rows_[static_cast<std::size_t>(r)].law.yield) &&
-                            !(largest_excess(columns, work.balls, around, state.history) <= 0);
+                            !(largest_excess(columns, contact.balls, around, state.history) <= 0);
         if (!yields && (!with_field || work.clean)) return;
         Pack h[kStreamlineHistory]{}, before[6], sum[6]{}, early{};
         take_histories(begin, count, h);
@@ -266,7 +290,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
               give_lanes(work.field.data() + g.index(c, r, i, first), count, share[i] * (h[c] - before[c]));
         };
         const auto follow_places = [&](int from, int to) {
-          take_law(columns, contact_strain, around, from, to, h, [&](int k, const Pack(&)[6]) {
+          take_law(columns, contact, around, from, to, h, [&](int k, const Pack(&)[6]) {
             for (int c = 0; with_field && c < 6; ++c) sum[c] += h[c] - before[c];
             if ((k + 1) % g.steps != 0) return;
             for (int c = 0; with_field && c < 6; ++c) {
@@ -277,7 +301,7 @@ void SteadyBody::follow(const Field& contact_strain, const PassState& state, Wor
             if ((k + 1) / g.steps == late) early = h[6];
           });
         };
-        auto [from, to] = NearStations(work.balls.data() + point, count, g.steps);
+        auto [from, to] = NearStations(contact.balls.data() + point, count, g.steps);
         if (yields) {
           if (!rests(columns, around, h)) from = 0;
           if (!work.clean) give(0, from);
@@ -302,6 +326,7 @@ std::vector<std::vector<StationState>> SteadyBody::streamlines(const Field& cont
   assert(std::all_of(points.begin(), points.end(), [&](std::size_t n) { return n < grid().points(); }));
   const SteadyGrid& g = grid();
   const Field before = uniform_strain(result.before);
+  const ContactPath contact = path_of(contact_strain);
   std::vector<std::vector<StationState>> out(points.size(), std::vector<StationState>(between_.size()));
   for (std::size_t p = 0; p < points.size(); ++p) {
     const int r = static_cast<int>(points[p]) / g.ny, j = static_cast<int>(points[p]) % g.ny, lane = j % kLanes;
@@ -311,7 +336,7 @@ std::vector<std::vector<StationState>> SteadyBody::streamlines(const Field& cont
     take_histories(result.before.data() + g.point(r, columns.first) * kStreamlineHistory, columns.count, h);
     const Surroundings around(*this, columns, before, state.residual_strain);
     const int places = static_cast<int>(between_.size());
-    take_law(columns, contact_strain, around, 0, places, h, [&](int k, const Pack(&strain)[6]) {
+    take_law(columns, contact, around, 0, places, h, [&](int k, const Pack(&strain)[6]) {
       StationState& at = out[p][static_cast<std::size_t>(k)];
       Pack stress[6];
       plastic_stress(moduli.lambda, moduli.mu, strain, h, stress);

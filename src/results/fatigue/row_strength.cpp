@@ -269,12 +269,12 @@ bool fatigue_given(const CaseSpec& spec, BodyId body) {
 }
 
 BodyFatigue section_fatigue(const CaseSpec& spec, BodyId body, const StressHistory& history,
-                            const RowStrength& strength) {
+                            const RowStrength& strength, bool planes) {
   const std::vector<Sym3> residual = residual_rows(strength.residual_x, strength.residual_y);
   BodyFatigue out;
   out.body = std::string(body_word(body));
   add_dang_van(spec, body, history, strength, residual, out);
-  add_critical_planes(spec, body, history, strength, residual, out);
+  if (planes) add_critical_planes(spec, body, history, strength, residual, out);
   add_zones(spec, body, history, residual, out);
   add_interfaces(spec, body, history, residual, out);
   return out;

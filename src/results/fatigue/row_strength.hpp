@@ -50,8 +50,9 @@ std::function<double(double depth, bool below_interface)> shear_strength_by_dept
 /// Whether a case gives anything that a body's fatigue is computed from: limits, toughness, bonds.
 bool fatigue_given(const CaseSpec& spec, BodyId body);
 
-/// `strength`: row_strength of the same rows. Parameters without constants are left out.
+/// `strength`: row_strength of the same rows. Parameters without constants are left out; without `planes` those of
+/// critical planes too, which take most of its time.
 BodyFatigue section_fatigue(const CaseSpec& spec, BodyId body, const StressHistory& history,
-                            const RowStrength& strength);
+                            const RowStrength& strength, bool planes = true);
 
 }  // namespace railstrata

@@ -16,7 +16,8 @@
 namespace railstrata {
 namespace {
 
-SectionShakedown section_shakedown(const CaseSpec& spec, BodyId body, const StressHistory& history) {
+SectionShakedown section_shakedown(const CaseSpec& spec, BodyId body, const StressHistory& history,
+                                   bool planes = true) {
   SectionShakedown out;
   out.body = body;
   out.y = history.y;
@@ -25,7 +26,7 @@ SectionShakedown section_shakedown(const CaseSpec& spec, BodyId body, const Stre
   out.x_middle = 0.5 * (history.x.front() + history.x.back());
   out.strength = row_strength(spec, body, history);
   out.found = shakedown({history, out.strength.shear, out.strength.residual_x, out.strength.residual_y});
-  out.fatigue = section_fatigue(spec, body, history, out.strength);
+  out.fatigue = section_fatigue(spec, body, history, out.strength, planes);
   return out;
 }
 
@@ -60,7 +61,7 @@ void note_short_strip(const BemPatch& patch, SectionShakedown& section) {
 }
 
 /// The same of every patch: the one that bears least.
-SectionShakedown least_of_patches(const CaseSpec& spec, BodyId body, const BemResult& r) {
+SectionShakedown least_of_patches(const CaseSpec& spec, BodyId body, const BemResult& r, bool planes) {
   const std::vector<const BemPatch*> patches = patches_of(r);
   std::optional<SectionShakedown> least;
   for (std::size_t k = 0; k < patches.size(); ++k) {
@@ -68,7 +69,7 @@ SectionShakedown least_of_patches(const CaseSpec& spec, BodyId body, const BemRe
     const PatchMeasures m = measure_patch(patch->field);
     const LayeredHalfSpace& half_space = body == BodyId::rail ? r.rail : r.wheel;
     const std::vector<CycleRow> rows = cycle_rows(half_space, 0.5 * (patch->grid.line ? m.length : shorter_axis(m)));
-    SectionShakedown section = section_shakedown(spec, body, half_space_cycles(r, body, *patch, rows));
+    SectionShakedown section = section_shakedown(spec, body, half_space_cycles(r, body, *patch, rows), planes);
     section.patch = k;
     note_short_strip(*patch, section);
     if (!least || section.found.wandering.value < least->found.wandering.value) least = std::move(section);
@@ -211,10 +212,10 @@ SlidingMap map_of(const BemResult& result, const SectionShakedown& section) {
 
 }  // namespace
 
-std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result) {
+std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result, bool planes) {
   std::vector<SectionShakedown> out;
   for (const BodyId body : {BodyId::rail, BodyId::wheel})
-    if (wanted(spec, body)) out.push_back(least_of_patches(spec, body, result));
+    if (wanted(spec, body)) out.push_back(least_of_patches(spec, body, result, planes));
   return out;
 }
 

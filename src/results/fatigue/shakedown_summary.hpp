@@ -31,8 +31,8 @@ struct SectionShakedown {
 };
 
 /// Judged bodies whose strength or fatigue limits the case gives; of several patches the one that decides. Throws
-/// CaseError where a table of strengths ends too early.
-std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result);
+/// CaseError where a table of strengths ends too early. planes: with the critical planes of fatigue.
+std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result, bool planes = true);
 /// The same of a finite element body, from its contact band, below the surface and at it.
 struct BandBody {
   const BandStress& below;

@@ -19,6 +19,13 @@ void add_numbers(std::string_view group, const Summary& s, Json& out) {
     if (n.group == group) out[n.key()] = json_number(n.unit, n.value(s));
 }
 
+/// Lives: a text for one that does not end, null for one that is not known.
+void add_lives(const Summary& s, Json& out) {
+  for (const ResultNumber& n : result_numbers())
+    if (n.group == kLifeGroup)
+      out[n.key()] = std::isinf(n.value(s)) ? Json(kEndlessLife) : json_number(n.unit, n.value(s));
+}
+
 Json patches(const Summary& s) {
   Json out = Json::array();
   for (const PatchSummary& p : s.patches) {
@@ -89,7 +96,7 @@ Json summary_json(const Summary& s) {
     add_numbers(kLayersGroup, s, out[kLayersGroup]);
   }
   if (!s.life.text.empty()) {
-    add_numbers(kLifeGroup, s, out["life"]);
+    add_lives(s, out["life"]);
     out["life"]["text"] = s.life.text;
   }
   if (std::isfinite(s.passage.F_z_max)) add_numbers(kPassageGroup, s, out[std::string(kPassageGroup)]);

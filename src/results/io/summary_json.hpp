@@ -9,6 +9,9 @@
 
 namespace railstrata {
 
+/// What JSON and tables have for a life that does not end within life.until.
+inline constexpr const char* kEndlessLife = "inf";
+
 /// Whose wear the depths are: factor, source and words of rail and wheel.
 nlohmann::ordered_json steels_json(const DamageSummary& damage);
 nlohmann::ordered_json summary_json(const Summary& summary);

@@ -46,8 +46,7 @@ struct Metal::Kind {
   explicit Kind(MetalWheel w)
       : wheel(std::move(w)),
         body(wheel.rail.grid, wheel.rail.rows, wheel.rail.below, wheel.rail.initial_stress),
-        strain(contact_strain(wheel.rail, body, wheel.rail.contact_stress.at(0))),
-        balls(body.balls_of(strain)),
+        contact(body.path_of(contact_strain(wheel.rail, body, wheel.rail.contact_stress.at(0)))),
         state(body.virgin()) {
     wheel.rail.contact_stress.clear();
   }
@@ -61,10 +60,9 @@ struct Metal::Kind {
 
   MetalWheel wheel;
   SteadyBody body;
-  Field strain;
-  std::vector<StrainBall> balls;  ///< of `strain`
-  PassState state;                ///< its guess goes on from call to call
-  std::vector<double> changes;    ///< of the history, at its own points
+  ContactPath contact;
+  PassState state;              ///< its guess goes on from call to call
+  std::vector<double> changes;  ///< of the history, at its own points
 };
 
 std::vector<double> MetalGrid::depths() const {
@@ -147,7 +145,7 @@ void Metal::pass(Kind& kind, const std::vector<double>& state, const std::vector
                 own.history.begin() + static_cast<std::ptrdiff_t>(n * kHistory));
     for (std::size_t c = 0; c < 6; ++c) before[c * points + n] = strain[c * grid_.points() + *at];
   }
-  const PassResult result = kind.body.run_pass_within(before, kind.strain, kind.balls, own,
+  const PassResult result = kind.body.run_pass_within(before, kind.contact, own,
                                                       {.iterations = own.passes == 0            ? kFirst
                                                                      : own.passes % kEvery == 0 ? 1
                                                                                                 : 0});

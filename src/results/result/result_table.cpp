@@ -376,13 +376,13 @@ std::vector<ResultNumber> damage_numbers() {
 template <auto Member>
 constexpr auto life = &at<&Summary::life, Member>;
 
-/// Left out of summary.json where the case does not ask for passes of a life; null: never, or not known.
+/// Left out of summary.json where the case does not ask for a life.
 std::vector<ResultNumber> life_numbers() {
   using L = LifeSummary;
   return {
       row("best", kMGT, life<&L::best>, "life", "Life of the rail",
           "Gross traffic of such wheels until the first zone of the rail reaches its end of life, best estimate; "
-          "inf in a table: none within life.until, empty: not known",
+          "inf: no end within life.until; null, in a table empty: not known",
           kColumn),
       row("low", kMGT, life<&L::low>, "life, low", "Life of the rail, low", "Lower end of the life's range", kColumn),
       row("high", kMGT, life<&L::high>, "life, high", "Life of the rail, high", "Upper end of the life's range",

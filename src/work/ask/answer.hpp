@@ -24,6 +24,7 @@ struct Wanted {
   /// bodies that run.judged names and whose strengths the case gives.
   bool shakedown = true;
   bool single_track = false;  ///< with shakedown: the limit for traffic on one line, in some seconds
+  bool planes = true;         ///< with shakedown: the critical planes of fatigue
   bool maps = false;          ///< with shakedown: the limits over traction
   bool life = true;           ///< of the rail through life.until if all wheels are this one; not of a case with loads
 };

@@ -51,7 +51,8 @@ void judge(const CaseSpec& given, const Wanted& wanted, Answer& out, const AskOp
   Summary& s = out.summary;
   if (out.wear.empty()) add_wear(spec, out);
   if (!out.stopped) {
-    if (wanted.shakedown && out.shakedown.empty()) out.shakedown = half_space_shakedown(spec, out.result);
+    if (wanted.shakedown && out.shakedown.empty())
+      out.shakedown = half_space_shakedown(spec, out.result, wanted.planes);
     add_stresses(wanted, out);
     if (wanted.single_track) add_single_track(spec, out.result, out.shakedown);
     if (wanted.maps) out.sliding = sliding_maps(out.result, out.shakedown);

@@ -15,9 +15,10 @@ LifeOf life_of_wheels(std::filesystem::path folder, const Control* control) {
     one.loads = {wheel};
     LifeSummary out;
     try {
-      const std::vector<LifeRow> lives = run_clock(one, folder, clock_options(spec, bem, control)).lives;
-      out.text = life_text(lives);
-      if (const LifeRow* row = shortest(lives)) {
+      const ClockResult followed = run_clock(one, folder, clock_options(spec, bem, control));
+      out.text = life_text(followed.lives);
+      for (const std::string& note : followed.notes) out.text += "; note: " + note;
+      if (const LifeRow* row = shortest(followed.lives)) {
         out.best = row->mgt.best / unit::kMGT.factor;
         out.low = row->mgt.low / unit::kMGT.factor;
         out.high = row->mgt.high / unit::kMGT.factor;

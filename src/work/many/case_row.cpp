@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/summary_json.hpp"
 #include "record/csv.hpp"
 #include "record/escaped_text.hpp"
 #include "record/json.hpp"
@@ -44,8 +45,8 @@ std::string csv_cell(const std::string& given) {
   return out + '"';
 }
 
-/// Empty for a number that does not apply; inf for what never ends.
-std::string csv_cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+/// Empty for a number that does not apply.
+std::string csv_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 }  // namespace
 
@@ -62,7 +63,10 @@ std::vector<CaseColumn> value_columns(const std::vector<CaseRow>& rows) {
 std::vector<CaseColumn> number_columns(const std::vector<CaseRow>& rows) {
   std::vector<CaseColumn> out;
   for (const std::string& name : names_in(rows, &CaseRow::numbers))
-    out.push_back({name, [name](const CaseRow& row) { return json_number(row.number(name)); }});
+    out.push_back({name, [name](const CaseRow& row) {
+                     const double v = row.number(name);
+                     return std::isinf(v) ? Json(kEndlessLife) : json_number(v);
+                   }});
   return out;
 }
 

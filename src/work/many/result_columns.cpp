@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
+
+#include "io/summary_json.hpp"
 
 namespace railstrata {
 std::vector<ResultColumn> result_columns(bool stresses) {
@@ -75,7 +78,9 @@ std::string column_title(const std::string& name) {
 
 double column_value(const ResultColumn& column, const nlohmann::ordered_json& summary) {
   const nlohmann::ordered_json::json_pointer at(column.path);
-  return summary.contains(at) && summary[at].is_number() ? column.factor * summary[at].get<double>() : kNotApplicable;
+  if (!summary.contains(at)) return kNotApplicable;
+  if (summary[at] == kEndlessLife) return std::numeric_limits<double>::infinity();
+  return summary[at].is_number() ? column.factor * summary[at].get<double>() : kNotApplicable;
 }
 
 ResultRemarks remarks_of(const nlohmann::ordered_json& summary) {
