@@ -95,8 +95,8 @@ std::string numbers_markdown(std::string_view group) {
 std::string stress_markdown() {
   std::string out =
       "\n## stress\n\n`stress.<body>.<zone>.<measure>` for the bodies `rail` and `wheel`; null for a zone that the "
-      "case does not have.\nMaxima below the surface are interpolated by parabolas between the points where the engine "
-      "computes stresses: of finite elements their centres and, at borders of a material, points recovered from "
+      "case does not have. Maxima\nbelow the surface are interpolated by parabolas between the points where the engine "
+      "computes stresses: of finite\nelements their centres and, at borders of a material, points recovered from "
       "them.\n\n| zone | meaning |\n|---|---|\n";
   for (const StressZone& zone : stress_zones()) out += fmt::format("| `{}` | {} |\n", zone.key, zone.doc);
   out += "\n| measure | meaning |\n|---|---|\n";
