@@ -87,27 +87,35 @@ class BandSearch {
     return best;
   }
 
+  /// A place of a plane and its coordinate along a line of neighbours.
+  struct Neighbour {
+    BandPlane plane;
+    int column, station;
+    double at;
+  };
+
   /// By parabolas through the neighbours along the rail, across it and, of element centres, in depth.
   void refine(const BandPlane& plane, Measure measure, const Wanted& wanted, int c, int s, StressMaximum& best) const {
     const double top = best.value;
-    const auto along = [&](double before, double here, double after, const BandPlane& a, int ca, int sa,
-                           const BandPlane& b, int cb, int sb, double& place) {
-      if (!wanted(a, ca, sa) || !wanted(b, cb, sb)) return;
-      const double fa = value(a, measure, ca, sa), fb = value(b, measure, cb, sb);
-      if (fa > top || fb > top) return;
-      const ParabolaTop t = parabola_top(before, fa, here, top, after, fb);
-      place = t.at;
+    const auto between = [&](const Neighbour& before, const Neighbour& after, double& at) {
+      for (const Neighbour* n : {&before, &after})
+        if (!wanted(n->plane, n->column, n->station)) return;
+      const double first = value(before.plane, measure, before.column, before.station),
+                   last = value(after.plane, measure, after.column, after.station);
+      if (first > top || last > top) return;
+      const ParabolaTop t = parabola_top(before.at, first, at, top, after.at, last);
+      at = t.at;
       best.value += t.above;
     };
+    const auto y = [&](int k) { return band_.centre_y[k] - band_.contact_y; };
+    const int r = plane.row;
     if (s > 0 && s + 1 < band_.sample.stations)
-      along(band_.x(s - 1), band_.x(s), band_.x(s + 1), plane, c, s - 1, plane, c, s + 1, best.x);
-    if (c > 0 && c + 1 < band_.sample.columns) {
-      const auto y = [&](int k) { return band_.centre_y[k] - band_.contact_y; };
-      along(y(c - 1), y(c), y(c + 1), plane, c - 1, s, plane, c + 1, s, best.y);
-    }
-    if (const int r = plane.row; plane.kind == BandPlane::Kind::centre && r > 0 && r + 1 < band_.sample.rows) {
-      const BandPlane above{band_.centre_depth[r - 1], r - 1}, below{band_.centre_depth[r + 1], r + 1};
-      along(above.depth, plane.depth, below.depth, above, c, s, below, c, s, best.depth);
+      between({plane, c, s - 1, band_.x(s - 1)}, {plane, c, s + 1, band_.x(s + 1)}, best.x);
+    if (c > 0 && c + 1 < band_.sample.columns)
+      between({plane, c - 1, s, y(c - 1)}, {plane, c + 1, s, y(c + 1)}, best.y);
+    if (plane.kind == BandPlane::Kind::centre && r > 0 && r + 1 < band_.sample.rows) {
+      const double above = band_.centre_depth[r - 1], below = band_.centre_depth[r + 1];
+      between({{above, r - 1}, c, s, above}, {{below, r + 1}, c, s, below}, best.depth);
     }
   }
 
