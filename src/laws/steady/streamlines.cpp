@@ -270,7 +270,7 @@ void SteadyBody::follow(const ContactPath& contact, const PassState& state, Work
       static_cast<std::ptrdiff_t>(g.rows() * Columns::blocks_of(g)),
       [&](std::ptrdiff_t n) {
         const Columns columns(g, n);
-        const auto [r, first, count] = columns;
+        const int r = columns.row, first = columns.first, count = columns.count;
         const std::size_t point = g.point(r, first);
         const double* begin = state.history.data() + point * kStreamlineHistory;
         double* end = work.after.data() + point * kStreamlineHistory;
