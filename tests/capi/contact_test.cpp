@@ -324,11 +324,12 @@ TEST_P(CPairs, MarkAWheelThatHasClimbedTheRail) {
   Handle h(GetParam());
   rs_state state = state_of(RS_LOAD | RS_LATERAL_SHIFT);
   state.load = 80e3;
-  for (const double shift : {2e-3, 28e-3}) {
+  const double climbed = GetParam().empty() ? 28e-3 : 24e-3;  // LMA's crest reaches the rail later
+  for (const double shift : {2e-3, climbed}) {
     state.lateral_shift = shift;
     ASSERT_EQ(h.solve(state), RS_OK) << h.error.message;
-    const bool named = std::string(rs_remarks(h.handle)).find("flange") != std::string::npos;  // crest, outside gauge
-    EXPECT_EQ(named, shift > 10e-3);
+    const bool named = std::string(rs_remarks(h.handle)).find("contact_on_flange_crest") != std::string::npos;
+    EXPECT_EQ(named, shift == climbed);
     EXPECT_EQ(h.forces.checks_hold, named ? 0 : 1);
   }
 }

@@ -312,7 +312,7 @@ class Run(Page):
         shown = [v for row in self.trace("plot-section-rail-cross-sigma_xz-0")["z"] for v in row]
         self.assertAlmostEqual(min(shown), min(table["sigma_xz_MPa"]), delta=0.02)
         along = read_table(FEM / "rail_longitudinal_section.csv")["sigma_xz_MPa"]
-        self.assertLess(sum(along), 0, "a driving wheel drags the surface backwards")
+        self.assertLess(min(along), -max(along), "a driving wheel drags the surface backwards")
         import numpy as np
         rows = zip(*(table[f"sigma_{c}_MPa"] for c in ("xx", "yy", "zz", "xy", "yz", "xz")))
         principal = [np.linalg.eigvalsh([[a, d, f], [d, b, e], [f, e, c]]) for a, b, c, d, e, f in rows]
