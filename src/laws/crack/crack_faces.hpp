@@ -1,0 +1,70 @@
+#pragma once
+// The faces of a straight crack under stresses that move: open, stuck or slipping, point by point.
+//
+// The tractions at the collocation points (crack_rule.hpp) are those of the body without the crack less S g, g the jumps
+// of displacement there (normal and along the crack). Signorini's and Coulomb's conditions at each point:
+//   open:  σ_n = -q, τ = 0;   closed:  g_n = 0, p = -σ_n - q >= 0;   stuck:  g_t as before;   slip:  τ = ± f p,
+// q the pressure of a fluid in the crack. Slip remembers: places of the load are taken one after the other.
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "crack/crack_rule.hpp"
+#include "crack/dislocation.hpp"
+
+namespace railstrata {
+
+/// A straight crack in the plane of rolling.
+struct CrackLine {
+  CrackKind kind = CrackKind::mouth;
+  double angle = 0;    ///< rad, from the surface, 0 to pi; above pi/2 it leans against the way of rolling
+  double length = 0;   ///< m
+  double depth = 0;    ///< m, of its start; 0: the mouth
+  double x(double r) const;
+  double z(double r) const;
+};
+
+/// Mode I opens, mode II moves the side above the crack (below it, where angle > pi/2) towards the tip; MPa sqrt(m) is
+/// 1e6 of these.
+struct StressIntensity {
+  double I = 0, II = 0;  ///< Pa sqrt(m)
+};
+
+class CrackFaces {
+ public:
+  /// Of a crack in a homogeneous half-plane. points: of crack_rule.
+  CrackFaces(const CrackLine& line, const HalfSpaceMaterial& material, int points);
+
+  const CrackLine& line() const { return line_; }
+  /// m from the start, of the collocation points.
+  std::vector<double> places() const;
+
+  struct Faces {
+    std::vector<double> opening, slip;     ///< m, at places()
+    std::vector<double> pressure, shear;   ///< Pa, of the faces on each other
+    StressIntensity end;
+    std::optional<StressIntensity> start;  ///< of a crack inside
+    double open = 0, slipping = 0;         ///< shares of the length
+    double volume = 0;                     ///< m², between the faces
+    bool settled = true;                   ///< the conditions are met at every point
+  };
+  /// The next place of the load: tractions of the body without a crack at places(), Pa; the slip of the last one is
+  /// remembered.
+  Faces load(const std::vector<LineTraction>& applied, double friction, double fluid);
+  void forget();
+
+ private:
+  enum class State { open, stuck, forward, backward };
+  Eigen::VectorXd solve(const Eigen::VectorXd& applied, double friction, double fluid) const;
+  bool review(const Eigen::VectorXd& jump, const Eigen::VectorXd& traction, double friction, double fluid, bool one);
+
+  CrackLine line_;
+  const CrackRule* rule_;
+  double factor_;             ///< K over φ at a tip
+  Eigen::MatrixXd stiffness_; ///< S, Pa/m: normal components first, then those along
+  std::vector<State> state_;
+  Eigen::VectorXd before_;    ///< m, jumps at the last place of the load
+};
+
+}  // namespace railstrata

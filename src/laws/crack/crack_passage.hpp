@@ -1,0 +1,70 @@
+#pragma once
+// Stress intensities of a crack while a wheel rolls over it.
+//
+// The plane of rolling at one place across; the wheel rolls along +x. The stresses of the body without a crack are those
+// of a passage (damage/stress_history.hpp) plus the residual stress; the crack is as wide as it is long in y (plane
+// strain), the load passes slowly (no inertia), and it passes again and again until the cycle repeats.
+#include <vector>
+
+#include "crack/crack_faces.hpp"
+#include "damage/residual_rows.hpp"
+#include "damage/stress_history.hpp"
+
+namespace railstrata {
+
+/// Stresses of the plane of rolling at a place across.
+class PlaneOfRolling {
+ public:
+  /// y [m] between columns of the history; residual: by row, or none.
+  PlaneOfRolling(const StressHistory& history, double y, ResidualRows residual);
+  /// x [m] from the history's origin, linear between samples and rows; beyond the samples the contact's part falls with
+  /// the square of the distance from their middle, below the rows it keeps that of the last one.
+  PlaneStress at(double x, double depth) const;
+  double behind() const { return x_.front(); }
+  double ahead() const { return x_.back(); }
+
+ private:
+  PlaneStress in_row(std::size_t row, double x) const;
+  std::vector<double> x_, depth_;
+  std::vector<PlaneStress> stress_;    ///< row * samples + sample
+  std::vector<PlaneStress> residual_;  ///< of rows
+};
+
+/// What fills the crack.
+enum class CrackFluid {
+  none,
+  mouth,   ///< a fluid at the pressure of the patch over the mouth
+  trapped  ///< a fluid whose volume stays while the patch lies over the mouth
+};
+
+struct PassageOptions {
+  double friction = 0.2;  ///< of the faces
+  CrackFluid fluid = CrackFluid::none;
+  int places = 120;       ///< of the wheel
+  int most_passes = 6;
+  double repeats = 1e-3;  ///< of the ranges, from one passage to the next
+};
+
+/// Of the last passage: a value a place of the wheel.
+struct CrackPassage {
+  std::vector<double> place;  ///< m, of the contact's origin from the crack's start along the rail
+  std::vector<StressIntensity> end, start;  ///< start: of a crack inside
+  std::vector<double> open, slipping;       ///< shares of the length
+  std::vector<double> fluid;                ///< Pa
+  int passes = 0;
+  bool settled = true;  ///< the faces' conditions at all places, and the cycle repeats
+};
+CrackPassage pass_over(CrackFaces& faces, const PlaneOfRolling& plane, const PassageOptions& options);
+
+/// Largest less smallest over the passage, K_I never below 0.
+StressIntensity range_of(const std::vector<StressIntensity>& passage);
+
+/// Range of the opening intensity of a small kink that leaves the tip by an angle (rad, from the crack's direction
+/// towards the left of it), and the angle with the largest.
+///   k_I = ¼ (3 cos α/2 + cos 3α/2) K_I - ¾ (sin α/2 + sin 3α/2) K_II   [CotterellRice1980]
+struct Kink {
+  double range = 0, angle = 0;
+};
+Kink worst_kink(const std::vector<StressIntensity>& passage);
+
+}  // namespace railstrata
