@@ -14,24 +14,27 @@ CrackFaces::CrackFaces(const CrackLine& line, const HalfSpaceMaterial& material,
       rule_(&crack_rule(line.kind, points)),
       factor_(material.young / (1 - material.poisson * material.poisson) / 8 *
               std::sqrt(2 * std::numbers::pi * line.length)) {
-  const Eigen::Index nodes = rule_->node.size(), n = rule_->point.size();
+  const Eigen::Index n = rule_->point.size();
   const std::complex<double> along = std::polar(1.0, line.angle), across = std::complex<double>(0, 1) * along;
-  const auto place = [&](double share) { return std::complex<double>(line.x(share * line.length), line.z(share * line.length)); };
-  Eigen::MatrixXd by_density(2 * n, 2 * nodes);
-  for (Eigen::Index k = 0; k < n; ++k)
-    for (Eigen::Index j = 0; j < nodes; ++j) {
-      const std::complex<double> at = place(rule_->point[k]), from = place(rule_->node[j]);
-      const LineTraction opened = traction_on(dislocation_stress(material, at, from, across), line.angle),
-                         slipped = traction_on(dislocation_stress(material, at, from, along), line.angle);
-      const double w = rule_->weight[j];
-      by_density(k, j) = w * opened.normal;
-      by_density(n + k, j) = w * opened.shear;
-      by_density(k, nodes + j) = w * slipped.normal;
-      by_density(n + k, nodes + j) = w * slipped.shear;
+  const auto place = [&](double share) {
+    return std::complex<double>(line.x(share * line.length), line.z(share * line.length));
+  };
+  stiffness_ = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  const auto add = [&](auto stress, const Eigen::VectorXd& nodes, const Eigen::MatrixXd& density) {
+    Eigen::MatrixXd traction(2 * n, nodes.size());
+    for (const bool opens : {true, false}) {
+      for (Eigen::Index k = 0; k < n; ++k)
+        for (Eigen::Index j = 0; j < nodes.size(); ++j) {
+          const LineTraction t = traction_on(
+              stress(material, place(rule_->point[k]), place(nodes[j]), opens ? across : along), line.angle);
+          traction(k, j) = t.normal;
+          traction(n + k, j) = t.shear;
+        }
+      stiffness_.middleCols(opens ? 0 : n, n) -= traction * density;
     }
-  stiffness_.resize(2 * n, 2 * n);
-  stiffness_.leftCols(n) = -by_density.leftCols(nodes) * rule_->density;
-  stiffness_.rightCols(n) = -by_density.rightCols(nodes) * rule_->density;
+  };
+  add(whole_plane_stress, rule_->node, rule_->density);
+  add(image_stress, rule_->image_node, rule_->image_density);
   forget();
 }
 
@@ -91,7 +94,7 @@ bool CrackFaces::review(const Eigen::VectorXd& jump, const Eigen::VectorXd& trac
     const double pressure = -traction[k] - fluid, shear = traction[n + k], moved = jump[n + k] - before_[n + k];
     State next = s;
     if (s == State::open) {
-      if (jump[k] < -far) next = State::stuck;
+      if (jump[k] < -far) next = moved > 0 ? State::forward : State::backward;
     } else if (pressure < -hard) {
       next = State::open;
     } else if (s == State::stuck) {

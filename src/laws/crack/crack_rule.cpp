@@ -1,6 +1,7 @@
 #include "crack/crack_rule.hpp"
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -11,8 +12,6 @@ namespace railstrata {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double kCrowding = 2;  // of points towards a mouth: r/c = (1 - w²)^kCrowding
 
 /// Legendre's functions of both kinds, orders 0 to n, at -1 < x < 1.
 struct Legendre {
@@ -38,6 +37,22 @@ double zero_between(double low, double high, const F& f) {
   return 0.5 * (low + high);
 }
 
+/// Gauss and Legendre's rule on 0 to 1.
+struct Panel {
+  static constexpr int kPoints = 10;
+  std::array<double, kPoints> node{}, weight{};
+  Panel() {
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      const double step = pi / (kPoints + 0.5);
+      const double x = zero_between(std::cos((static_cast<double>(i) + 1) * step), std::cos((static_cast<double>(i) + 0.5) * step),
+                                    [](double at) { return legendre(kPoints, at).p[kPoints]; });
+      const double slope = kPoints * legendre(kPoints, x).p[kPoints - 1] / (1 - x * x);
+      node[i] = 0.5 * (1 + x);
+      weight[i] = 1 / ((1 - x * x) * slope * slope);
+    }
+  }
+};
+
 CrackRule mouth_rule(int n) {
   const int order = 2 * n;
   const auto last = static_cast<std::size_t>(order);
@@ -51,37 +66,61 @@ CrackRule mouth_rule(int n) {
   }
   for (int j = 0; j < n; ++j) v[j] = zero_between(w[j], j + 1 < n ? w[j + 1] : 1 - 1e-14, q);
 
-  CrackRule rule;
-  rule.node = (1 - w.array().square()).pow(kCrowding);
-  rule.point = (1 - v.array().square()).pow(kCrowding);
-  rule.weight.resize(n);
-  Eigen::MatrixXd jump(n, n);  // g/c at the points from the density at the nodes
-  Eigen::RowVectorXd tip(n);
+  // a density that is an even polynomial in w, by Legendre's: its value at a place from those at the nodes, and its
+  // integral from the tip, each polynomial's being the difference of its neighbours
+  Eigen::VectorXd weight(n);
+  std::vector<Legendre> at_node;
   for (int j = 0; j < n; ++j) {
-    const Legendre at = legendre(order, w[j]);
+    const Legendre& at = at_node.emplace_back(legendre(order, w[j]));
     const double slope = order * (at.p[last - 1] - w[j] * at.p[last]) / (1 - w[j] * w[j]);
-    rule.weight[j] = 2 / ((1 - w[j] * w[j]) * slope * slope);
-    // the density's even polynomial in w by Legendre's; each integrates to the difference of its neighbours
-    const Legendre middle = legendre(order, 0);
-    tip[j] = 0;
-    for (std::size_t m = 0; m < last; m += 2) tip[j] += (2.0 * static_cast<double>(m) + 1) * at.p[m] * middle.p[m];
-    tip[j] *= rule.weight[j];
-    for (int k = 0; k < n; ++k) {
-      const Legendre there = legendre(order, v[k]);
+    weight[j] = 2 / ((1 - w[j] * w[j]) * slope * slope);
+  }
+  const auto values_at = [&](double place) {
+    const Legendre there = legendre(order, place);
+    Eigen::RowVectorXd out = Eigen::RowVectorXd::Zero(n);
+    for (int j = 0; j < n; ++j)
+      for (std::size_t m = 0; m < last; m += 2)
+        out[j] += weight[j] * (2.0 * static_cast<double>(m) + 1) * at_node[static_cast<std::size_t>(j)].p[m] * there.p[m];
+    return out;
+  };
+  Eigen::MatrixXd jump(n, n);  // g/c at the points from the density at the nodes
+  for (int k = 0; k < n; ++k) {
+    const Legendre there = legendre(order, v[k]);
+    for (int j = 0; j < n; ++j) {
       double sum = there.p[1];
-      for (std::size_t m = 2; m < last; m += 2) sum += at.p[m] * (there.p[m + 1] - there.p[m - 1]);
-      jump(k, j) = rule.weight[j] * sum;
+      for (std::size_t m = 2; m < last; m += 2)
+        sum += at_node[static_cast<std::size_t>(j)].p[m] * (there.p[m + 1] - there.p[m - 1]);
+      jump(k, j) = weight[j] * sum;
     }
   }
-  rule.density = jump.inverse();
-  rule.end = tip * rule.density / std::sqrt(kCrowding);
+  const auto share_of = [](double place) { return 1 - place * place; };
+  CrackRule rule;
+  rule.node = w.unaryExpr(share_of);
+  rule.point = v.unaryExpr(share_of);
+  const Eigen::MatrixXd density = jump.inverse();
+  rule.density = weight.asDiagonal() * density;
+  rule.end = values_at(0) * density;
+  const Panel panel;
+  const int panels = 2 + static_cast<int>(std::ceil(-std::log2(1 - v[n - 1])));
+  rule.image_node.resize(panels * Panel::kPoints);
+  rule.image_density.resize(panels * Panel::kPoints, n);
+  double low = 0.5, high = 1;  // of 1 - w
+  for (int i = 0, at = 0; i < panels; ++i) {
+    if (i + 1 == panels) low = 0;
+    for (int k = 0; k < Panel::kPoints; ++k, ++at) {
+      const double place = 1 - (low + (high - low) * panel.node[k]);
+      rule.image_node[at] = share_of(place);
+      rule.image_density.row(at) = (high - low) * panel.weight[k] * values_at(place) * density;
+    }
+    high = low;
+    low *= 0.5;
+  }
   return rule;
 }
 
 CrackRule inside_rule(int n) {
   CrackRule rule;
   rule.node.resize(n);
-  rule.weight = Eigen::VectorXd::Constant(n, pi / (2 * n));
   rule.point.resize(n - 1);
   Eigen::MatrixXd waves(n - 1, n - 1);  // amplitudes of sin(m theta) in g/c, from its values
   for (int k = 1; k < n; ++k) {
@@ -99,7 +138,9 @@ CrackRule inside_rule(int n) {
     end[m - 1] = 2 * m;
     start[m - 1] = m % 2 ? 2 * m : -2 * m;
   }
-  rule.density = slopes * waves;
+  rule.density = pi / (2 * n) * slopes * waves;
+  rule.image_node = rule.node;
+  rule.image_density = rule.density;
   rule.end = end * waves;
   rule.start = start * waves;
   return rule;
