@@ -24,6 +24,7 @@ struct Unit {
     if (key_ending == "_N_m") return "N m";
     if (key_ending == "_J_per_m") return "J/m";
     if (key_ending == "_m_per_N") return "m/N";
+    if (key_ending == "_Pa_sqrt_m") return "Pa √m";
     return key_ending.empty() ? key_ending : key_ending == "_m2" ? "m²" : key_ending.substr(1);
   }
 };
@@ -43,6 +44,7 @@ inline constexpr Unit kShare{"", "", 1, "%", kToPercent};
 inline constexpr Unit kPerMille{"", "", 1, "10⁻³", kToMilli};
 inline constexpr Unit kInside = si("", "inside|outside");  ///< 0 or 1, shown as one of two words
 inline constexpr Unit kMPa = both("_Pa", "_MPa", kToMega, "MPa");
+inline constexpr Unit kRootMetres = both("_Pa_sqrt_m", "_MPa_sqrt_m", kToMega, "MPa √m");
 /// Million gross tonnes of traffic.
 inline constexpr Unit kMGT = both("_kg", "_MGT", 1e-9, "MGT");
 inline constexpr Unit kMillimetres = both("_m", "_mm", kToMilli, "mm");

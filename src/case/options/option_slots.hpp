@@ -109,6 +109,7 @@ OptionTable bem_table();
 OptionTable transient_table();
 OptionTable load_table();
 OptionTable collective_table();
+OptionTable crack_table();
 OptionTable life_table();
 OptionTable grinding_table();
 OptionTable passes_table();

@@ -54,6 +54,7 @@ const std::vector<OptionTable>& case_tables() {
       life_table(),
       grinding_table(),
       passes_table(),
+      crack_table(),
       output_table()};
   return tables;
 }

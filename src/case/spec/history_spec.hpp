@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "spec/crack_spec.hpp"
 #include "spec/drive_spec.hpp"
 
 namespace railstrata {
@@ -84,6 +85,7 @@ struct LifeSpec {
   std::optional<double> strength_scatter;  ///< not given: none, in a range of the traffic kStrengthScatter
   double ductility_scatter = 0.15, friction_scatter = 0.15, wear_scatter = 0.2, place_scatter = 0.5e-3;
   GrindingSpec grinding;
+  CrackSpec crack;
 };
 /// Hardness of a grade's delivery: two of it reach from 260 to 300 HBW of R260. [EN13674]
 inline constexpr double kStrengthScatter = 0.035;

@@ -4,16 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "crack/crack_passage.hpp"
+#include "crack/dislocation.hpp"
+
 namespace railstrata {
 
-double CrackLine::x(double r) const { return r * std::cos(angle); }
-double CrackLine::z(double r) const { return depth + r * std::sin(angle); }
-
-CrackFaces::CrackFaces(const CrackLine& line, const HalfSpaceMaterial& material, int points)
-    : line_(line),
-      rule_(&crack_rule(line.kind, points)),
-      factor_(material.young / (1 - material.poisson * material.poisson) / 8 *
-              std::sqrt(2 * std::numbers::pi * line.length)) {
+CrackFaces::CrackFaces(const CrackLine& line, const LayeredHalfSpace& body, int points)
+    : line_(line), rule_(&crack_rule(line.kind, points)) {
+  const HalfSpaceMaterial material = material_at(body, line.z(line.length));
+  factor_ = material.young / (1 - material.poisson * material.poisson) / 8 *
+            std::sqrt(2 * std::numbers::pi * line.length);
   const Eigen::Index n = rule_->point.size();
   const std::complex<double> along = std::polar(1.0, line.angle), across = std::complex<double>(0, 1) * along;
   const auto place = [&](double share) {
@@ -35,18 +35,14 @@ CrackFaces::CrackFaces(const CrackLine& line, const HalfSpaceMaterial& material,
   };
   add(whole_plane_stress, rule_->node, rule_->density);
   add(image_stress, rule_->image_node, rule_->image_density);
-  forget();
+  state_.assign(static_cast<std::size_t>(n), State::stuck);
+  before_ = Eigen::VectorXd::Zero(2 * n);
 }
 
 std::vector<double> CrackFaces::places() const {
   std::vector<double> out;
   for (const double share : rule_->point) out.push_back(share * line_.length);
   return out;
-}
-
-void CrackFaces::forget() {
-  state_.assign(static_cast<std::size_t>(rule_->point.size()), State::stuck);
-  before_ = Eigen::VectorXd::Zero(2 * rule_->point.size());
 }
 
 /// The jumps under the present states.

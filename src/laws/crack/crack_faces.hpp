@@ -6,35 +6,19 @@
 //   open:  σ_n = -q, τ = 0;   closed:  g_n = 0, p = -σ_n - q >= 0;   stuck:  g_t as before;   slip:  τ = ± f p,
 // q the pressure of a fluid in the crack. Slip remembers: places of the load are taken one after the other.
 #include <Eigen/Core>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "crack/crack_rule.hpp"
-#include "crack/dislocation.hpp"
+#include "crack/plane_of_rolling.hpp"
+#include "halfspace/layered.hpp"
 
 namespace railstrata {
 
-/// A straight crack in the plane of rolling.
-struct CrackLine {
-  CrackKind kind = CrackKind::mouth;
-  double angle = 0;    ///< rad, from the surface, 0 to pi; above pi/2 it leans against the way of rolling
-  double length = 0;   ///< m
-  double depth = 0;    ///< m, of its start; 0: the mouth
-  double x(double r) const;
-  double z(double r) const;
-};
-
-/// Mode I opens, mode II moves the side above the crack (below it, where angle > pi/2) towards the tip; MPa sqrt(m) is
-/// 1e6 of these.
-struct StressIntensity {
-  double I = 0, II = 0;  ///< Pa sqrt(m)
-};
-
 class CrackFaces {
  public:
-  /// Of a crack in a homogeneous half-plane. points: of crack_rule.
-  CrackFaces(const CrackLine& line, const HalfSpaceMaterial& material, int points);
+  /// points: of crack_rule.
+  CrackFaces(const CrackLine& line, const LayeredHalfSpace& body, int points);
 
   const CrackLine& line() const { return line_; }
   /// m from the start, of the collocation points.
@@ -52,7 +36,6 @@ class CrackFaces {
   /// The next place of the load: tractions of the body without a crack at places(), Pa; the slip of the last one is
   /// remembered.
   Faces load(const std::vector<LineTraction>& applied, double friction, double fluid);
-  void forget();
 
  private:
   enum class State { open, stuck, forward, backward };

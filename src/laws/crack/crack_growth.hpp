@@ -6,13 +6,9 @@
 //           under shear, of rail steel with a tensile cycle before the shear; ΔK_II of 9 to 25. [Bold1991]
 //   paris:  ΔK_eq² = ΔK_I² + ΔK_II²,  A and m of the most that the standard of rails allows in tension: 17 nm at 10 and
 //           55 nm at 13.5 MPa √m. [EN13674]
-#include <string_view>
-
-#include "crack/crack_passage.hpp"
+#include "crack/crack_line.hpp"
 
 namespace railstrata {
-
-enum class GrowthLaw { shear, paris };
 
 /// Pa √m; the threshold in the law's ΔK_eq.
 double equivalent_range(GrowthLaw law, const StressIntensity& range);

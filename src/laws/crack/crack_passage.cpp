@@ -4,26 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "crack/crack_faces.hpp"
+
 namespace railstrata {
 namespace {
-
-PlaneStress plane_of(const Sym3& s) { return {s.xx, s.zz, s.xz}; }
-PlaneStress mixed(const PlaneStress& a, const PlaneStress& b, double share) {
-  return {a.xx + share * (b.xx - a.xx), a.zz + share * (b.zz - a.zz), a.xz + share * (b.xz - a.xz)};
-}
-
-/// The interval of ascending values that holds one, and how far in it; ends stand for what is beyond.
-struct Between {
-  std::size_t low = 0;
-  double share = 0;
-};
-Between between(const std::vector<double>& of, double value) {
-  if (of.size() < 2 || value <= of.front()) return {};
-  const auto high = std::min<std::size_t>(
-      static_cast<std::size_t>(std::upper_bound(of.begin(), of.end(), value) - of.begin()), of.size() - 1);
-  const double width = of[high] - of[high - 1];
-  return {high - 1, width > 0 ? std::min(1.0, (value - of[high - 1]) / width) : 1};
-}
 
 /// The fluid's pressure that keeps the volume between the faces: it grows with the pressure.
 double trapped_pressure(const CrackFaces& faces, const std::vector<LineTraction>& applied, double friction,
@@ -44,41 +28,21 @@ double trapped_pressure(const CrackFaces& faces, const std::vector<LineTraction>
 
 }  // namespace
 
-PlaneOfRolling::PlaneOfRolling(const StressHistory& history, double y, ResidualRows residual)
-    : x_(history.x), depth_(history.depth) {
-  check_residual(history, residual);
-  const Between column = between(history.y, y);
-  const int first = static_cast<int>(column.low), second = std::min(first + 1, history.columns() - 1);
-  for (int r = 0; r < history.rows(); ++r) {
-    residual_.push_back(plane_of(residual_of(residual, r)));
-    const Sym3 *a = history.cycle(r, first), *b = history.cycle(r, second);
-    for (int s = 0; s < history.samples(); ++s)
-      stress_.push_back(mixed(plane_of(a[s]), plane_of(b[s]), column.share));
+HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth) {
+  double top = 0;
+  for (const HalfSpaceLayer& layer : body.layers) {
+    if (depth <= top + layer.thickness) return layer.local(depth - top);
+    top += layer.thickness;
   }
+  return body.substrate;
 }
 
-PlaneStress PlaneOfRolling::in_row(std::size_t row, double x) const {
-  const PlaneStress* of = stress_.data() + row * x_.size();
-  const Between at = between(x_, x);
-  PlaneStress out = mixed(of[at.low], of[std::min(at.low + 1, x_.size() - 1)], at.share);
-  const double middle = 0.5 * (x_.front() + x_.back()), half = 0.5 * (x_.back() - x_.front());
-  const double away = std::abs(x - middle);
-  const double fall = away > half ? half * half / (away * away) : 1;
-  out = {fall * out.xx, fall * out.zz, fall * out.xz};
-  return {out.xx + residual_[row].xx, out.zz + residual_[row].zz, out.xz + residual_[row].xz};
-}
-
-PlaneStress PlaneOfRolling::at(double x, double depth) const {
-  const Between row = between(depth_, depth);
-  return mixed(in_row(row.low, x), in_row(std::min(row.low + 1, depth_.size() - 1), x), row.share);
-}
-
-CrackPassage pass_over(CrackFaces& faces, const PlaneOfRolling& plane, const PassageOptions& options) {
-  const CrackLine& line = faces.line();
+CrackPassage pass_over(const CrackLine& line, const LayeredHalfSpace& body, const PlaneOfRolling& plane,
+                       const PassageOptions& options) {
+  CrackFaces faces(line, body, options.points);
   const std::vector<double> places = faces.places();
   const double end = line.x(line.length), from = std::min(0.0, end) - plane.ahead(),
                to = std::max(0.0, end) - plane.behind();
-  faces.forget();
   CrackPassage out;
   StressIntensity before;
   for (bool repeats = false; !repeats && out.passes < options.most_passes;) {

@@ -6,41 +6,20 @@
 // strain), the load passes slowly (no inertia), and it passes again and again until the cycle repeats.
 #include <vector>
 
-#include "crack/crack_faces.hpp"
-#include "damage/residual_rows.hpp"
-#include "damage/stress_history.hpp"
+#include "crack/crack_line.hpp"
+#include "crack/plane_of_rolling.hpp"
+#include "halfspace/layered.hpp"
 
 namespace railstrata {
 
-/// Stresses of the plane of rolling at a place across.
-class PlaneOfRolling {
- public:
-  /// y [m] between columns of the history; residual: by row, or none.
-  PlaneOfRolling(const StressHistory& history, double y, ResidualRows residual);
-  /// x [m] from the history's origin, linear between samples and rows; beyond the samples the contact's part falls with
-  /// the square of the distance from their middle, below the rows it keeps that of the last one.
-  PlaneStress at(double x, double depth) const;
-  double behind() const { return x_.front(); }
-  double ahead() const { return x_.back(); }
-
- private:
-  PlaneStress in_row(std::size_t row, double x) const;
-  std::vector<double> x_, depth_;
-  std::vector<PlaneStress> stress_;    ///< row * samples + sample
-  std::vector<PlaneStress> residual_;  ///< of rows
-};
-
-/// What fills the crack.
-enum class CrackFluid {
-  none,
-  mouth,   ///< a fluid at the pressure of the patch over the mouth
-  trapped  ///< a fluid whose volume stays while the patch lies over the mouth
-};
+/// An interface belongs to the layer above.
+HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth);
 
 struct PassageOptions {
   double friction = 0.2;  ///< of the faces
   CrackFluid fluid = CrackFluid::none;
-  int places = 120;       ///< of the wheel
+  int points = 24;        ///< of the crack
+  int places = 240;       ///< of the wheel
   int most_passes = 6;
   double repeats = 1e-3;  ///< of the ranges, from one passage to the next
 };
@@ -54,7 +33,8 @@ struct CrackPassage {
   int passes = 0;
   bool settled = true;  ///< the faces' conditions at all places, and the cycle repeats
 };
-CrackPassage pass_over(CrackFaces& faces, const PlaneOfRolling& plane, const PassageOptions& options);
+CrackPassage pass_over(const CrackLine& line, const LayeredHalfSpace& body, const PlaneOfRolling& plane,
+                       const PassageOptions& options);
 
 /// Largest less smallest over the passage, K_I never below 0.
 StressIntensity range_of(const std::vector<StressIntensity>& passage);

@@ -12,9 +12,9 @@
 // - inside: Gauss and Chebyshev's, with a closed jump. [HillsKellyDaiKorsunsky1996]
 #include <Eigen/Core>
 
-namespace railstrata {
+#include "crack/crack_line.hpp"
 
-enum class CrackKind { mouth, inside };
+namespace railstrata {
 
 /// Places as shares of the length, from the crack's start (its mouth); the end is a tip.
 struct CrackRule {

@@ -27,12 +27,6 @@ Complex strength(const HalfSpaceMaterial& material, Complex jump) {
 
 }  // namespace
 
-LineTraction traction_on(const PlaneStress& s, double angle) {
-  const double c = std::cos(2 * angle), d = std::sin(2 * angle), mean = 0.5 * (s.xx + s.zz),
-               half = 0.5 * (s.zz - s.xx);
-  return {mean + half * c - s.xz * d, half * d + s.xz * c};
-}
-
 PlaneStress whole_plane_stress(const HalfSpaceMaterial& material, std::complex<double> at, std::complex<double> from,
                                std::complex<double> jump) {
   const Complex a = strength(material, jump), r = 1.0 / (at - from);

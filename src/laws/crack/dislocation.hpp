@@ -2,21 +2,10 @@
 // Stresses of a dislocation in a homogeneous half-plane. Plane strain; x along the surface, z into the body.
 #include <complex>
 
+#include "crack/plane_of_rolling.hpp"
 #include "halfspace/boussinesq_cerruti.hpp"
 
 namespace railstrata {
-
-/// Pa, in the plane.
-struct PlaneStress {
-  double xx = 0, zz = 0, xz = 0;
-};
-
-/// Normal and shear traction on a line that leaves x's direction by an angle towards z: normal to it (by a quarter turn
-/// the same way) and along it.
-struct LineTraction {
-  double normal = 0, shear = 0;
-};
-LineTraction traction_on(const PlaneStress& stress, double angle);
 
 /// At `at` = x + iz, of a dislocation at `from` with the Burgers vector `jump` = b_x + i b_z [m]: the displacement of
 /// the side to the left of a line that ends there, less that of its right. In the whole plane, and what the free surface

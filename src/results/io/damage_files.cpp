@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "judge/judgement.hpp"
 #include "record/csv.hpp"
@@ -214,6 +215,34 @@ void write_sliding_maps(const std::filesystem::path& folder, const std::vector<s
     append(columns, pressures);
     write_csv(folder / fmt::format("shakedown_{}_sliding.csv", body_word(map.body)), provenance, map.limits, columns);
   }
+}
+
+void write_crack(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                 const CrackResult& crack) {
+  const CrackPassage& p = crack.passage;
+  std::vector<std::size_t> places(p.place.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  using Place = std::size_t;
+  Columns<Place> columns{{"wheel", unit::kMillimetres, [&p](Place i) { return p.place[i]; }},
+                         {"K_I", unit::kRootMetres, [&p](Place i) { return p.end[i].I; }},
+                         {"K_II", unit::kRootMetres, [&p](Place i) { return p.end[i].II; }}};
+  if (!p.start.empty())
+    append(columns, {{"K_I_top", unit::kRootMetres, [&p](Place i) { return p.start[i].I; }},
+                     {"K_II_top", unit::kRootMetres, [&p](Place i) { return p.start[i].II; }}});
+  append(columns, {{"open", unit::kNone, [&p](Place i) { return p.open[i]; }},
+                   {"slipping", unit::kNone, [&p](Place i) { return p.slipping[i]; }},
+                   {"fluid", unit::kMPa, [&p](Place i) { return p.fluid[i]; }}});
+  write_csv(folder / "crack.csv", provenance, places, columns);
+  if (crack.depths.empty()) return;
+  using S = CrackState;
+  write_csv(folder / "crack_depths.csv", provenance, crack.depths,
+            Columns<S>{{"depth", unit::kMillimetres, &S::depth},
+                       {"K_I_range", unit::kRootMetres, [](const S& s) { return s.range.I; }},
+                       {"K_II_range", unit::kRootMetres, [](const S& s) { return s.range.II; }},
+                       {"equivalent_range", unit::kRootMetres, &S::equivalent},
+                       {"growth", unit::kNanometres, &S::growth},
+                       {"kink_range", unit::kRootMetres, [](const S& s) { return s.kink.range; }},
+                       {"kink_turn", unit::kDegrees, [](const S& s) { return s.kink.angle; }}});
 }
 
 }  // namespace railstrata

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fatigue/crack_summary.hpp"
 #include "fatigue/shakedown_summary.hpp"
 #include "fatigue/streamlines.hpp"
 #include "result/summary.hpp"
@@ -28,6 +29,10 @@ void write_shakedown(const std::filesystem::path& folder, const std::vector<std:
 /// pressure at each limit. Nothing without maps.
 void write_sliding_maps(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                         const std::vector<SlidingMap>& maps);
+
+/// crack.csv: a row a place of the wheel; crack_depths.csv: a row a depth of the crack, which one inside has not.
+void write_crack(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                 const CrackResult& crack);
 
 /// Wear, heat and fatigue of one passage: a row per streamline, y ascending. Writes nothing without rows.
 void write_streamlines(const std::filesystem::path& file, const std::vector<std::string>& provenance,

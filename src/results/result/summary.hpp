@@ -263,6 +263,16 @@ struct LifeSummary {
   std::string text;                                                           ///< in words; empty: it was not asked for
 };
 
+/// A crack of the rail in one passage (fatigue/crack_summary.hpp), at its lower end; where the case gives one.
+struct CrackSummary {
+  double K_I = kNotApplicable, K_I_range = kNotApplicable, K_II_range = kNotApplicable;  ///< Pa √m
+  double equivalent_range = kNotApplicable;                                              ///< Pa √m, of the growth law
+  double growth = kNotApplicable;       ///< m a wheel, along the crack
+  double kink_angle = kNotApplicable;   ///< rad from the surface, where a kink would open most
+  double kink_range = kNotApplicable;   ///< Pa √m
+  double slipping = kNotApplicable;     ///< largest share of the length
+};
+
 struct Summary {
   std::string title;
   std::string state;  ///< of a transient: which of its states this is
@@ -276,6 +286,7 @@ struct Summary {
   ShakedownSummary shakedown;
   DamageSummary damage;
   LifeSummary life;
+  CrackSummary crack;
   std::vector<BodyFatigue> fatigue;  ///< of the bodies whose strength or fatigue limits are known
   RunSummary run;
   std::vector<Check> checks;

@@ -9,6 +9,7 @@
 #include "bem/solve_bem.hpp"
 #include "bem/transient.hpp"
 #include "core/control.hpp"
+#include "fatigue/crack_summary.hpp"
 #include "fatigue/rail_damage.hpp"
 #include "fatigue/shakedown_summary.hpp"
 #include "result/summary.hpp"
@@ -26,10 +27,11 @@ struct Wanted {
   bool single_track = false;  ///< with shakedown: the limit for traffic on one line, in some seconds
   bool planes = true;         ///< with shakedown: the critical planes of fatigue
   bool maps = false;          ///< with shakedown: the limits over traction
+  bool crack = true;          ///< of the case, if it has one
   bool life = true;           ///< of the rail through life.until if all wheels are this one; not of a case with loads
 };
 inline constexpr Wanted kContactAlone{
-    .rail = false, .wheel = false, .shakedown = false, .single_track = false, .maps = false, .life = false};
+    .rail = false, .wheel = false, .shakedown = false, .single_track = false, .maps = false, .crack = false, .life = false};
 
 /// How long the rail of a case lasts if all wheels are its one; of what how it is answered. Whoever asks gives it:
 /// life_of_wheels (clock/wheel_life.hpp), which itself asks for contacts.
@@ -57,6 +59,7 @@ struct Answer {
   std::vector<PatchDamage> wear = {};            ///< of each patch, if it rolls
   std::vector<SectionShakedown> shakedown = {};  ///< of the judged bodies
   std::vector<SlidingMap> sliding = {};
+  std::optional<CrackResult> crack = {};
 };
 
 /// The case as half-space theory can treat it. A static case (run.rolling = false) has frictionless contact, as the

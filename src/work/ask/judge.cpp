@@ -57,6 +57,11 @@ void judge(const CaseSpec& given, const Wanted& wanted, Answer& out, const AskOp
     if (wanted.single_track) add_single_track(spec, out.result, out.shakedown);
     if (wanted.maps) out.sliding = sliding_maps(out.result, out.shakedown);
     judge_sections(spec, out.shakedown, s);
+    if (wanted.crack && spec.life.crack.depth > 0 && !out.crack) {
+      out.crack = half_space_crack(spec, out.result);
+      s.crack = crack_summary(spec.life.crack, *out.crack);
+      out.result.notes.insert(out.result.notes.end(), out.crack->notes.begin(), out.crack->notes.end());
+    }
     const bool alone = spec.loads.empty();  // else a collective is asked
     if (wanted.life && alone && how.life_of && spec.life.until > 0 && spec.run.rolling)
       s.life = how.life_of(spec, how.bem);

@@ -130,7 +130,7 @@ void Clock::solve(bool with_stresses) {
   how.bem = options_.bem;
   how.rail = &surface_.profile();
   how.keep_results = with_stresses;
-  how.wanted = {.rail = false, .wheel = false, .shakedown = with_stresses, .planes = false, .life = false};
+  how.wanted = {.rail = false, .wheel = false, .shakedown = with_stresses, .planes = false, .crack = false, .life = false};
   how.control = nullptr;
   solve_collective(rows_, folder_, how);
   if (asked_to_stop(options_.control)) throw Interrupted("stopped between two profiles");

@@ -40,6 +40,7 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
   write_streamlines(folder / "streamlines.csv", provenance, streamlines_of(answer.wear));
   write_shakedown(folder, provenance, summary, answer.shakedown);
   write_sliding_maps(folder, provenance, answer.sliding);
+  if (answer.crack) write_crack(folder, provenance, *answer.crack);
   write_summary(folder / "summary.json", summary);
 }
 

@@ -1,0 +1,113 @@
+#include "fatigue/crack_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "crack/crack_growth.hpp"
+#include "fatigue/row_strength.hpp"
+#include "result/patch.hpp"
+#include "result/stress_cycles.hpp"
+#include "spec/case_spec.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kShallowest = 0.1e-3;  // m, of the picture over depth
+constexpr int kDepths = 14;
+
+/// Where a patch's pressure is largest, across.
+double loaded_line(const ContactField& field) {
+  const auto most = std::max_element(field.p.begin(), field.p.end());
+  return field.y[static_cast<std::size_t>(most - field.p.begin())];
+}
+
+/// What the numbers do not say.
+std::vector<std::string> notes_of(const CrackSpec& crack, const CrackResult& found, const LayeredHalfSpace& body) {
+  std::vector<std::string> out;
+  if (!found.state.settled)
+    out.push_back("crack: the faces do not come to the same cycle in each passage; K is that of the last one");
+  const HalfSpaceMaterial tip = material_at(body, crack.depth);
+  for (const HalfSpaceLayer& layer : body.layers)
+    if (std::abs(layer.material.young / tip.young - 1) > 0.01) {
+      out.push_back(
+          "crack: stresses are those of the layers, the resistance of the cracked body is that of the material at the "
+          "crack's end everywhere");
+      break;
+    }
+  const double down = found.state.kink.angle + crack.angle;
+  const double kinked = growth_rate(crack.law, {found.state.kink.range, 0}, crack.threshold);
+  if (kinked > found.state.growth)
+    out.push_back(fmt::format(
+        "crack: a branch at {:.0f} deg from the surface would grow {:.2g} times as fast: it turns {}",
+        down * 180 / std::numbers::pi, found.state.growth > 0 ? kinked / found.state.growth : HUGE_VAL,
+        std::sin(down) > std::sin(crack.angle) ? "down" : "towards the surface"));
+  return out;
+}
+
+}  // namespace
+
+CrackLine crack_line(const CrackSpec& crack, double depth) {
+  return {.kind = crack.top > 0 ? CrackKind::inside : CrackKind::mouth,
+          .angle = crack.angle,
+          .length = (depth - crack.top) / std::sin(crack.angle),
+          .depth = crack.top};
+}
+
+CrackState crack_state(const CrackSpec& crack, double depth, const LayeredHalfSpace& body, const PlaneOfRolling& plane,
+                       CrackPassage* passage) {
+  CrackPassage now =
+      pass_over(crack_line(crack, depth), body, plane, {.friction = crack.face_friction, .fluid = crack.fluid});
+  const FrontFactors front = front_factors(crack.aspect, material_at(body, depth).poisson);
+  for (std::vector<StressIntensity>* end : {&now.end, &now.start})
+    for (StressIntensity& k : *end) k = {front.I * k.I, front.II * k.II};
+  CrackState out{.depth = depth, .range = range_of(now.end), .kink = worst_kink(now.end), .settled = now.settled};
+  out.equivalent = equivalent_range(crack.law, out.range);
+  out.growth = growth_rate(crack.law, out.range, crack.threshold);
+  if (passage) *passage = std::move(now);
+  return out;
+}
+
+CrackResult half_space_crack(const CaseSpec& spec, const BemResult& result) {
+  const CrackSpec& crack = spec.life.crack;
+  const auto patches = patches_of(result);
+  const BemPatch& patch = **std::max_element(patches.begin(), patches.end(), [](const BemPatch* a, const BemPatch* b) {
+    return measure_patch(a->field).p_max < measure_patch(b->field).p_max;
+  });
+  const PatchMeasures m = measure_patch(patch.field);
+  const bool inside = crack.top > 0;
+  const double deepest = inside ? crack.depth : std::max(crack.allowable, 1.5 * crack.depth);
+  std::vector<CycleRow> rows = cycle_rows(result.rail, 0.5 * (patch.grid.line ? m.length : shorter_axis(m)));
+  const auto enough = std::find_if(rows.begin(), rows.end(), [&](const CycleRow& r) { return r.depth > deepest; });
+  if (enough != rows.end()) rows.erase(enough + 1, rows.end());
+  CrackResult out;
+  out.y = loaded_line(patch.field) + crack.lateral;
+  const StressHistory history = half_space_cycles(result, BodyId::rail, patch, rows);
+  const RowStrength strength = row_strength(spec, BodyId::rail, history);
+  const std::vector<Sym3> residual = residual_rows(strength.residual_x, strength.residual_y);
+  const PlaneOfRolling plane(history, out.y, residual);
+  out.state = crack_state(crack, crack.depth, result.rail, plane, &out.passage);
+  for (int i = 0; i < kDepths && !inside; ++i)
+    out.depths.push_back(crack_state(
+        crack, kShallowest * std::pow(deepest / kShallowest, i / (kDepths - 1.0)), result.rail, plane));
+  out.notes = notes_of(crack, out, result.rail);
+  return out;
+}
+
+CrackSummary crack_summary(const CrackSpec& crack, const CrackResult& result) {
+  CrackSummary out;
+  out.K_I = 0;
+  for (const StressIntensity& k : result.passage.end) out.K_I = std::max(out.K_I, k.I);
+  out.K_I_range = result.state.range.I;
+  out.K_II_range = result.state.range.II;
+  out.equivalent_range = result.state.equivalent;
+  out.growth = result.state.growth;
+  out.kink_range = result.state.kink.range;
+  out.kink_angle = crack.angle + result.state.kink.angle;
+  out.slipping = *std::max_element(result.passage.slipping.begin(), result.passage.slipping.end());
+  return out;
+}
+
+}  // namespace railstrata
