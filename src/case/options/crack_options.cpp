@@ -17,56 +17,57 @@ constexpr double kDegree = 0.017453292519943295;
 }  // namespace
 
 OptionTable crack_table() {
-  return {"crack",
-          "A straight crack in the rail, in the plane of rolling: stress intensities over a passage and growth",
-          {option("depth", crack<&CrackSpec::depth>,
-                  "Depth of its lower end below the surface. 0: there is no crack. In a life (life.until) the depth at "
-                  "which growth begins when the metal has cracked; shallower ones are too short for stress intensities",
-                  kLength, {0, 0.05}),
-           option("top", crack<&CrackSpec::top>,
-                  "Depth of its upper end: a crack inside the rail. 0: it begins at the surface", kLength, {0, 0.05})
-               .where(cracked),
-           option("angle", crack<&CrackSpec::angle>,
-                  "Between the crack and the surface: below 90 deg it goes down in the direction of rolling, above it "
-                  "leans the other way",
-                  kSlope, {15 * kDegree, 165 * kDegree})
-               .where(cracked),
-           option("lateral", crack<&CrackSpec::lateral>,
-                  "Place across, from where the pressure of the patch is largest, positive to the field side. In a "
-                  "life the crack is where the metal fails first",
-                  kLength, {-0.03, 0.03})
-               .where(cracked),
-           option("face_friction", crack<&CrackSpec::face_friction>,
-                  "Friction coefficient between the faces of the crack; 0.1 to 0.4 in the literature", kNumber, {0, 1})
-               .where(cracked),
-           choice<&CrackSpec::fluid>(
-               "fluid", crack<&CrackSpec::fluid>,
-               "What fills the crack. mouth: a fluid at the pressure of the patch over the mouth; trapped: a fluid "
-               "whose volume stays while the patch lies over the mouth",
-               {{"none", CrackFluid::none}, {"mouth", CrackFluid::mouth}, {"trapped", CrackFluid::trapped}})
-               .where(cracked),
-           option("aspect", crack<&CrackSpec::aspect>,
-                  "Half the crack's length at the surface over its length downwards: factors of a half ellipse. A large "
-                  "number: a straight front",
-                  kNumber, {1, 1e6})
-               .where(cracked),
-           choice<&CrackSpec::law>(
-               "law", crack<&CrackSpec::law>,
-               "Growth law. shear: in its own plane under shear [Bold1991]; paris: the most that EN 13674-1 allows a "
-               "rail in tension, of the root of the squares of both ranges",
-               {{"shear", GrowthLaw::shear}, {"paris", GrowthLaw::paris}})
-               .where(cracked),
-           option("threshold", crack<&CrackSpec::threshold>, "Range of the law's equivalent stress intensity without growth",
-                  kToughness, {0, 5e7})
-               .where(cracked),
-           option("detectable", crack<&CrackSpec::detectable>, "Depth of a crack that an inspection finds", kLength,
-                  above(0, 0.05))
-               .where(followed),
-           option("allowable", crack<&CrackSpec::allowable>, "Depth of a crack that ends the rail's life", kLength,
-                  above(0, 0.05))
-               .where(followed)},
-          {},
-          {}};
+  return {
+      "crack",
+      "A straight crack in the rail, in the plane of rolling: stress intensities over a passage and growth",
+      {option("depth", crack<&CrackSpec::depth>,
+              "Depth of its lower end below the surface. 0: there is no crack. In a life (life.until) the depth at "
+              "which growth begins when the metal has cracked; shallower ones are too short for stress intensities",
+              kLength, {0, 0.05}),
+       option("top", crack<&CrackSpec::top>,
+              "Depth of its upper end: a crack inside the rail. 0: it begins at the surface", kLength, {0, 0.05})
+           .where(cracked),
+       option("angle", crack<&CrackSpec::angle>,
+              "Between the crack and the surface: below 90 deg it goes down in the direction of rolling, above it "
+              "leans the other way",
+              kSlope, {15 * kDegree, 165 * kDegree})
+           .where(cracked),
+       option("lateral", crack<&CrackSpec::lateral>,
+              "Place across, from where the pressure of the patch is largest, positive to the field side. In a "
+              "life the crack is where the metal fails first",
+              kLength, {-0.03, 0.03})
+           .where(cracked),
+       option("face_friction", crack<&CrackSpec::face_friction>,
+              "Friction coefficient between the faces of the crack; 0.1 to 0.4 in the literature", kNumber, {0, 1})
+           .where(cracked),
+       choice<&CrackSpec::fluid>(
+           "fluid", crack<&CrackSpec::fluid>,
+           "What fills the crack. mouth: a fluid at the pressure of the patch over the mouth; trapped: a fluid "
+           "whose volume stays while the patch lies over the mouth",
+           {{"none", CrackFluid::none}, {"mouth", CrackFluid::mouth}, {"trapped", CrackFluid::trapped}})
+           .where(cracked),
+       option("aspect", crack<&CrackSpec::aspect>,
+              "Half the crack's length at the surface over its length downwards: factors of a half ellipse. A large "
+              "number: a straight front",
+              kNumber, {1, 1e6})
+           .where(cracked),
+       choice<&CrackSpec::law>(
+           "law", crack<&CrackSpec::law>,
+           "Growth law. shear: in its own plane under shear [Bold1991]; paris: the most that EN 13674-1 allows a "
+           "rail in tension, of the root of the squares of both ranges",
+           {{"shear", GrowthLaw::shear}, {"paris", GrowthLaw::paris}})
+           .where(cracked),
+       option("threshold", crack<&CrackSpec::threshold>,
+              "Range of the law's equivalent stress intensity without growth", kToughness, {0, 5e7})
+           .where(cracked),
+       option("detectable", crack<&CrackSpec::detectable>, "Depth of a crack that an inspection finds", kLength,
+              above(0, 0.05))
+           .where(followed),
+       option("allowable", crack<&CrackSpec::allowable>, "Depth of a crack that ends the rail's life", kLength,
+              above(0, 0.05))
+           .where(followed)},
+      {},
+      {}};
 }
 
 }  // namespace railstrata

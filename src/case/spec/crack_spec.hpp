@@ -7,16 +7,16 @@
 namespace railstrata {
 
 struct CrackSpec {
-  double depth = 0;                             ///< m, of its end below the surface; 0: there is no crack
-  double top = 0;                               ///< m, of its start; 0: it breaks the surface
-  double angle = 25 * std::numbers::pi / 180;   ///< rad, from the surface, as of CrackLine
-  double lateral = 0;                           ///< m, from where the pressure is largest to the field side
+  double depth = 0;                            ///< m, of its end below the surface; 0: there is no crack
+  double top = 0;                              ///< m, of its start; 0: it breaks the surface
+  double angle = 25 * std::numbers::pi / 180;  ///< rad, from the surface, as of CrackLine
+  double lateral = 0;                          ///< m, from where the pressure is largest to the field side
   double face_friction = 0.2;
   CrackFluid fluid = CrackFluid::none;
-  double aspect = 1;                            ///< half the length at the surface over the length downwards
+  double aspect = 1;  ///< half the length at the surface over the length downwards
   GrowthLaw law = GrowthLaw::shear;
-  double threshold = 4e6;                       ///< Pa √m
-  double detectable = 2e-3, allowable = 5e-3;   ///< m, depths that an inspection finds and that end the rail
+  double threshold = 4e6;                      ///< Pa √m
+  double detectable = 2e-3, allowable = 5e-3;  ///< m, depths that an inspection finds and that end the rail
 };
 
 }  // namespace railstrata

@@ -12,8 +12,8 @@ namespace railstrata {
 CrackFaces::CrackFaces(const CrackLine& line, const LayeredHalfSpace& body, int points)
     : line_(line), rule_(&crack_rule(line.kind, points)) {
   const HalfSpaceMaterial material = material_at(body, line.z(line.length));
-  factor_ = material.young / (1 - material.poisson * material.poisson) / 8 *
-            std::sqrt(2 * std::numbers::pi * line.length);
+  factor_ =
+      material.young / (1 - material.poisson * material.poisson) / 8 * std::sqrt(2 * std::numbers::pi * line.length);
   const Eigen::Index n = rule_->point.size();
   const std::complex<double> along = std::polar(1.0, line.angle), across = std::complex<double>(0, 1) * along;
   const auto place = [&](double share) {
@@ -48,7 +48,7 @@ std::vector<double> CrackFaces::places() const {
 /// The jumps under the present states.
 Eigen::VectorXd CrackFaces::solve(const Eigen::VectorXd& applied, double friction, double fluid) const {
   const Eigen::Index n = rule_->point.size();
-  std::vector<Eigen::Index> free;   // unknown jumps
+  std::vector<Eigen::Index> free;  // unknown jumps
   Eigen::VectorXd jump = Eigen::VectorXd::Zero(2 * n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const State s = state_[static_cast<std::size_t>(k)];
@@ -83,7 +83,8 @@ bool CrackFaces::review(const Eigen::VectorXd& jump, const Eigen::VectorXd& trac
                         bool one) {
   constexpr double kSmall = 1e-9;
   const Eigen::Index n = rule_->point.size();
-  const double far = kSmall * (jump.cwiseAbs().maxCoeff() + 1e-15), hard = kSmall * (traction.cwiseAbs().maxCoeff() + 1);
+  const double far = kSmall * (jump.cwiseAbs().maxCoeff() + 1e-15),
+               hard = kSmall * (traction.cwiseAbs().maxCoeff() + 1);
   bool changed = false;
   for (Eigen::Index k = 0; k < n && !(one && changed); ++k) {
     State& s = state_[static_cast<std::size_t>(k)];

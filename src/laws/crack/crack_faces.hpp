@@ -1,8 +1,8 @@
 #pragma once
 // The faces of a straight crack under stresses that move: open, stuck or slipping, point by point.
 //
-// The tractions at the collocation points (crack_rule.hpp) are those of the body without the crack less S g, g the jumps
-// of displacement there (normal and along the crack). Signorini's and Coulomb's conditions at each point:
+// The tractions at the collocation points (crack_rule.hpp) are those of the body without the crack less S g, g the
+// jumps of displacement there (normal and along the crack). Signorini's and Coulomb's conditions at each point:
 //   open:  σ_n = -q, τ = 0;   closed:  g_n = 0, p = -σ_n - q >= 0;   stuck:  g_t as before;   slip:  τ = ± f p,
 // q the pressure of a fluid in the crack. Slip remembers: places of the load are taken one after the other.
 #include <Eigen/Core>
@@ -25,8 +25,8 @@ class CrackFaces {
   std::vector<double> places() const;
 
   struct Faces {
-    std::vector<double> opening, slip;     ///< m, at places()
-    std::vector<double> pressure, shear;   ///< Pa, of the faces on each other
+    std::vector<double> opening, slip;    ///< m, at places()
+    std::vector<double> pressure, shear;  ///< Pa, of the faces on each other
     StressIntensity end;
     std::optional<StressIntensity> start;  ///< of a crack inside
     double open = 0, slipping = 0;         ///< shares of the length
@@ -44,10 +44,10 @@ class CrackFaces {
 
   CrackLine line_;
   const CrackRule* rule_;
-  double factor_;             ///< K over φ at a tip
-  Eigen::MatrixXd stiffness_; ///< S, Pa/m: normal components first, then those along
+  double factor_;              ///< K over φ at a tip
+  Eigen::MatrixXd stiffness_;  ///< S, Pa/m: normal components first, then those along
   std::vector<State> state_;
-  Eigen::VectorXd before_;    ///< m, jumps at the last place of the load
+  Eigen::VectorXd before_;  ///< m, jumps at the last place of the load
 };
 
 }  // namespace railstrata

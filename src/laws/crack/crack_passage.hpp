@@ -1,9 +1,9 @@
 #pragma once
 // Stress intensities of a crack while a wheel rolls over it.
 //
-// The plane of rolling at one place across; the wheel rolls along +x. The stresses of the body without a crack are those
-// of a passage (damage/stress_history.hpp) plus the residual stress; the crack is as wide as it is long in y (plane
-// strain), the load passes slowly (no inertia), and it passes again and again until the cycle repeats.
+// The plane of rolling at one place across; the wheel rolls along +x. The stresses of the body without a crack are
+// those of a passage (damage/stress_history.hpp) plus the residual stress; the crack is as wide as it is long in y
+// (plane strain), the load passes slowly (no inertia), and it passes again and again until the cycle repeats.
 #include <vector>
 
 #include "crack/crack_line.hpp"
@@ -18,15 +18,15 @@ HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth);
 struct PassageOptions {
   double friction = 0.2;  ///< of the faces
   CrackFluid fluid = CrackFluid::none;
-  int points = 24;        ///< of the crack
-  int places = 240;       ///< of the wheel
+  int points = 24;   ///< of the crack
+  int places = 240;  ///< of the wheel
   int most_passes = 6;
   double repeats = 1e-3;  ///< of the ranges, from one passage to the next
 };
 
 /// Of the last passage: a value a place of the wheel.
 struct CrackPassage {
-  std::vector<double> place;  ///< m, of the contact's origin from the crack's start along the rail
+  std::vector<double> place;                ///< m, of the contact's origin from the crack's start along the rail
   std::vector<StressIntensity> end, start;  ///< start: of a crack inside
   std::vector<double> open, slipping;       ///< shares of the length
   std::vector<double> fluid;                ///< Pa

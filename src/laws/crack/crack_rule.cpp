@@ -21,8 +21,9 @@ Legendre legendre(int n, double x) {
   Legendre f{{1, x}, {std::atanh(x), x * std::atanh(x) - 1}};
   for (int m = 1; m < n; ++m)
     for (std::vector<double>* of : {&f.p, &f.q})
-      of->push_back(((2 * m + 1) * x * (*of)[static_cast<std::size_t>(m)] - m * (*of)[static_cast<std::size_t>(m) - 1]) /
-                    (m + 1));
+      of->push_back(
+          ((2 * m + 1) * x * (*of)[static_cast<std::size_t>(m)] - m * (*of)[static_cast<std::size_t>(m) - 1]) /
+          (m + 1));
   return f;
 }
 
@@ -44,8 +45,9 @@ struct Panel {
   Panel() {
     for (std::size_t i = 0; i < kPoints; ++i) {
       const double step = pi / (kPoints + 0.5);
-      const double x = zero_between(std::cos((static_cast<double>(i) + 1) * step), std::cos((static_cast<double>(i) + 0.5) * step),
-                                    [](double at) { return legendre(kPoints, at).p[kPoints]; });
+      const double x =
+          zero_between(std::cos((static_cast<double>(i) + 1) * step), std::cos((static_cast<double>(i) + 0.5) * step),
+                       [](double at) { return legendre(kPoints, at).p[kPoints]; });
       const double slope = kPoints * legendre(kPoints, x).p[kPoints - 1] / (1 - x * x);
       node[i] = 0.5 * (1 + x);
       weight[i] = 1 / ((1 - x * x) * slope * slope);
@@ -80,7 +82,8 @@ CrackRule mouth_rule(int n) {
     Eigen::RowVectorXd out = Eigen::RowVectorXd::Zero(n);
     for (int j = 0; j < n; ++j)
       for (std::size_t m = 0; m < last; m += 2)
-        out[j] += weight[j] * (2.0 * static_cast<double>(m) + 1) * at_node[static_cast<std::size_t>(j)].p[m] * there.p[m];
+        out[j] +=
+            weight[j] * (2.0 * static_cast<double>(m) + 1) * at_node[static_cast<std::size_t>(j)].p[m] * there.p[m];
     return out;
   };
   Eigen::MatrixXd jump(n, n);  // g/c at the points from the density at the nodes

@@ -18,13 +18,13 @@ namespace railstrata {
 
 /// Places as shares of the length, from the crack's start (its mouth); the end is a tip.
 struct CrackRule {
-  Eigen::VectorXd node;          ///< integral of B F dr = c Σ weight φ(node) F(node), φ the density's regular part
-  Eigen::VectorXd point;         ///< of collocation, where tractions are met
-  Eigen::MatrixXd density;       ///< weight φ at the nodes from g/c at the points
-  Eigen::VectorXd image_node;    ///< where images are summed
-  Eigen::MatrixXd image_density; ///< weight φ there from g/c at the points
-  Eigen::RowVectorXd end;        ///< φ at the tip, from g/c: g = φ sqrt(c d) at the distance d before it
-  Eigen::RowVectorXd start;      ///< the same at the start of a crack inside; empty: a mouth
+  Eigen::VectorXd node;           ///< integral of B F dr = c Σ weight φ(node) F(node), φ the density's regular part
+  Eigen::VectorXd point;          ///< of collocation, where tractions are met
+  Eigen::MatrixXd density;        ///< weight φ at the nodes from g/c at the points
+  Eigen::VectorXd image_node;     ///< where images are summed
+  Eigen::MatrixXd image_density;  ///< weight φ there from g/c at the points
+  Eigen::RowVectorXd end;         ///< φ at the tip, from g/c: g = φ sqrt(c d) at the distance d before it
+  Eigen::RowVectorXd start;       ///< the same at the start of a crack inside; empty: a mouth
 };
 
 /// n >= 4 points (inside: n - 1). Rules are kept: one of each size.

@@ -27,8 +27,7 @@ Between between(const std::vector<double>& of, double value) {
 }  // namespace
 
 LineTraction traction_on(const PlaneStress& s, double angle) {
-  const double c = std::cos(2 * angle), d = std::sin(2 * angle), mean = 0.5 * (s.xx + s.zz),
-               half = 0.5 * (s.zz - s.xx);
+  const double c = std::cos(2 * angle), d = std::sin(2 * angle), mean = 0.5 * (s.xx + s.zz), half = 0.5 * (s.zz - s.xx);
   return {mean + half * c - s.xz * d, half * d + s.xz * c};
 }
 
@@ -40,8 +39,7 @@ PlaneOfRolling::PlaneOfRolling(const StressHistory& history, double y, ResidualR
   for (int r = 0; r < history.rows(); ++r) {
     residual_.push_back(plane_of(residual_of(residual, r)));
     const Sym3 *a = history.cycle(r, first), *b = history.cycle(r, second);
-    for (int s = 0; s < history.samples(); ++s)
-      stress_.push_back(mixed(plane_of(a[s]), plane_of(b[s]), column.share));
+    for (int s = 0; s < history.samples(); ++s) stress_.push_back(mixed(plane_of(a[s]), plane_of(b[s]), column.share));
   }
 }
 

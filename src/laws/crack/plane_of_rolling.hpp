@@ -1,5 +1,6 @@
 #pragma once
-// Stresses of the plane of rolling at a place across, from a passage. Plane strain; x along the surface, z into the body.
+// Stresses of the plane of rolling at a place across, from a passage. Plane strain; x along the surface, z into the
+// body.
 #include <vector>
 
 #include "damage/residual_rows.hpp"

@@ -40,10 +40,10 @@ std::vector<std::string> notes_of(const CrackSpec& crack, const CrackResult& fou
   const double down = found.state.kink.angle + crack.angle;
   const double kinked = growth_rate(crack.law, {found.state.kink.range, 0}, crack.threshold);
   if (kinked > found.state.growth)
-    out.push_back(fmt::format(
-        "crack: a branch at {:.0f} deg from the surface would grow {:.2g} times as fast: it turns {}",
-        down * 180 / std::numbers::pi, found.state.growth > 0 ? kinked / found.state.growth : HUGE_VAL,
-        std::sin(down) > std::sin(crack.angle) ? "down" : "towards the surface"));
+    out.push_back(
+        fmt::format("crack: a branch at {:.0f} deg from the surface would grow {:.2g} times as fast: it turns {}",
+                    down * 180 / std::numbers::pi, found.state.growth > 0 ? kinked / found.state.growth : HUGE_VAL,
+                    std::sin(down) > std::sin(crack.angle) ? "down" : "towards the surface"));
   return out;
 }
 
@@ -90,8 +90,8 @@ CrackResult half_space_crack(const CaseSpec& spec, const BemResult& result) {
   const PlaneOfRolling plane(history, out.y, residual);
   out.state = crack_state(crack, crack.depth, result.rail, plane, &out.passage);
   for (int i = 0; i < kDepths && !inside; ++i)
-    out.depths.push_back(crack_state(
-        crack, kShallowest * std::pow(deepest / kShallowest, i / (kDepths - 1.0)), result.rail, plane));
+    out.depths.push_back(
+        crack_state(crack, kShallowest * std::pow(deepest / kShallowest, i / (kDepths - 1.0)), result.rail, plane));
   out.notes = notes_of(crack, out, result.rail);
   return out;
 }

@@ -18,18 +18,18 @@ CrackLine crack_line(const CrackSpec& crack, double depth);
 
 /// What a passage does at the crack's end, with the factors of a half-elliptical front.
 struct CrackState {
-  double depth = 0;           ///< m
-  StressIntensity range;      ///< Pa √m
-  double equivalent = 0;      ///< Pa √m
-  double growth = 0;          ///< m a wheel, along the crack
-  Kink kink;                  ///< angle from the crack's direction
+  double depth = 0;       ///< m
+  StressIntensity range;  ///< Pa √m
+  double equivalent = 0;  ///< Pa √m
+  double growth = 0;      ///< m a wheel, along the crack
+  Kink kink;              ///< angle from the crack's direction
   bool settled = true;
 };
 
 struct CrackResult {
-  double y = 0;               ///< m, in the contact plane from the rigid contact point
-  CrackPassage passage;       ///< at the case's depth, with the factors
-  CrackState state;           ///< the same
+  double y = 0;                    ///< m, in the contact plane from the rigid contact point
+  CrackPassage passage;            ///< at the case's depth, with the factors
+  CrackState state;                ///< the same
   std::vector<CrackState> depths;  ///< the same crack from shallow to deep; empty: it is inside
   std::vector<std::string> notes;
 };

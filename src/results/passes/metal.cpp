@@ -218,6 +218,17 @@ StateChange Metal::change(const std::vector<double>& given) {
   return out;
 }
 
+std::vector<Sym3> Metal::residual(int column) const {
+  std::vector<Sym3> out(grid_.thickness.size());
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const double* e =
+        state_.data() + (r * static_cast<std::size_t>(grid_.columns) + static_cast<std::size_t>(column)) * kHistory;
+    const double mean = rows_[r].moduli.lambda * (e[0] + e[1] + e[2]), mu2 = 2 * rows_[r].moduli.mu;
+    out[r] = {-mean - mu2 * e[0], -mean - mu2 * e[1], -mean - mu2 * e[2], -mu2 * e[3], -mu2 * e[4], -mu2 * e[5]};
+  }
+  return out;
+}
+
 SettledState Metal::roll(double wheels, const SettleLimits& limits) {
   if (kinds_.empty() || first_.flow == 0) return {.state = state_, .change = first_};
   const std::size_t points = grid_.points();

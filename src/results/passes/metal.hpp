@@ -61,6 +61,9 @@ class Metal {
 
   /// The state of the same metal before; wheels must be put then.
   void stand(std::vector<double> state) { state_ = std::move(state); }
+  /// Pa, residual stress of a column by rows, of the wheels' moduli: an elastic strain is what plastic strain lacks to
+  /// be compatible. Zero before the first wheels are put.
+  std::vector<Sym3> residual(int column) const;
   /// Other wheels from now on.
   void put(std::vector<MetalWheel> wheels);
   /// The state after so many wheels of the mixture, in one implicit step (steady/settle.hpp).

@@ -60,9 +60,10 @@ struct Sampling {
   int more_x = 0, more_y = 0;
 };
 
-Sampling sampling_of(const BemPatch& patch) {
+Sampling sampling_of(const BemPatch& patch, std::optional<double> place) {
   const PatchExtent e = extent_of(patch.field);
   Sampling s{sampled_along(e.x), patch.grid.line ? std::vector<int>{0} : sampled(e.y, kBeside, kMostColumns)};
+  if (place && !patch.grid.line) s.y = {static_cast<int>(std::lround((*place - patch.grid.y0) / patch.grid.dy))};
   s.more_x = std::max({0, -s.x.front(), s.x.back() - patch.grid.nx + 1});
   s.more_y = std::max({0, -s.y.front(), s.y.back() - patch.grid.ny + 1});
   return s;
@@ -126,10 +127,10 @@ std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter) {
 }
 
 StressHistory half_space_cycles(const BemResult& result, BodyId body, const BemPatch& patch,
-                                const std::vector<CycleRow>& rows) {
+                                const std::vector<CycleRow>& rows, std::optional<double> place) {
   const Subsurface interior =
       body == BodyId::rail ? rail_interior(result.rail, patch) : wheel_interior(result.wheel, patch);
-  const Sampling at = sampling_of(patch);
+  const Sampling at = sampling_of(patch, place);
   const std::unique_ptr<Subsurface> wide = interior.widened(at.more_x, at.more_y);
   const PatchGrid& g = wide->grid();
   StressHistory out;

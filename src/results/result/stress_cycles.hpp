@@ -3,6 +3,7 @@
 //
 // Axes of the contact plane, z into the body. Both engines give one frame to what shakedown, fatigue and the interfaces
 // are computed from.
+#include <optional>
 #include <vector>
 
 #include "bem/solve_bem.hpp"
@@ -23,8 +24,9 @@ std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter);
 
 /// For a patch of a half-space result: samples at cells from 3 semi-axes behind the patch's middle to 3 ahead of it,
 /// and 1.5 to either side, at most about 90 and 50. y is that of the patch's grid.
+/// place: y [m] of the only column that is wanted, to the nearest cell.
 StressHistory half_space_cycles(const BemResult& result, BodyId body, const BemPatch& patch,
-                                const std::vector<CycleRow>& rows);
+                                const std::vector<CycleRow>& rows, std::optional<double> place = {});
 
 /// For the contact band of a finite element body: the surface (recovered at the nodes, with the peaks between them,
 /// result/surface_peaks.hpp), the elements' centres, and both sides of every interface. Samples are at the nodes and

@@ -267,10 +267,10 @@ struct LifeSummary {
 struct CrackSummary {
   double K_I = kNotApplicable, K_I_range = kNotApplicable, K_II_range = kNotApplicable;  ///< Pa √m
   double equivalent_range = kNotApplicable;                                              ///< Pa √m, of the growth law
-  double growth = kNotApplicable;       ///< m a wheel, along the crack
-  double kink_angle = kNotApplicable;   ///< rad from the surface, where a kink would open most
-  double kink_range = kNotApplicable;   ///< Pa √m
-  double slipping = kNotApplicable;     ///< largest share of the length
+  double growth = kNotApplicable;                                                        ///< m a wheel, along the crack
+  double kink_angle = kNotApplicable;  ///< rad from the surface, where a kink would open most
+  double kink_range = kNotApplicable;  ///< Pa √m
+  double slipping = kNotApplicable;    ///< largest share of the length
 };
 
 struct Summary {

@@ -29,8 +29,7 @@ const Row& row_of(const std::vector<Row>& rows, std::string_view key) {
 }
 
 bool of_strength(const ResultNumber& n) {
-  return n.group == kShakedownGroup || n.group == kLayersGroup || n.group == kLifeGroup ||
-         n.group == kCrackGroup;
+  return n.group == kShakedownGroup || n.group == kLayersGroup || n.group == kLifeGroup || n.group == kCrackGroup;
 }
 
 ResultColumn column_of(const ResultNumber& n) {

@@ -30,8 +30,13 @@ struct Wanted {
   bool crack = true;          ///< of the case, if it has one
   bool life = true;           ///< of the rail through life.until if all wheels are this one; not of a case with loads
 };
-inline constexpr Wanted kContactAlone{
-    .rail = false, .wheel = false, .shakedown = false, .single_track = false, .maps = false, .crack = false, .life = false};
+inline constexpr Wanted kContactAlone{.rail = false,
+                                      .wheel = false,
+                                      .shakedown = false,
+                                      .single_track = false,
+                                      .maps = false,
+                                      .crack = false,
+                                      .life = false};
 
 /// How long the rail of a case lasts if all wheels are its one; of what how it is answered. Whoever asks gives it:
 /// life_of_wheels (clock/wheel_life.hpp), which itself asks for contacts.

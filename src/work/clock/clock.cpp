@@ -60,9 +60,10 @@ class Clock {
       if (!at_horizon()) keep();
     }
     now_.out.lives = clock_lives(spec_, state(), unworn_.rail);
-    for (const std::string& note : {now_.out.worn_through ? std::string() : now_.out.ended,
-                                    fitted_ductility(spec_, now_.out.history), one_track(spec_, now_.out.history),
-                                    ratchets_on(now_.out.history), wearing_in(now_.out.history, now_.out.lives)})
+    for (const std::string& note :
+         {now_.out.worn_through ? std::string() : now_.out.ended, fitted_ductility(spec_, now_.out.history),
+          one_track(spec_, now_.out.history), ratchets_on(now_.out.history),
+          wearing_in(now_.out.history, now_.out.lives), crack_note(spec_.life.crack, now_.crack, now_.out.history)})
       if (!note.empty()) now_.out.notes.push_back(note);
     now_.out.profile = surface_.points();
     return std::move(now_.out);
@@ -94,6 +95,9 @@ class Clock {
   std::vector<double> removed_of_columns() const;
   std::vector<double> day_feet() const;
   double largest_pressure() const;
+  void add_crack_loads(const CollectiveRow& row, std::vector<CrackLoad>& to) const;
+  void begin_crack();
+  void grow_crack(ClockMoment& moment);
   void note(const ClockMoment& stretch);
   double wheels_until(double kg) const { return (kg - now_.out.reached) / now_.kilograms; }
 
@@ -109,6 +113,7 @@ class Clock {
   std::vector<CollectiveRow> rows_;   ///< solved for the next stretch; empty: they are not
   std::vector<std::size_t> load_of_;  ///< of the metal's wheels, the row
   std::vector<Sinking> sinkings_;
+  std::optional<CrackGrowth> crack_growth_;  ///< of the stretch; none: no crack has begun
 };
 
 CaseSpec Clock::case_of_day() const {
@@ -130,7 +135,8 @@ void Clock::solve(bool with_stresses) {
   how.bem = options_.bem;
   how.rail = &surface_.profile();
   how.keep_results = with_stresses;
-  how.wanted = {.rail = false, .wheel = false, .shakedown = with_stresses, .planes = false, .crack = false, .life = false};
+  how.wanted = {
+      .rail = false, .wheel = false, .shakedown = with_stresses, .planes = false, .crack = false, .life = false};
   how.control = nullptr;
   solve_collective(rows_, folder_, how);
   if (asked_to_stop(options_.control)) throw Interrupted("stopped between two profiles");
@@ -254,6 +260,7 @@ void Clock::put_wheels() {
   now_.metal_removed = removed;
   load_of_.clear();
   const MetalGrid& g = metal_->grid();
+  std::vector<CrackLoad> over_crack;
   std::vector<MetalWheel> wheels;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     CollectiveRow& row = rows_[i];
@@ -275,10 +282,53 @@ void Clock::put_wheels() {
                                                1e-9 * now_.out.reached, fault_line(e)));
       }
     }
+    add_crack_loads(row, over_crack);
     row.result.reset();
   }
+  crack_growth_.reset();
+  if (now_.crack.there()) crack_growth_.emplace(spec_.life.crack, std::move(over_crack));
   now_.followed = now_.followed || !wheels.empty();
   metal_->put(std::move(wheels));
+}
+
+/// The patches of a load that roll over the crack, with their stresses there.
+void Clock::add_crack_loads(const CollectiveRow& row, std::vector<CrackLoad>& to) const {
+  if (!now_.crack.there() || now_.crack.allowable < RailCrack::kNot) return;
+  const MetalGrid& g = metal_->grid();
+  const double column = std::clamp((now_.crack.s - g.from) / g.apart, 0.0, g.columns - 1.0);
+  const PassesStress passes{g.depths(), metal_->residual(static_cast<int>(std::lround(column)))};
+  for (const BemPatch* patch : patches_of(*row.result)) {
+    const double y =
+        now_.crack.s - surface_.unworn_s_of(patch->place.rail_s) + along_plane(patch->contact, patch->place.point);
+    if (!near_crack(*patch, y)) continue;
+    to.push_back(
+        {row.passages / now_.out.wheels, row.result->rail, crack_plane(row.spec, *row.result, *patch, y, passes)});
+  }
+}
+
+/// Where the metal has failed first, once it has.
+void Clock::begin_crack() {
+  const FirstFailure* first = nullptr;
+  for (const auto& [key, failure] : damages_->gathered().failures)
+    if ((key.damage == 0 || key.damage == 2) && (!first || failure.traffic < first->traffic)) first = &failure;
+  if (!first || !(spec_.life.crack.depth > 0)) return;
+  now_.crack.s = first->s;
+  now_.crack.tip = surface_.removed_at(first->s) + spec_.life.crack.depth;
+  now_.crack.begun = first->traffic * now_.kilograms;
+}
+
+void Clock::grow_crack(ClockMoment& moment) {
+  if (!now_.crack.there()) begin_crack();
+  if (!now_.crack.there()) return;
+  const MetalGrid& g = metal_->grid();
+  const double place = std::clamp((now_.crack.s - g.from) / g.apart, 0.0, g.columns - 1.0);
+  const auto column = static_cast<std::size_t>(std::lround(place));
+  if (crack_growth_)
+    for (const Sinking& s : sinkings_)
+      grow(spec_.life.crack, *crack_growth_,
+           {s.to - s.from, s.before[column], s.after[column], s.from * now_.kilograms, now_.kilograms}, now_.crack);
+  moment.crack = now_.crack.tip - sinkings_.back().after[column];
+  if (crack_growth_) moment.crack_growth = crack_growth_->rate(moment.crack) / now_.kilograms;
 }
 
 /// Wears the profile by at most so many wheels; how many they were.
@@ -415,6 +465,7 @@ void Clock::roll_metal() {
     step *= options_.growth;
     progress(begin + all * std::min(done, kSteps) / kSteps);  // steps take alike long
   }
+  grow_crack(moment);
   note(moment);
 }
 

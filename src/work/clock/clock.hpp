@@ -61,6 +61,8 @@ struct ClockMoment {
   double net = 0;                                              ///< strain that stays, by a wheel, largest
   double unsettled = 0;                                        ///< SettledState::unsettled of the stretch, the largest
   int changes = 0;                                             ///< changes of the metal computed in the stretch
+  double crack = kNotApplicable;         ///< m, depth of the crack below the surface of the day; NaN: none has begun
+  double crack_growth = kNotApplicable;  ///< m of depth a kg, without wear, at the end of the stretch
 };
 
 struct ClockResult {

@@ -52,6 +52,25 @@ LifeRow life_row(const CaseSpec& spec, const ClockState& at, const Profile& unwo
   return row;
 }
 
+LifeRow crack_row(const CaseSpec& spec, const ClockState& at, const Profile& unworn) {
+  const CrackSpec& crack = spec.life.crack;
+  const RailCrack& now = at.crack;
+  const double wheels = now.allowable / at.kilograms, mgt = 1e-9 * now.allowable, followed = 1e-9 * at.out.reached;
+  LifeRow row{.body = std::string(body_word(BodyId::rail)),
+              .zone = zone_name(spec, BodyId::rail, 0),
+              .place = "from the surface",
+              .mechanism = "crack too deep",
+              .wheels = {wheels, wheels, wheels},
+              .mgt = {mgt, mgt, mgt},
+              .rests_on = fmt::format("crack.face_friction = {}, crack.allowable = {} mm, followed to {:.3g} MGT",
+                                      crack.face_friction, 1e3 * crack.allowable, followed),
+              .followed = followed};
+  if (!now.there()) return row;
+  row.y = unworn.at(now.s).position.y;
+  row.depth = now.allowable < RailCrack::kNot ? crack.allowable : at.out.history.back().crack;
+  return row;
+}
+
 }  // namespace
 
 std::vector<LifeRow> clock_lives(const CaseSpec& spec, const ClockState& at, const Profile& unworn) {
@@ -76,6 +95,7 @@ std::vector<LifeRow> clock_lives(const CaseSpec& spec, const ClockState& at, con
                    .rests_on = fmt::format("followed to {:.3g} MGT", 1e-9 * at.out.reached),
                    .followed = 1e-9 * at.out.reached});
   }
+  if (spec.life.crack.depth > 0) out.push_back(crack_row(spec, at, unworn));
   return out;
 }
 

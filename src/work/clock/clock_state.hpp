@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clock/clock.hpp"
+#include "clock/rail_crack.hpp"
 #include "reader/case_file.hpp"
 
 namespace railstrata {
@@ -23,9 +24,10 @@ struct ClockState {
   double kilograms = 0;           ///< gross, by a wheel of the mixture
   double wheels = 0;              ///< so far, of all loads
   double next_grinding = kNever;  ///< kg, gross traffic
-  bool followed = false;          ///< the metal, under any load
-  std::set<std::string> noted;    ///< loads whose note has been made
-  ClockResult out;                ///< so far, without lives and profile
+  RailCrack crack;
+  bool followed = false;        ///< the metal, under any load
+  std::set<std::string> noted;  ///< loads whose note has been made
+  ClockResult out;              ///< so far, without lives and profile
 };
 
 /// All that the numbers of a state depend on but for the horizon, a key a line: the case with the content of its files,

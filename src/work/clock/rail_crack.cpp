@@ -1,0 +1,116 @@
+#include "clock/rail_crack.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clock/clock.hpp"
+#include "fatigue/row_strength.hpp"
+#include "result/patch.hpp"
+#include "result/stress_cycles.hpp"
+#include "spec/case_spec.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kPerMGT = 1e12;  // mm/MGT of m/kg
+
+Sym3 value_at_depth(const PassesStress& of, double depth) {
+  const auto below = std::upper_bound(of.depth.begin(), of.depth.end(), depth);
+  if (below == of.depth.begin()) return of.stress.front();
+  if (below == of.depth.end()) return of.stress.back();
+  const auto k = static_cast<std::size_t>(below - of.depth.begin());
+  const double share = (depth - of.depth[k - 1]) / (of.depth[k] - of.depth[k - 1]);
+  return (1 - share) * of.stress[k - 1] + share * of.stress[k];
+}
+
+}  // namespace
+
+PlaneOfRolling crack_plane(const CaseSpec& spec, const BemResult& result, const BemPatch& patch, double y,
+                           const PassesStress& passes) {
+  constexpr int kEvery = 3;  // of the rows of a section
+  const double deepest = spec.life.crack.allowable;
+  const std::vector<CycleRow> all = cycle_rows(result.rail, 0.5 * shorter_axis(measure_patch(patch.field)));
+  std::vector<CycleRow> rows;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const bool border =
+                   (r > 0 && all[r].zone != all[r - 1].zone) || (r + 1 < all.size() && all[r].zone != all[r + 1].zone),
+               last = all[r].depth > deepest || r + 1 == all.size();
+    if (r % kEvery == 0 || border || last) rows.push_back(all[r]);
+    if (last) break;
+  }
+  const StressHistory history = half_space_cycles(result, BodyId::rail, patch, rows, y);
+  const RowStrength strength = row_strength(spec, BodyId::rail, history);
+  std::vector<Sym3> residual = residual_rows(strength.residual_x, strength.residual_y);
+  residual.resize(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) residual[r] = residual[r] + value_at_depth(passes, rows[r].depth);
+  return {history, y, residual};
+}
+
+bool near_crack(const BemPatch& patch, double y) {
+  constexpr double kReach = 2;  // half widths
+  const PatchMeasures m = measure_patch(patch.field);
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (int i = 0; i < patch.field.size(); ++i) {
+    if (!(patch.field.p[static_cast<std::size_t>(i)] > 0)) continue;
+    low = std::min(low, patch.field.y[static_cast<std::size_t>(i)]);
+    high = std::max(high, patch.field.y[static_cast<std::size_t>(i)]);
+  }
+  return m.p_max > 0 && std::abs(y - 0.5 * (low + high)) < kReach * 0.5 * (high - low);
+}
+
+double CrackGrowth::at_step(int step) {
+  const auto found = known_.find(step);
+  if (found != known_.end()) return found->second;
+  const double depth = crack_.depth * std::pow(kApart, step);
+  double sum = 0;
+  for (const CrackLoad& load : loads_) sum += load.share * crack_state(crack_, depth, load.rail, load.plane).growth;
+  return known_.emplace(step, sum * std::sin(crack_.angle)).first->second;
+}
+
+double CrackGrowth::rate(double depth) {
+  const double place = std::max(0.0, std::log(depth / crack_.depth) / std::log(kApart));
+  const int step = static_cast<int>(place);
+  const double share = place - step;
+  return share > 0 ? (1 - share) * at_step(step) + share * at_step(step + 1) : at_step(step);
+}
+
+void grow(const CrackSpec& crack, CrackGrowth& growth, const CrackStep& step, RailCrack& rail) {
+  constexpr double kFinest = 0.05;  // of the depth, in one step
+  double done = 0;
+  const auto surface = [&](double at) {
+    return step.wheels > 0 ? step.before + (step.after - step.before) * at / step.wheels : step.after;
+  };
+  do {
+    const double left = step.wheels - done, depth = std::max(crack.depth, rail.tip - surface(done));
+    rail.tip = surface(done) + depth;
+    const double rate = depth < crack.allowable ? growth.rate(depth) : 0;
+    const double wheels = rate > 0 ? std::min(left, kFinest * depth / rate) : left;
+    rail.tip += rate * wheels;
+    done += wheels;
+    const double now = rail.tip - surface(done), kg = step.from + done * step.each;
+    if (now >= crack.detectable) rail.detectable = std::min(rail.detectable, kg);
+    if (now >= crack.allowable) rail.allowable = std::min(rail.allowable, kg);
+    if (rail.allowable < RailCrack::kNot) return;
+  } while (done < step.wheels * (1 - 1e-12));
+  rail.tip = std::max(rail.tip, step.after + crack.depth);
+}
+
+std::string crack_note(const CrackSpec& crack, const RailCrack& rail, const std::vector<ClockMoment>& history) {
+  if (!rail.there()) return {};
+  const auto mgt = [](double kg) { return fmt::format("{:.3g} MGT", 1e-9 * kg); };
+  std::string out = fmt::format("crack: begins after {} with a depth of {:.2g} mm", mgt(rail.begun), 1e3 * crack.depth);
+  if (rail.detectable < RailCrack::kNot)
+    out += fmt::format(", is {:.2g} mm deep after {}", 1e3 * crack.detectable, mgt(rail.detectable));
+  if (rail.allowable < RailCrack::kNot)
+    return out + fmt::format(" and {:.2g} mm after {}: inspect at least every {}", 1e3 * crack.allowable,
+                             mgt(rail.allowable), mgt(0.5 * (rail.allowable - rail.detectable)));
+  const ClockMoment& end = history.back();
+  if (!std::isfinite(end.crack_growth)) return out;
+  out += fmt::format(" and {:.2f} mm in the end, where traffic deepens it by {:.3g} mm/MGT", 1e3 * end.crack,
+                     kPerMGT * end.crack_growth);
+  return out + (end.crack > crack.depth ? "" : ": wear and grinding take off more than it grows");
+}
+
+}  // namespace railstrata
