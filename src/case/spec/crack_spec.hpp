@@ -1,6 +1,7 @@
 #pragma once
 // A crack in the rail.
 #include <numbers>
+#include <optional>
 
 #include "crack/crack_line.hpp"
 
@@ -11,6 +12,7 @@ struct CrackSpec {
   double top = 0;                              ///< m, of its start; 0: it breaks the surface
   double angle = 25 * std::numbers::pi / 180;  ///< rad, from the surface, as of CrackLine
   double lateral = 0;                          ///< m, from where the pressure is largest to the field side
+  std::optional<double> place;                 ///< m, y of the rail, of one that is there from the beginning of a life
   double face_friction = 0.2;
   CrackFluid fluid = CrackFluid::none;
   double aspect = 1;  ///< half the length at the surface over the length downwards

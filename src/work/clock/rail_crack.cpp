@@ -70,20 +70,21 @@ double CrackGrowth::at_step(int step) {
 }
 
 double CrackGrowth::rate(double depth) {
-  const double place = std::max(0.0, std::log(depth / crack_.depth) / std::log(kApart));
-  const int step = static_cast<int>(place);
+  const double place = std::log(depth / crack_.depth) / std::log(kApart);
+  const int step = static_cast<int>(std::floor(place));
   const double share = place - step;
   return share > 0 ? (1 - share) * at_step(step) + share * at_step(step + 1) : at_step(step);
 }
 
 void grow(const CrackSpec& crack, CrackGrowth& growth, const CrackStep& step, RailCrack& rail) {
   constexpr double kFinest = 0.05;  // of the depth, in one step
+  const double floor = crack.place ? kShallowest : crack.depth;
   double done = 0;
   const auto surface = [&](double at) {
     return step.wheels > 0 ? step.before + (step.after - step.before) * at / step.wheels : step.after;
   };
   do {
-    const double left = step.wheels - done, depth = std::max(crack.depth, rail.tip - surface(done));
+    const double left = step.wheels - done, depth = std::max(floor, rail.tip - surface(done));
     rail.tip = surface(done) + depth;
     const double rate = depth < crack.allowable ? growth.rate(depth) : 0;
     const double wheels = rate > 0 ? std::min(left, kFinest * depth / rate) : left;
@@ -94,13 +95,15 @@ void grow(const CrackSpec& crack, CrackGrowth& growth, const CrackStep& step, Ra
     if (now >= crack.allowable) rail.allowable = std::min(rail.allowable, kg);
     if (rail.allowable < RailCrack::kNot) return;
   } while (done < step.wheels * (1 - 1e-12));
-  rail.tip = std::max(rail.tip, step.after + crack.depth);
+  rail.tip = std::max(rail.tip, step.after + floor);
 }
 
 std::string crack_note(const CrackSpec& crack, const RailCrack& rail, const std::vector<ClockMoment>& history) {
   if (!rail.there()) return {};
   const auto mgt = [](double kg) { return fmt::format("{:.3g} MGT", 1e-9 * kg); };
-  std::string out = fmt::format("crack: begins after {} with a depth of {:.2g} mm", mgt(rail.begun), 1e3 * crack.depth);
+  std::string out =
+      crack.place ? fmt::format("crack: {:.2g} mm deep at first", 1e3 * crack.depth)
+                  : fmt::format("crack: begins after {} with a depth of {:.2g} mm", mgt(rail.begun), 1e3 * crack.depth);
   if (rail.detectable < RailCrack::kNot)
     out += fmt::format(", is {:.2g} mm deep after {}", 1e3 * crack.detectable, mgt(rail.detectable));
   if (rail.allowable < RailCrack::kNot)

@@ -5,7 +5,8 @@
 // It breaks the surface where the metal failed first, in the plane of rolling, at crack.angle. Each load's growth is
 // that of its stresses on the profile of the day (fatigue/crack_summary.hpp), with the residual stress that its process
 // and the passes have left; loads of all kinds add up by their numbers. While the metal there has failed it is never
-// shallower than crack.depth: a crack that wears away begins again. Growth ends at crack.allowable.
+// shallower than crack.depth: a crack that wears away begins again. With crack.place it is there from the beginning,
+// and no metal needs to fail. Growth ends at crack.allowable.
 #include <limits>
 #include <map>
 #include <string>
