@@ -12,8 +12,6 @@ constexpr auto crack = at<&CaseSpec::life, &LifeSpec::crack, Member>;
 bool cracked(const CaseSpec& spec, std::size_t) { return spec.life.crack.depth > 0; }
 bool followed(const CaseSpec& spec, std::size_t) { return spec.life.crack.depth > 0 && spec.life.until > 0; }
 
-constexpr double kDegree = 0.017453292519943295;
-
 }  // namespace
 
 OptionTable crack_table() {
@@ -29,14 +27,19 @@ OptionTable crack_table() {
            .where(cracked),
        option("angle", crack<&CrackSpec::angle>,
               "Between the crack and the surface: below 90 deg it goes down in the direction of rolling, above it "
-              "leans the other way",
-              kSlope, {15 * kDegree, 165 * kDegree})
+              "leans the other way; 15 to 165 deg",
+              kSlope, {0.26, 2.88})
            .where(cracked),
        option("lateral", crack<&CrackSpec::lateral>,
               "Place across, from where the pressure of the patch is largest, positive to the field side. In a "
               "life the crack is where the metal fails first",
               kLength, {-0.03, 0.03})
            .where(cracked),
+       option("place", crack<&CrackSpec::place>,
+              "Of a life: a crack that is there from the beginning, so far from the rail's axis, positive to the "
+              "field side. Not given: it begins where and when the metal fails first",
+              kLength, {-0.05, 0.05})
+           .where(followed),
        option("face_friction", crack<&CrackSpec::face_friction>,
               "Friction coefficient between the faces of the crack; 0.1 to 0.4 in the literature", kNumber, {0, 1})
            .where(cracked),

@@ -25,6 +25,22 @@ void refuse(CaseSource& source, const std::string& key, const std::string& value
   source.complain(key, fmt::format("{} = {}: {}", key, value, rule), remedy);
 }
 
+void check_crack(const CaseSpec& spec, CaseSource& source) {
+  const CrackSpec& crack = spec.life.crack;
+  const bool sound = source.sound({"crack.depth", "crack.top", "crack.detectable", "crack.allowable"});
+  if (!sound || !(crack.depth > 0)) return;
+  if (crack.top >= crack.depth)
+    refuse(source, "crack.top", length(crack.top), fmt::format("must lie above crack.depth = {}", length(crack.depth)),
+           "choose a smaller value");
+  if (spec.life.until > 0 && crack.detectable >= crack.allowable)
+    refuse(source, "crack.detectable", length(crack.detectable),
+           fmt::format("must be less than crack.allowable = {}", length(crack.allowable)), "choose a smaller value");
+  if (spec.life.until > 0 && crack.depth >= crack.allowable)
+    refuse(source, "crack.depth", length(crack.depth),
+           fmt::format("must be less than crack.allowable = {}", length(crack.allowable)),
+           "choose a smaller value, e.g. \"0.2 mm\"");
+}
+
 void check_drive(const CaseSpec& spec, CaseSource& source) {
   const DriveSpec& d = spec.drive;
   if (spec.transient.kind == TransientKind::shift) return;  // it takes nothing of the drive but friction
@@ -169,6 +185,7 @@ void check_passes(const CaseSpec& spec, CaseSource& source) {
 
 void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_clashes(spec, source);
+  check_crack(spec, source);
   check_drive(spec, source);
   check_transient(spec, source);
   check_friction_law(spec, source);

@@ -176,6 +176,8 @@ void Clock::begin() {
   now_.grid = metal_grid(from, to, options_.apart, options_.first_row, kDeepest);
   now_.metal_removed.assign(static_cast<std::size_t>(now_.grid.columns), 0.0);
   set_up();
+  if (const CrackSpec& crack = spec_.life.crack; crack.depth > 0 && crack.place)
+    now_.crack = {.s = unworn_.rail.s_at_y(*crack.place), .tip = crack.depth, .begun = 0};
   ClockMoment& start = now_.out.history.emplace_back();
   start.p_max = largest_pressure();
   if (!feet_.empty()) start.layer_left = feet_.front();

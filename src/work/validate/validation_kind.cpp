@@ -159,6 +159,8 @@ Columns<ClockResult> traffic_columns() {
            [=](const ClockResult& r) { return per_100_tonnes(r.history.back().removed, r); }},
           {"ductility_per_100MGT", unit::kCount,
            [=](const ClockResult& r) { return per_100_tonnes(r.history.back().ductility, r); }},
+          {"crack_growth", unit::both("_m_per_kg", "_mm_per_MGT", 1e12, "mm/MGT"),
+           [](const ClockResult& r) { return r.history.back().crack_growth; }},
           {"first_crack_MGT", unit::kCount, [](const ClockResult& r) {
              const LifeRow* first = shortest(r.lives);
              return first ? first->mgt.best : std::numeric_limits<double>::infinity();
