@@ -25,10 +25,12 @@ OptionTable crack_table() {
        option("top", crack<&CrackSpec::top>,
               "Depth of its upper end: a crack inside the rail. 0: it begins at the surface", kLength, {0, 0.05})
            .where(cracked),
-       option("angle", crack<&CrackSpec::angle>,
-              "Between the crack and the surface: below 90 deg it goes down in the direction of rolling, above it "
-              "leans the other way; 15 to 165 deg",
-              kSlope, {0.26, 2.88})
+       option("angle", crack<&CrackSpec::angle>, "Between the crack and the surface", kAngle, {0.26, 1.58})
+           .where(cracked),
+       option("azimuth", crack<&CrackSpec::azimuth>,
+              "Direction in which the crack goes down, from that of rolling towards the field side: 0 along the "
+              "rail, \"180 deg\" against the rolling. Not given: the direction in which it grows fastest",
+              kAngle, {-3.15, 3.15})
            .where(cracked),
        option("lateral", crack<&CrackSpec::lateral>,
               "Place across, from where the pressure of the patch is largest, positive to the field side. In a "

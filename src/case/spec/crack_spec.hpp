@@ -10,7 +10,9 @@ namespace railstrata {
 struct CrackSpec {
   double depth = 0;                            ///< m, of its end below the surface; 0: there is no crack
   double top = 0;                              ///< m, of its start; 0: it breaks the surface
-  double angle = 25 * std::numbers::pi / 180;  ///< rad, from the surface, as of CrackLine
+  double angle = 25 * std::numbers::pi / 180;  ///< rad, from the surface
+  std::optional<double> azimuth;               ///< rad, of its way down, from that of rolling to the field side; none:
+                                               ///< that in which it grows fastest
   double lateral = 0;                          ///< m, from where the pressure is largest to the field side
   std::optional<double> place;                 ///< m, y of the rail, of one that is there from the beginning of a life
   double face_friction = 0.2;

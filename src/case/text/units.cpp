@@ -95,6 +95,7 @@ const std::vector<Customary>& customary() {
       {dimension::kHardness, "HV", "a hardness", "380 HV", {"HV", "HBW"}},
       {dimension::kRotation, "rad/s", "a rotation", "400 rpm", {"rpm", "rad/s"}},
       {dimension::kSlope, "", "an inclination", "1:40", {"", "mrad", "rad", "deg"}},
+      {dimension::kAngle, "rad", "an angle", "25 deg", {"deg", "rad", "mrad"}},
   };
   return all;
 }
@@ -293,13 +294,14 @@ double parse_quantity(std::string_view whole, const Dimension& expected) {
   if (starts_with_comma(text.substr(length))) throw comma_in_number(text, length);
   const InputUnit unit = parse_unit(with_root_sign(unit_text), expected);
   const bool without_radian = expected == dimension::kSlope && unit.dimension == dimension::kNumber,
-             with_radian = expected == dimension::kSpin && unit.dimension == kAngleOverLength;
-  if (unit.dimension != expected && !without_radian && !with_radian)
+             with_radian = expected == dimension::kSpin && unit.dimension == kAngleOverLength,
+             angle = expected == dimension::kAngle && unit.dimension == dimension::kSlope;
+  if (unit.dimension != expected && !without_radian && !with_radian && !angle)
     throw UnitError(fmt::format("\"{}\" is not the unit of {}", unit_text, customary(expected).noun),
                     how_to_write(expected));
   const double scaled = scaled_number(number, unit.decimals);
   const double value = unit.factor == 1 ? scaled : scaled * unit.factor;
-  if (unit.dimension != dimension::kSlope) return value;
+  if (unit.dimension != dimension::kSlope || angle) return value;
   if (!(std::abs(value) < std::numbers::pi / 2))
     throw UnitError("is upright or beyond", fmt::format("write {}", describe(expected)));
   return std::tan(value);

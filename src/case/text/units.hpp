@@ -35,6 +35,8 @@ inline constexpr Dimension kHardness{0, 0, 0, 0, 0, 0, 1};
 inline constexpr Dimension kRotation{0, 0, -1, 1};  ///< of a spindle
 /// An inclination, kept as its tangent; written "1:40", "1/40", "25 mrad", "1.4 deg" or as the bare tangent.
 inline constexpr Dimension kSlope{0, 0, 0, 1};
+/// A direction, kept in rad; written "25 deg" or "0.4 rad".
+inline constexpr Dimension kAngle{0, 0, 0, 2};
 }  // namespace dimension
 
 /// A fault of the text of a quantity, and what to write instead.

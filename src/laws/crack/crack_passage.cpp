@@ -40,9 +40,20 @@ HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth) {
 CrackPassage pass_over(const CrackLine& line, const LayeredHalfSpace& body, const PlaneOfRolling& plane,
                        const PassageOptions& options) {
   CrackFaces faces(line, body, options.points);
-  const std::vector<double> places = faces.places();
-  const double end = line.x(line.length), from = std::min(0.0, end) - plane.ahead(),
+  const std::vector<double> points = faces.places();
+  const double end = plane.along(line.x(line.length)), from = std::min(0.0, end) - plane.ahead(),
                to = std::max(0.0, end) - plane.behind();
+  struct Place {
+    double wheel = 0, over_mouth = 0;
+    std::vector<LineTraction> applied = {};
+  };
+  std::vector<Place> places;
+  for (int i = 0; i < options.places; ++i) {
+    Place& now = places.emplace_back(Place{.wheel = from + (to - from) * i / (options.places - 1)});
+    for (const double r : points)
+      now.applied.push_back(traction_on(plane.at(line.x(r), line.z(r), now.wheel), line.angle));
+    now.over_mouth = std::max(0.0, -plane.at(0, 0, now.wheel).zz);
+  }
   CrackPassage out;
   StressIntensity before;
   for (bool repeats = false; !repeats && out.passes < options.most_passes;) {
@@ -51,19 +62,15 @@ CrackPassage pass_over(const CrackLine& line, const LayeredHalfSpace& body, cons
     out.passes = passes;
     double volume = 0;
     bool covered = false;
-    for (int i = 0; i < options.places; ++i) {
-      const double wheel = from + (to - from) * i / (options.places - 1);
-      std::vector<LineTraction> applied;
-      for (const double r : places) applied.push_back(traction_on(plane.at(line.x(r) - wheel, line.z(r)), line.angle));
-      const double over_mouth = std::max(0.0, -plane.at(-wheel, 0).zz);
-      double fluid = options.fluid == CrackFluid::mouth ? over_mouth : 0;
+    for (const Place& place : places) {
+      double fluid = options.fluid == CrackFluid::mouth ? place.over_mouth : 0;
       if (options.fluid == CrackFluid::trapped) {
-        if (covered && over_mouth > 0) fluid = trapped_pressure(faces, applied, options.friction, volume);
-        covered = over_mouth > 0;
+        if (covered && place.over_mouth > 0) fluid = trapped_pressure(faces, place.applied, options.friction, volume);
+        covered = place.over_mouth > 0;
       }
-      const CrackFaces::Faces now = faces.load(applied, options.friction, fluid);
+      const CrackFaces::Faces now = faces.load(place.applied, options.friction, fluid);
       if (!covered) volume = now.volume;
-      out.place.push_back(wheel);
+      out.place.push_back(place.wheel);
       out.end.push_back(now.end);
       if (now.start) out.start.push_back(*now.start);
       out.open.push_back(now.open);

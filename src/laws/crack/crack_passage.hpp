@@ -1,9 +1,9 @@
 #pragma once
 // Stress intensities of a crack while a wheel rolls over it.
 //
-// The plane of rolling at one place across; the wheel rolls along +x. The stresses of the body without a crack are
-// those of a passage (damage/stress_history.hpp) plus the residual stress; the crack is as wide as it is long in y
-// (plane strain), the load passes slowly (no inertia), and it passes again and again until the cycle repeats.
+// The wheel rolls along +x. The stresses of the body without a crack are those of a passage (damage/stress_history.hpp)
+// plus the residual stress; the crack does not end across its plane (plane strain, no mode III), the load passes slowly
+// (no inertia), and it passes again and again until the cycle repeats.
 #include <vector>
 
 #include "crack/crack_line.hpp"

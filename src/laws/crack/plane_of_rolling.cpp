@@ -2,26 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace railstrata {
 namespace {
 
-PlaneStress plane_of(const Sym3& s) { return {s.xx, s.zz, s.xz}; }
-PlaneStress mixed(const PlaneStress& a, const PlaneStress& b, double share) {
-  return {a.xx + share * (b.xx - a.xx), a.zz + share * (b.zz - a.zz), a.xz + share * (b.xz - a.xz)};
-}
-
 /// The interval of ascending values that holds one, and how far in it; ends stand for what is beyond.
 struct Between {
-  std::size_t low = 0;
+  int low = 0, high = 0;
   double share = 0;
+  template <class T>
+  T of(const T& a, const T& b) const {
+    return (1 - share) * a + share * b;
+  }
 };
 Between between(const std::vector<double>& of, double value) {
   if (of.size() < 2 || value <= of.front()) return {};
-  const auto high = std::min<std::size_t>(
-      static_cast<std::size_t>(std::upper_bound(of.begin(), of.end(), value) - of.begin()), of.size() - 1);
-  const double width = of[high] - of[high - 1];
-  return {high - 1, width > 0 ? std::min(1.0, (value - of[high - 1]) / width) : 1};
+  const auto above = std::upper_bound(of.begin(), of.end(), value) - of.begin();
+  const int high = static_cast<int>(std::min<std::ptrdiff_t>(above, static_cast<std::ptrdiff_t>(of.size()) - 1));
+  const double from = of[static_cast<std::size_t>(high) - 1], width = of[static_cast<std::size_t>(high)] - from;
+  return {high - 1, high, width > 0 ? std::min(1.0, (value - from) / width) : 1};
 }
 
 }  // namespace
@@ -31,32 +31,26 @@ LineTraction traction_on(const PlaneStress& s, double angle) {
   return {mean + half * c - s.xz * d, half * d + s.xz * c};
 }
 
-PlaneOfRolling::PlaneOfRolling(const StressHistory& history, double y, ResidualRows residual)
-    : x_(history.x), depth_(history.depth) {
-  check_residual(history, residual);
-  const Between column = between(history.y, y);
-  const int first = static_cast<int>(column.low), second = std::min(first + 1, history.columns() - 1);
-  for (int r = 0; r < history.rows(); ++r) {
-    residual_.push_back(plane_of(residual_of(residual, r)));
-    const Sym3 *a = history.cycle(r, first), *b = history.cycle(r, second);
-    for (int s = 0; s < history.samples(); ++s) stress_.push_back(mixed(plane_of(a[s]), plane_of(b[s]), column.share));
-  }
+PlaneOfRolling::PlaneOfRolling(StressHistory history, double y, double azimuth, std::vector<Sym3> residual)
+    : history_(std::move(history)), y_(y), azimuth_(azimuth), residual_(std::move(residual)) {
+  check_residual(history_, residual_);
 }
 
-PlaneStress PlaneOfRolling::in_row(std::size_t row, double x) const {
-  const PlaneStress* of = stress_.data() + row * x_.size();
-  const Between at = between(x_, x);
-  PlaneStress out = mixed(of[at.low], of[std::min(at.low + 1, x_.size() - 1)], at.share);
-  const double middle = 0.5 * (x_.front() + x_.back()), half = 0.5 * (x_.back() - x_.front());
-  const double away = std::abs(x - middle);
-  const double fall = away > half ? half * half / (away * away) : 1;
-  out = {fall * out.xx, fall * out.zz, fall * out.xz};
-  return {out.xx + residual_[row].xx, out.zz + residual_[row].zz, out.xz + residual_[row].xz};
+Sym3 PlaneOfRolling::in_row(int row, double x, double y) const {
+  const Between column = between(history_.y, y), sample = between(history_.x, x);
+  const Sym3 *a = history_.cycle(row, column.low), *b = history_.cycle(row, column.high);
+  const Sym3 found = column.of(sample.of(a[sample.low], a[sample.high]), sample.of(b[sample.low], b[sample.high]));
+  const double middle = 0.5 * (behind() + ahead()), half = 0.5 * (ahead() - behind()), away = std::abs(x - middle);
+  return (away > half ? half * half / (away * away) : 1) * found + residual_of(residual_, row);
 }
 
-PlaneStress PlaneOfRolling::at(double x, double depth) const {
-  const Between row = between(depth_, depth);
-  return mixed(in_row(row.low, x), in_row(std::min(row.low + 1, depth_.size() - 1), x), row.share);
+double PlaneOfRolling::along(double h) const { return h * std::cos(azimuth_); }
+
+PlaneStress PlaneOfRolling::at(double h, double depth, double wheel) const {
+  const double c = std::cos(azimuth_), s = std::sin(azimuth_), x = h * c - wheel, y = y_ + h * s;
+  const Between row = between(history_.depth, depth);
+  const Sym3 t = row.of(in_row(row.low, x, y), in_row(row.high, x, y));
+  return {c * c * t.xx + 2 * c * s * t.xy + s * s * t.yy, t.zz, c * t.xz + s * t.yz};
 }
 
 }  // namespace railstrata

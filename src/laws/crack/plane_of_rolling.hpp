@@ -1,6 +1,7 @@
 #pragma once
-// Stresses of the plane of rolling at a place across, from a passage. Plane strain; x along the surface, z into the
-// body.
+// Stresses on the plane of a crack while a wheel rolls over the rail, from a passage. Plane strain: the crack's plane
+// is normal to the vertical plane through h, a horizontal direction at an angle (the azimuth) from the direction of
+// rolling x towards y; z into the body.
 #include <vector>
 
 #include "damage/residual_rows.hpp"
@@ -8,7 +9,7 @@
 
 namespace railstrata {
 
-/// Pa, in the plane.
+/// Pa, in a plane; of x and z, or of h and z.
 struct PlaneStress {
   double xx = 0, zz = 0, xz = 0;
 };
@@ -20,22 +21,25 @@ struct LineTraction {
 };
 LineTraction traction_on(const PlaneStress& stress, double angle);
 
-/// Stresses of the plane of rolling at a place across.
 class PlaneOfRolling {
  public:
-  /// y [m] between columns of the history; residual: by row, or none.
-  PlaneOfRolling(const StressHistory& history, double y, ResidualRows residual);
-  /// x [m] from the history's origin, linear between samples and rows; beyond the samples the contact's part falls with
-  /// the square of the distance from their middle, below the rows it keeps that of the last one.
-  PlaneStress at(double x, double depth) const;
-  double behind() const { return x_.front(); }
-  double ahead() const { return x_.back(); }
+  /// y [m]: of the crack's start; residual: by row of the history, or none.
+  PlaneOfRolling(StressHistory history, double y, double azimuth, std::vector<Sym3> residual);
+  /// At h [m] from the crack's start and a depth, the contact's origin at `wheel` along the rail from there. Linear
+  /// between samples, columns and rows; beyond the samples the contact's part falls with the square of the distance
+  /// from their middle, beyond columns and rows it keeps that of the last one.
+  PlaneStress at(double h, double depth, double wheel) const;
+  double behind() const { return history_.x.front(); }
+  double ahead() const { return history_.x.back(); }
+  /// x of a place h along the plane.
+  double along(double h) const;
+  void turn(double azimuth) { azimuth_ = azimuth; }
 
  private:
-  PlaneStress in_row(std::size_t row, double x) const;
-  std::vector<double> x_, depth_;
-  std::vector<PlaneStress> stress_;    ///< row * samples + sample
-  std::vector<PlaneStress> residual_;  ///< of rows
+  Sym3 in_row(int row, double x, double y) const;
+  StressHistory history_;
+  double y_ = 0, azimuth_ = 0;
+  std::vector<Sym3> residual_;
 };
 
 }  // namespace railstrata

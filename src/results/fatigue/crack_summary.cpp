@@ -15,7 +15,7 @@
 namespace railstrata {
 namespace {
 
-constexpr double kShallowest = 0.1e-3;  // m, of the picture over depth
+constexpr double kTop = 0.1e-3;  // m, the first of the depths that are shown
 constexpr int kDepths = 14;
 
 /// Where a patch's pressure is largest, across.
@@ -70,28 +70,62 @@ CrackState crack_state(const CrackSpec& crack, double depth, const LayeredHalfSp
   return out;
 }
 
+PlaneOfRolling crack_plane(const CaseSpec& spec, const BemResult& result, const BemPatch& patch, const CrackPlace& at) {
+  constexpr int kEvery = 3;  // of the rows of a section
+  const PatchMeasures m = measure_patch(patch.field);
+  const std::vector<CycleRow> all = cycle_rows(result.rail, 0.5 * (patch.grid.line ? m.length : shorter_axis(m)));
+  std::vector<CycleRow> rows;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const bool top = r > 0 && all[r].zone != all[r - 1].zone, last = all[r].depth > at.deepest || r + 1 == all.size();
+    if (r % kEvery == 0 || top || last || all[r].zone != all[r + 1].zone) rows.push_back(all[r]);
+    if (last) break;
+  }
+  // as far across as a crack in any direction reaches, or in the given one
+  const double reach = at.deepest / std::tan(spec.life.crack.angle);
+  const double across = at.azimuth ? reach * std::sin(*at.azimuth) : reach;
+  StressHistory history =
+      half_space_cycles(result, BodyId::rail, patch, rows,
+                        AcrossRange{at.y + std::min(across, at.azimuth ? 0 : -reach), at.y + std::max(across, 0.0)});
+  const RowStrength strength = row_strength(spec, BodyId::rail, history);
+  std::vector<Sym3> residual = residual_rows(strength.residual_x, strength.residual_y);
+  residual.resize(rows.size());
+  if (at.further)
+    for (std::size_t r = 0; r < rows.size(); ++r) residual[r] = residual[r] + at.further(rows[r].depth);
+  return {std::move(history), at.y, at.azimuth.value_or(0), std::move(residual)};
+}
+
+double fastest_azimuth(const std::function<double(double azimuth)>& growth) {
+  constexpr int kDirections = 24;
+  double most = -1, out = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double azimuth = 2 * std::numbers::pi * (i <= kDirections / 2 ? i : i - kDirections) / kDirections;
+    const double rate = growth(azimuth);
+    if (rate > most) out = azimuth;
+    most = std::max(most, rate);
+  }
+  return out;
+}
+
 CrackResult half_space_crack(const CaseSpec& spec, const BemResult& result) {
   const CrackSpec& crack = spec.life.crack;
   const auto patches = patches_of(result);
   const BemPatch& patch = **std::max_element(patches.begin(), patches.end(), [](const BemPatch* a, const BemPatch* b) {
     return measure_patch(a->field).p_max < measure_patch(b->field).p_max;
   });
-  const PatchMeasures m = measure_patch(patch.field);
   const bool inside = crack.top > 0;
   const double deepest = inside ? crack.depth : std::max(crack.allowable, 1.5 * crack.depth);
-  std::vector<CycleRow> rows = cycle_rows(result.rail, 0.5 * (patch.grid.line ? m.length : shorter_axis(m)));
-  const auto enough = std::find_if(rows.begin(), rows.end(), [&](const CycleRow& r) { return r.depth > deepest; });
-  if (enough != rows.end()) rows.erase(enough + 1, rows.end());
   CrackResult out;
   out.y = loaded_line(patch.field) + crack.lateral;
-  const StressHistory history = half_space_cycles(result, BodyId::rail, patch, rows);
-  const RowStrength strength = row_strength(spec, BodyId::rail, history);
-  const std::vector<Sym3> residual = residual_rows(strength.residual_x, strength.residual_y);
-  const PlaneOfRolling plane(history, out.y, residual);
+  PlaneOfRolling plane = crack_plane(spec, result, patch, {.y = out.y, .deepest = deepest});
+  const auto in_direction = [&](double azimuth) {
+    plane.turn(azimuth);
+    return crack_state(crack, crack.depth, result.rail, plane).growth;
+  };
+  out.azimuth = crack.azimuth ? *crack.azimuth : fastest_azimuth(in_direction);
+  plane.turn(out.azimuth);
   out.state = crack_state(crack, crack.depth, result.rail, plane, &out.passage);
   for (int i = 0; i < kDepths && !inside; ++i)
-    out.depths.push_back(
-        crack_state(crack, kShallowest * std::pow(deepest / kShallowest, i / (kDepths - 1.0)), result.rail, plane));
+    out.depths.push_back(crack_state(crack, kTop * std::pow(deepest / kTop, i / (kDepths - 1.0)), result.rail, plane));
   out.notes = notes_of(crack, out, result.rail);
   return out;
 }
@@ -106,6 +140,7 @@ CrackSummary crack_summary(const CrackSpec& crack, const CrackResult& result) {
   out.growth = result.state.growth;
   out.kink_range = result.state.kink.range;
   out.kink_angle = crack.angle + result.state.kink.angle;
+  out.azimuth = result.azimuth;
   out.slipping = *std::max_element(result.passage.slipping.begin(), result.passage.slipping.end());
   return out;
 }

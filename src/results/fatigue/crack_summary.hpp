@@ -1,5 +1,6 @@
 #pragma once
 // The crack of a case under the wheel of a half-space result: K over the passage, and over depths.
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,12 +28,25 @@ struct CrackState {
 };
 
 struct CrackResult {
+  double azimuth = 0;              ///< rad, given or the fastest
   double y = 0;                    ///< m, in the contact plane from the rigid contact point
   CrackPassage passage;            ///< at the case's depth, with the factors
   CrackState state;                ///< the same
   std::vector<CrackState> depths;  ///< the same crack from shallow to deep; empty: it is inside
   std::vector<std::string> notes;
 };
+
+/// A place across where a crack begins, as far as it may reach.
+struct CrackPlace {
+  double y = 0, deepest = 0;                       ///< m; y in the contact plane of the patch
+  std::optional<double> azimuth = {};              ///< rad; none: it may turn to any
+  std::function<Sym3(double depth)> further = {};  ///< Pa, residual stress besides that of the process
+};
+/// The plane of a crack under a patch, with the residual stress of the process.
+PlaneOfRolling crack_plane(const CaseSpec& spec, const BemResult& result, const BemPatch& patch, const CrackPlace& at);
+
+/// The direction, in steps of 15 degrees, in which a crack grows fastest; 0 where it grows in none.
+double fastest_azimuth(const std::function<double(double azimuth)>& growth);
 
 /// The state of the crack at a depth under the stresses of a passage. passage: where it is wanted.
 CrackState crack_state(const CrackSpec& crack, double depth, const LayeredHalfSpace& body, const PlaneOfRolling& plane,

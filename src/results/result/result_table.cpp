@@ -395,22 +395,27 @@ constexpr auto crack = &at<&Summary::crack, Member>;
 /// Left out of summary.json where the case has no crack.
 std::vector<ResultNumber> crack_numbers() {
   using K = CrackSummary;
-  return {row("K_I", kRootMetres, crack<&K::K_I>, "K_I", "Crack, largest K_I",
-              "Largest stress intensity of opening at the crack's lower end over a passage of the wheel", kMain),
-          row("K_I_range", kRootMetres, crack<&K::K_I_range>, "ΔK_I", "Crack, range of K_I",
-              "Range of K_I over a passage, closed faces counted as 0", kMain),
-          row("K_II_range", kRootMetres, crack<&K::K_II_range>, "ΔK_II", "Crack, range of K_II",
-              "Range of the stress intensity of shear over a passage", kMain),
-          row("equivalent_range", kRootMetres, crack<&K::equivalent_range>, "ΔK_eq", "Crack, equivalent range",
-              "Range that crack.law counts with", kMain),
-          row("growth", kNanometres, crack<&K::growth>, "growth", "Crack growth a wheel",
-              "Growth of the crack along its direction in one passage, by crack.law", kMain),
-          row("kink_range", kRootMetres, crack<&K::kink_range>, "Δk_I of a kink", "Crack, opening of a kink",
-              "Largest range of the opening stress intensity of a small kink at the crack's end", kShown),
-          row("kink_angle", kDegrees, crack<&K::kink_angle>, "kink", "Crack, direction of the kink",
-              "Direction of that kink from the surface, in the sense of crack.angle", kShown),
-          row("slipping", kShare, crack<&K::slipping>, "slipping faces", "Crack, slipping faces",
-              "Largest share of the crack's length whose closed faces slip", kShown)};
+  return {
+      row("K_I", kRootMetres, crack<&K::K_I>, "K_I", "Crack, largest K_I",
+          "Largest stress intensity of opening at the crack's lower end over a passage of the wheel", kMain),
+      row("K_I_range", kRootMetres, crack<&K::K_I_range>, "ΔK_I", "Crack, range of K_I",
+          "Range of K_I over a passage, closed faces counted as 0", kMain),
+      row("K_II_range", kRootMetres, crack<&K::K_II_range>, "ΔK_II", "Crack, range of K_II",
+          "Range of the stress intensity of shear over a passage", kMain),
+      row("equivalent_range", kRootMetres, crack<&K::equivalent_range>, "ΔK_eq", "Crack, equivalent range",
+          "Range that crack.law counts with", kMain),
+      row("growth", kNanometres, crack<&K::growth>, "growth", "Crack growth a wheel",
+          "Growth of the crack along its direction in one passage, by crack.law", kMain),
+      row("azimuth", kDegrees, crack<&K::azimuth>, "azimuth", "Crack, direction",
+          "Direction in which the crack goes down, from that of rolling to the field side: crack.azimuth, or the one "
+          "in which it grows fastest",
+          kShown),
+      row("kink_range", kRootMetres, crack<&K::kink_range>, "Δk_I of a kink", "Crack, opening of a kink",
+          "Largest range of the opening stress intensity of a small kink at the crack's end", kShown),
+      row("kink_angle", kDegrees, crack<&K::kink_angle>, "kink", "Crack, direction of the kink",
+          "Direction of that kink from the surface, in the sense of crack.angle", kShown),
+      row("slipping", kShare, crack<&K::slipping>, "slipping faces", "Crack, slipping faces",
+          "Largest share of the crack's length whose closed faces slip", kShown)};
 }
 
 }  // namespace

@@ -60,10 +60,16 @@ struct Sampling {
   int more_x = 0, more_y = 0;
 };
 
-Sampling sampling_of(const BemPatch& patch, std::optional<double> place) {
+Sampling sampling_of(const BemPatch& patch, const std::optional<AcrossRange>& across) {
   const PatchExtent e = extent_of(patch.field);
   Sampling s{sampled_along(e.x), patch.grid.line ? std::vector<int>{0} : sampled(e.y, kBeside, kMostColumns)};
-  if (place && !patch.grid.line) s.y = {static_cast<int>(std::lround((*place - patch.grid.y0) / patch.grid.dy))};
+  if (across && !patch.grid.line) {
+    const auto cell = [&](double y) { return (y - patch.grid.y0) / patch.grid.dy; };
+    const int from = static_cast<int>(std::floor(cell(across->from))),
+              to = static_cast<int>(std::ceil(cell(across->to)));
+    s.y.clear();
+    for (int j = from; j <= to; j += std::max(1, (to - from) / kMostColumns + 1)) s.y.push_back(j);
+  }
   s.more_x = std::max({0, -s.x.front(), s.x.back() - patch.grid.nx + 1});
   s.more_y = std::max({0, -s.y.front(), s.y.back() - patch.grid.ny + 1});
   return s;
@@ -127,10 +133,10 @@ std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter) {
 }
 
 StressHistory half_space_cycles(const BemResult& result, BodyId body, const BemPatch& patch,
-                                const std::vector<CycleRow>& rows, std::optional<double> place) {
+                                const std::vector<CycleRow>& rows, const std::optional<AcrossRange>& across) {
   const Subsurface interior =
       body == BodyId::rail ? rail_interior(result.rail, patch) : wheel_interior(result.wheel, patch);
-  const Sampling at = sampling_of(patch, place);
+  const Sampling at = sampling_of(patch, across);
   const std::unique_ptr<Subsurface> wide = interior.widened(at.more_x, at.more_y);
   const PatchGrid& g = wide->grid();
   StressHistory out;

@@ -22,11 +22,16 @@ struct CycleRow {
 /// 4 s; of a layer at least four. Both sides of every interface are rows.
 std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter);
 
+/// y [m] in the axes of a patch's grid.
+struct AcrossRange {
+  double from = 0, to = 0;
+};
+
 /// For a patch of a half-space result: samples at cells from 3 semi-axes behind the patch's middle to 3 ahead of it,
 /// and 1.5 to either side, at most about 90 and 50. y is that of the patch's grid.
-/// place: y [m] of the only column that is wanted, to the nearest cell.
+/// across: of the columns that are wanted, to the cells around it, instead of those.
 StressHistory half_space_cycles(const BemResult& result, BodyId body, const BemPatch& patch,
-                                const std::vector<CycleRow>& rows, std::optional<double> place = {});
+                                const std::vector<CycleRow>& rows, const std::optional<AcrossRange>& across = {});
 
 /// For the contact band of a finite element body: the surface (recovered at the nodes, with the peaks between them,
 /// result/surface_peaks.hpp), the elements' centres, and both sides of every interface. Samples are at the nodes and

@@ -270,6 +270,7 @@ struct CrackSummary {
   double growth = kNotApplicable;                                                        ///< m a wheel, along the crack
   double kink_angle = kNotApplicable;  ///< rad from the surface, where a kink would open most
   double kink_range = kNotApplicable;  ///< Pa √m
+  double azimuth = kNotApplicable;     ///< rad, as of crack.azimuth
   double slipping = kNotApplicable;    ///< largest share of the length
 };
 

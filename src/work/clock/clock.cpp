@@ -298,13 +298,17 @@ void Clock::add_crack_loads(const CollectiveRow& row, std::vector<CrackLoad>& to
   if (!now_.crack.there() || now_.crack.allowable < RailCrack::kNot) return;
   const MetalGrid& g = metal_->grid();
   const double column = std::clamp((now_.crack.s - g.from) / g.apart, 0.0, g.columns - 1.0);
-  const PassesStress passes{g.depths(), metal_->residual(static_cast<int>(std::lround(column)))};
+  const auto passes = PassesStress{g.depths(), metal_->residual(static_cast<int>(std::lround(column)))};
   for (const BemPatch* patch : patches_of(*row.result)) {
     const double y =
         now_.crack.s - surface_.unworn_s_of(patch->place.rail_s) + along_plane(patch->contact, patch->place.point);
     if (!near_crack(*patch, y)) continue;
-    to.push_back(
-        {row.passages / now_.out.wheels, row.result->rail, crack_plane(row.spec, *row.result, *patch, y, passes)});
+    const CrackPlace place{
+        .y = y,
+        .deepest = spec_.life.crack.allowable,
+        .azimuth = std::isfinite(now_.crack.azimuth) ? std::optional(now_.crack.azimuth) : spec_.life.crack.azimuth,
+        .further = [&](double depth) { return stress_at(passes, depth); }};
+    to.push_back({row.passages / now_.out.wheels, row.result->rail, crack_plane(row.spec, *row.result, *patch, place)});
   }
 }
 
@@ -325,6 +329,14 @@ void Clock::grow_crack(ClockMoment& moment) {
   const MetalGrid& g = metal_->grid();
   const double place = std::clamp((now_.crack.s - g.from) / g.apart, 0.0, g.columns - 1.0);
   const auto column = static_cast<std::size_t>(std::lround(place));
+  if (crack_growth_ && std::isnan(now_.crack.azimuth)) {
+    const auto in_direction = [&](double azimuth) {
+      crack_growth_->turn(azimuth);
+      return crack_growth_->rate(spec_.life.crack.depth);
+    };
+    now_.crack.azimuth = spec_.life.crack.azimuth ? *spec_.life.crack.azimuth : fastest_azimuth(in_direction);
+    crack_growth_->turn(now_.crack.azimuth);
+  }
   if (crack_growth_)
     for (const Sinking& s : sinkings_)
       grow(spec_.life.crack, *crack_growth_,

@@ -4,48 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "clock/clock.hpp"
-#include "fatigue/row_strength.hpp"
 #include "result/patch.hpp"
-#include "result/stress_cycles.hpp"
-#include "spec/case_spec.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kPerMGT = 1e12;  // mm/MGT of m/kg
 
-Sym3 value_at_depth(const PassesStress& of, double depth) {
+}  // namespace
+
+Sym3 stress_at(const PassesStress& of, double depth) {
   const auto below = std::upper_bound(of.depth.begin(), of.depth.end(), depth);
   if (below == of.depth.begin()) return of.stress.front();
   if (below == of.depth.end()) return of.stress.back();
   const auto k = static_cast<std::size_t>(below - of.depth.begin());
   const double share = (depth - of.depth[k - 1]) / (of.depth[k] - of.depth[k - 1]);
   return (1 - share) * of.stress[k - 1] + share * of.stress[k];
-}
-
-}  // namespace
-
-PlaneOfRolling crack_plane(const CaseSpec& spec, const BemResult& result, const BemPatch& patch, double y,
-                           const PassesStress& passes) {
-  constexpr int kEvery = 3;  // of the rows of a section
-  const double deepest = spec.life.crack.allowable;
-  const std::vector<CycleRow> all = cycle_rows(result.rail, 0.5 * shorter_axis(measure_patch(patch.field)));
-  std::vector<CycleRow> rows;
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    const bool border =
-                   (r > 0 && all[r].zone != all[r - 1].zone) || (r + 1 < all.size() && all[r].zone != all[r + 1].zone),
-               last = all[r].depth > deepest || r + 1 == all.size();
-    if (r % kEvery == 0 || border || last) rows.push_back(all[r]);
-    if (last) break;
-  }
-  const StressHistory history = half_space_cycles(result, BodyId::rail, patch, rows, y);
-  const RowStrength strength = row_strength(spec, BodyId::rail, history);
-  std::vector<Sym3> residual = residual_rows(strength.residual_x, strength.residual_y);
-  residual.resize(rows.size());
-  for (std::size_t r = 0; r < rows.size(); ++r) residual[r] = residual[r] + value_at_depth(passes, rows[r].depth);
-  return {history, y, residual};
 }
 
 bool near_crack(const BemPatch& patch, double y) {
@@ -76,6 +53,12 @@ double CrackGrowth::rate(double depth) {
   return share > 0 ? (1 - share) * at_step(step) + share * at_step(step + 1) : at_step(step);
 }
 
+void CrackGrowth::turn(double azimuth) {
+  crack_.azimuth = azimuth;
+  for (CrackLoad& load : loads_) load.plane.turn(azimuth);
+  known_.clear();
+}
+
 void grow(const CrackSpec& crack, CrackGrowth& growth, const CrackStep& step, RailCrack& rail) {
   constexpr double kFinest = 0.05;  // of the depth, in one step
   const double floor = crack.place ? kShallowest : crack.depth;
@@ -104,6 +87,8 @@ std::string crack_note(const CrackSpec& crack, const RailCrack& rail, const std:
   std::string out =
       crack.place ? fmt::format("crack: {:.2g} mm deep at first", 1e3 * crack.depth)
                   : fmt::format("crack: begins after {} with a depth of {:.2g} mm", mgt(rail.begun), 1e3 * crack.depth);
+  if (std::isfinite(rail.azimuth))
+    out += fmt::format(", goes down at {:.0f} deg from the rolling", rail.azimuth * 180 / std::numbers::pi);
   if (rail.detectable < RailCrack::kNot)
     out += fmt::format(", is {:.2g} mm deep after {}", 1e3 * crack.detectable, mgt(rail.detectable));
   if (rail.allowable < RailCrack::kNot)

@@ -24,7 +24,8 @@ struct ClockMoment;  // clock/clock.hpp
 struct RailCrack {
   static constexpr double kNot = std::numeric_limits<double>::infinity();
   double s = 0, tip = 0;  ///< m, of the unworn rail: its place across, and how deep its end lies
-  double begun = kNot, detectable = kNot, allowable = kNot;  ///< kg, gross traffic by which it was so deep
+  double azimuth = std::numeric_limits<double>::quiet_NaN();  ///< rad; NaN: it has not chosen yet
+  double begun = kNot, detectable = kNot, allowable = kNot;   ///< kg, gross traffic by which it was so deep
   bool there() const { return begun < kNot; }
 };
 
@@ -40,10 +41,7 @@ struct PassesStress {
   std::vector<double> depth;
   std::vector<Sym3> stress;
 };
-/// The plane of a patch at a place y [m] across in its contact plane, with the residual stress of the process and of
-/// passes.
-PlaneOfRolling crack_plane(const CaseSpec& spec, const BemResult& result, const BemPatch& patch, double y,
-                           const PassesStress& passes);
+Sym3 stress_at(const PassesStress& of, double depth);
 /// Whether a patch is near enough to a place across to matter.
 bool near_crack(const BemPatch& patch, double y);
 
@@ -53,6 +51,7 @@ class CrackGrowth {
   CrackGrowth(const CrackSpec& crack, std::vector<CrackLoad> loads) : crack_(crack), loads_(std::move(loads)) {}
   /// m of depth, by one wheel of the mixture; linear between depths that grow by kApart.
   double rate(double depth);
+  void turn(double azimuth);
 
  private:
   static constexpr double kApart = 1.2;
