@@ -96,6 +96,7 @@ export interface Summary {
     bodies: BodyShakedown[];
   };
   fatigue?: BodyFatigue[];
+  crack?: Record<string, number|null>;
   plastic?: PlasticNumbers;
   residual?: ResidualNumbers;
   run: Record<string, number|string|null>;

@@ -132,6 +132,7 @@ CrackResult half_space_crack(const CaseSpec& spec, const BemResult& result) {
 
 CrackSummary crack_summary(const CrackSpec& crack, const CrackResult& result) {
   CrackSummary out;
+  out.depth = crack.depth;
   out.K_I = 0;
   for (const StressIntensity& k : result.passage.end) out.K_I = std::max(out.K_I, k.I);
   out.K_I_range = result.state.range.I;

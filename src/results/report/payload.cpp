@@ -344,6 +344,13 @@ Json shakedown(const ReportRun& run) {
   return out;
 }
 
+/// Of a case with a crack: its passage, and the depths that it might have.
+Json crack(const ReportRun& run) {
+  const CsvTable *passage = run.table("crack"), *depths = run.table("crack_depths");
+  if (!passage) return nullptr;
+  return {{"passage", table_json(*passage)}, {"depths", depths ? table_json(*depths) : Json(nullptr)}};
+}
+
 /// The name alone of what is an absolute path: a page is sent to others, where the folders of one's machine lie is not.
 std::string without_folders(const std::string& word) {
   const std::filesystem::path path = word;
@@ -401,7 +408,8 @@ Json run_json(const ReportRun& run, bool with_slices) {
           {"sections", sections(run)},
           {"residual", residual(run)},
           {"slices", with_slices ? slices(run) : Json::object()},
-          {"shakedown", shakedown(run)}};
+          {"shakedown", shakedown(run)},
+          {"crack", crack(run)}};
 }
 
 Json answer_json(const ReportAnswer& a) { return {{"tone", a.tone}, {"title", a.title}, {"text", a.text}}; }

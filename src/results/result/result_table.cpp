@@ -396,6 +396,7 @@ constexpr auto crack = &at<&Summary::crack, Member>;
 std::vector<ResultNumber> crack_numbers() {
   using K = CrackSummary;
   return {
+      row("depth", kMillimetres, crack<&K::depth>, "crack", "Crack, depth", "Depth of the crack's lower end", kShown),
       row("K_I", kRootMetres, crack<&K::K_I>, "K_I", "Crack, largest K_I",
           "Largest stress intensity of opening at the crack's lower end over a passage of the wheel", kMain),
       row("K_I_range", kRootMetres, crack<&K::K_I_range>, "ΔK_I", "Crack, range of K_I",

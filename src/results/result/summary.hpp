@@ -265,6 +265,7 @@ struct LifeSummary {
 
 /// A crack of the rail in one passage (fatigue/crack_summary.hpp), at its lower end; where the case gives one.
 struct CrackSummary {
+  double depth = kNotApplicable;  ///< m
   double K_I = kNotApplicable, K_I_range = kNotApplicable, K_II_range = kNotApplicable;  ///< Pa √m
   double equivalent_range = kNotApplicable;                                              ///< Pa √m, of the growth law
   double growth = kNotApplicable;                                                        ///< m a wheel, along the crack

@@ -124,6 +124,7 @@ export interface Run {
     sliding?: Columns
   }
   >> ;
+  crack: {passage: Columns; depths: Columns | null}|null;
 }
 
 export interface Check {

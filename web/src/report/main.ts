@@ -5,6 +5,7 @@ import {drawAll, forget, frame, setOrigin, type Figure} from "../figures";
 import {numberText} from "../text";
 import {kDark, kLight, type Theme} from "../theme";
 import type {BodyName, Span} from "../types";
+import {crackPart} from "./crack";
 import type {ChartData, ChartSeries, Maps, Report, Run, Table} from "./data";
 import {geometryFigures, geometryTable} from "./geometry";
 import {gridsRow} from "./grids";
@@ -148,7 +149,7 @@ function stressPart(runs: Run[]): HTMLElement {
 function runParts(runs: Run[]): HTMLElement[] {
   const history = [...historyFigures(runs), ...transientFigures(runs)];
   const yielded = yieldedPart(runs);
-  const lasts = lastsPart(runs);
+  const lasts = lastsPart(runs), crack = crackPart(runs);
   const way = [...filmParts(runs), ...(history.length ? [grid(history)] : [])];
   return [
     part("numbers", "Numbers", ...numbersTable(runs)),
@@ -157,6 +158,7 @@ function runParts(runs: Run[]): HTMLElement[] {
     stressPart(runs),
     ...(yielded ? [yielded] : []),
     ...(lasts ? [lasts] : []),
+    ...(crack ? [crack] : []),
     ...(way.length ? [part("history", "On the way", ...way)] : []),
     part("origin", "Origin", ...origin(runs)),
   ];
@@ -223,6 +225,7 @@ function contents(): [id: string, name: string][] {
     ["stress", "stress", runs],
     ["yielded", "what yielded", report.runs.some((r) => r.summary.plastic)],
     ["lasts", "does it last?", report.runs.some((r) => r.summary.shakedown)],
+    ["crack", "the crack", report.runs.some((r) => r.crack)],
     ["history", "history", report.runs.some((r) => r.history)],
     ["origin", "origin", runs],
     ["what-if", "what if?", hasWhatIf()],
