@@ -19,9 +19,10 @@ constexpr double kTop = 0.1e-3;  // m, the first of the depths that are shown
 constexpr int kDepths = 14;
 
 /// Where a patch's pressure is largest, across.
-double loaded_line(const ContactField& field) {
-  const auto most = std::max_element(field.p.begin(), field.p.end());
-  return field.y[static_cast<std::size_t>(most - field.p.begin())];
+double loaded_line(const BemPatch& patch) {
+  const std::vector<double>& p = patch.field.p;
+  const auto most = static_cast<int>(std::max_element(p.begin(), p.end()) - p.begin());
+  return patch.grid.y(patch.grid.line ? 0 : most % patch.field.columns);
 }
 
 /// What the numbers do not say.
@@ -39,11 +40,13 @@ std::vector<std::string> notes_of(const CrackSpec& crack, const CrackResult& fou
     }
   const double down = found.state.kink.angle + crack.angle;
   const double kinked = growth_rate(crack.law, {found.state.kink.range, 0}, crack.threshold);
-  if (kinked > found.state.growth)
-    out.push_back(
-        fmt::format("crack: a branch at {:.0f} deg from the surface would grow {:.2g} times as fast: it turns {}",
-                    down * 180 / std::numbers::pi, found.state.growth > 0 ? kinked / found.state.growth : HUGE_VAL,
-                    std::sin(down) > std::sin(crack.angle) ? "down" : "towards the surface"));
+  if (kinked > found.state.growth) {
+    const std::string times = found.state.growth > 0 ? fmt::format("{:.2g} times as fast", kinked / found.state.growth)
+                                                     : "while the crack itself does not grow";
+    out.push_back(fmt::format("crack: a branch at {:.0f} deg from the surface would grow {}: it turns {}",
+                              down * 180 / std::numbers::pi, times,
+                              std::sin(down) > std::sin(crack.angle) ? "down" : "towards the surface"));
+  }
   return out;
 }
 
@@ -115,7 +118,7 @@ CrackResult half_space_crack(const CaseSpec& spec, const BemResult& result) {
   const bool inside = crack.top > 0;
   const double deepest = inside ? crack.depth : std::max(crack.allowable, 1.5 * crack.depth);
   CrackResult out;
-  out.y = loaded_line(patch.field) + crack.lateral;
+  out.y = loaded_line(patch) + crack.lateral;
   PlaneOfRolling plane = crack_plane(spec, result, patch, {.y = out.y, .deepest = deepest});
   const auto in_direction = [&](double azimuth) {
     plane.turn(azimuth);

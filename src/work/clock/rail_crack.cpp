@@ -27,14 +27,14 @@ Sym3 stress_at(const PassesStress& of, double depth) {
 
 bool near_crack(const BemPatch& patch, double y) {
   constexpr double kReach = 2;  // half widths
-  const PatchMeasures m = measure_patch(patch.field);
-  double low = HUGE_VAL, high = -HUGE_VAL;
+  const PatchGrid& g = patch.grid;
+  int first = g.ny, last = -1;
   for (int i = 0; i < patch.field.size(); ++i) {
     if (!(patch.field.p[static_cast<std::size_t>(i)] > 0)) continue;
-    low = std::min(low, patch.field.y[static_cast<std::size_t>(i)]);
-    high = std::max(high, patch.field.y[static_cast<std::size_t>(i)]);
+    first = std::min(first, i % patch.field.columns);
+    last = std::max(last, i % patch.field.columns);
   }
-  return m.p_max > 0 && std::abs(y - 0.5 * (low + high)) < kReach * 0.5 * (high - low);
+  return last >= first && std::abs(y - 0.5 * (g.y(first) + g.y(last))) < kReach * 0.5 * (last - first + 1) * g.dy;
 }
 
 double CrackGrowth::at_step(int step) {
