@@ -6,6 +6,7 @@
 
 #include "crack/crack_passage.hpp"
 #include "crack/dislocation.hpp"
+#include "crack/layered_dislocation.hpp"
 
 namespace railstrata {
 
@@ -25,8 +26,9 @@ CrackFaces::CrackFaces(const CrackLine& line, const LayeredHalfSpace& body, int 
     for (const bool opens : {true, false}) {
       for (Eigen::Index k = 0; k < n; ++k)
         for (Eigen::Index j = 0; j < nodes.size(); ++j) {
-          const LineTraction t = traction_on(
-              stress(material, place(rule_->point[k]), place(nodes[j]), opens ? across : along), line.angle);
+          const LineTraction t = traction_on(stress(material_at(body, place(rule_->point[k]).imag()),
+                                                    place(rule_->point[k]), place(nodes[j]), opens ? across : along),
+                                             line.angle);
           traction(k, j) = t.normal;
           traction(n + k, j) = t.shear;
         }
@@ -35,6 +37,17 @@ CrackFaces::CrackFaces(const CrackLine& line, const LayeredHalfSpace& body, int 
   };
   add(whole_plane_stress, rule_->node, rule_->density);
   add(image_stress, rule_->image_node, rule_->image_density);
+  const auto points_of = [&](const Eigen::VectorXd& shares) {
+    std::vector<CrackPoint> out;
+    for (const double share : shares) out.push_back({line.x(share * line.length), line.z(share * line.length)});
+    return out;
+  };
+  const Eigen::MatrixXd layers = layers_traction(body, line.angle, points_of(rule_->point), points_of(rule_->node),
+                                                 line.length / static_cast<double>(points));
+  if (const Eigen::Index nodes = rule_->node.size(); layers.size() > 0) {
+    stiffness_.leftCols(n) -= layers.leftCols(nodes) * rule_->density;
+    stiffness_.rightCols(n) -= layers.rightCols(nodes) * rule_->density;
+  }
   state_.assign(static_cast<std::size_t>(n), State::stuck);
   before_ = Eigen::VectorXd::Zero(2 * n);
 }

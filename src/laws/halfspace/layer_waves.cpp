@@ -5,16 +5,14 @@
 
 namespace railstrata {
 
-namespace {
+namespace layer_wave {
 
-/// Decaying waves at k z below the layer's top, without their factor exp(-kz).
 WaveState decaying(double G, double kappa, double kz) {
   WaveState w;
   w << 1, -kz, -1, kappa + kz, -2 * G, G * (kappa - 1 + 2 * kz), 2 * G, -G * (kappa + 1 + 2 * kz);
   return w;
 }
 
-/// Growing waves at k eta above the layer's bottom, without exp(-k eta): the mirror image.
 WaveState growing(double G, double kappa, double k_eta) {
   WaveState w = decaying(G, kappa, k_eta);
   w.row(1) *= -1;
@@ -22,7 +20,9 @@ WaveState growing(double G, double kappa, double k_eta) {
   return w;
 }
 
-}  // namespace
+}  // namespace layer_wave
+
+using namespace layer_wave;
 
 LayerWaves::LayerWaves(const LayeredHalfSpace& body, double k) : k_(k) {
   double top = 0;

@@ -15,6 +15,13 @@ using WaveState = Eigen::Matrix<double, 4, 2>;
 /// State (V, Q/k) of the shear wave across x': u_y' = V e^{ikx'}, sigma_y'z = Q e^{ikx'}.
 using ShearState = Eigen::Vector2d;
 
+namespace layer_wave {
+/// Decaying waves at k z below a layer's top, without their factor exp(-kz); kappa = 3 - 4 nu.
+WaveState decaying(double G, double kappa, double kz);
+/// Growing waves at k eta above a layer's bottom, without exp(-k eta): the mirror image.
+WaveState growing(double G, double kappa, double k_eta);
+}  // namespace layer_wave
+
 class LayerWaves {
  public:
   LayerWaves(const LayeredHalfSpace& body, double k);
