@@ -26,7 +26,8 @@ LIST = re.compile(r"^\s*([-*]|\d+\.) ")
 SECTIONS = [
     ("Start", ["README.md", "docs/tutorial.ipynb", "docs/commands.md", "docs/windows.md", "docs/conventions.md"]),
     ("Use", ["docs/bem.md", "docs/finite-elements.md", "docs/friction.md", "docs/checks.md", "docs/damage.md",
-             "docs/traffic-range.md", "docs/curve.md", "docs/passes.md", "docs/material.md", "docs/study.md",
+             "docs/traffic-range.md", "docs/cracks.md", "docs/curve.md", "docs/passes.md", "docs/material.md",
+             "docs/study.md",
              "docs/report.md", "docs/explorer.md", "docs/export.md", "docs/creep-table.md", "docs/track.md",
              "docs/validate.md", "docs/gpu.md"]),
     ("Theory", ["docs/bem-theory.md", "docs/finite-elements-theory.md", "docs/damage-theory.md",

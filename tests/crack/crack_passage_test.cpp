@@ -16,7 +16,8 @@ using std::numbers::pi;
 constexpr double kHalf = 6e-3, kPressure = 1200e6;
 const LayeredHalfSpace kSteel{{}, {210e9, 0.3}};
 
-/// McEwen's stresses of p0 sqrt(1 - x²/a²) and of a traction on the rail along -x, `share` times as large. [Johnson1985]
+/// McEwen's stresses of p0 sqrt(1 - x²/a²) and of a traction on the rail along -x, `share` times as large.
+/// [Johnson1985]
 Sym3 line_contact(double x, double z, double share) {
   const double a = kHalf, A = a * a - x * x + z * z, B = std::sqrt(A * A + 4 * x * x * z * z);
   const double m = std::sqrt(0.5 * (B + A)), n = std::copysign(std::sqrt(std::max(0.0, 0.5 * (B - A))), x),
@@ -109,7 +110,8 @@ TEST(CrackGrowth, LawsMeetTheirSources) {
 }
 
 TEST(CrackGrowth, FrontsOfTheirLimits) {
-  const FrontFactors straight = front_factors(1e6, 0.3), circle = front_factors(1, 0.3), near = front_factors(1.0002, 0.3);
+  const FrontFactors straight = front_factors(1e6, 0.3), circle = front_factors(1, 0.3),
+                     near = front_factors(1.0002, 0.3);
   EXPECT_NEAR(straight.II, 1, 1e-5);
   EXPECT_NEAR(straight.I, 1.13 / 1.1215, 1e-5);
   EXPECT_NEAR(circle.II, 4 / (pi * 1.7), 1e-12);

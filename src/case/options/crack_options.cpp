@@ -70,7 +70,7 @@ OptionTable crack_table() {
            .where(followed),
        option("allowable", crack<&CrackSpec::allowable>, "Depth of a crack that ends the rail's life", kLength,
               above(0, 0.05))
-           .where(followed)},
+           .where(cracked)},
       {},
       {}};
 }

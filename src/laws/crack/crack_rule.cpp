@@ -55,6 +55,29 @@ struct Panel {
   }
 };
 
+/// r/c of 1 - r/c = w².
+constexpr auto share_of = [](double w) { return 1 - w * w; };
+
+/// Panels of 1 - w that halve towards the mouth, to its nearest point.
+template <class Values>
+void add_panels(const Values& values_at, const Eigen::MatrixXd& density, double nearest, CrackRule& rule) {
+  const Panel panel;
+  const int panels = 2 + static_cast<int>(std::ceil(-std::log2(nearest)));
+  rule.image_node.resize(panels * Panel::kPoints);
+  rule.image_density.resize(panels * Panel::kPoints, density.cols());
+  double low = 0.5, high = 1;  // of 1 - w
+  for (int i = 0, at = 0; i < panels; ++i) {
+    if (i + 1 == panels) low = 0;
+    for (int k = 0; k < Panel::kPoints; ++k, ++at) {
+      const double place = 1 - (low + (high - low) * panel.node[k]);
+      rule.image_node[at] = share_of(place);
+      rule.image_density.row(at) = (high - low) * panel.weight[k] * values_at(place) * density;
+    }
+    high = low;
+    low *= 0.5;
+  }
+}
+
 CrackRule mouth_rule(int n) {
   const int order = 2 * n;
   const auto last = static_cast<std::size_t>(order);
@@ -96,28 +119,13 @@ CrackRule mouth_rule(int n) {
       jump(k, j) = weight[j] * sum;
     }
   }
-  const auto share_of = [](double place) { return 1 - place * place; };
   CrackRule rule;
   rule.node = w.unaryExpr(share_of);
   rule.point = v.unaryExpr(share_of);
   const Eigen::MatrixXd density = jump.inverse();
   rule.density = weight.asDiagonal() * density;
   rule.end = values_at(0) * density;
-  const Panel panel;
-  const int panels = 2 + static_cast<int>(std::ceil(-std::log2(1 - v[n - 1])));
-  rule.image_node.resize(panels * Panel::kPoints);
-  rule.image_density.resize(panels * Panel::kPoints, n);
-  double low = 0.5, high = 1;  // of 1 - w
-  for (int i = 0, at = 0; i < panels; ++i) {
-    if (i + 1 == panels) low = 0;
-    for (int k = 0; k < Panel::kPoints; ++k, ++at) {
-      const double place = 1 - (low + (high - low) * panel.node[k]);
-      rule.image_node[at] = share_of(place);
-      rule.image_density.row(at) = (high - low) * panel.weight[k] * values_at(place) * density;
-    }
-    high = low;
-    low *= 0.5;
-  }
+  add_panels(values_at, density, 1 - v[n - 1], rule);
   return rule;
 }
 

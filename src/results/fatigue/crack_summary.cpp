@@ -50,6 +50,19 @@ std::vector<std::string> notes_of(const CrackSpec& crack, const CrackResult& fou
   return out;
 }
 
+/// Wheels in which a crack grows from one depth to another: the sum of Δa over the growth, trapezoids in depth.
+double wheels_between(const CrackSpec& crack, const CrackResult& result, double to) {
+  if (result.depths.empty() || !(to > crack.depth)) return kNotApplicable;
+  std::vector<CrackState> way{result.state};
+  for (const CrackState& state : result.depths)
+    if (state.depth > crack.depth && state.depth <= to * (1 + 1e-9)) way.push_back(state);
+  double wheels = 0;
+  for (std::size_t i = 1; i < way.size(); ++i)
+    wheels +=
+        (way[i].depth - way[i - 1].depth) / std::sin(crack.angle) * 0.5 * (1 / way[i].growth + 1 / way[i - 1].growth);
+  return wheels;
+}
+
 }  // namespace
 
 CrackLine crack_line(const CrackSpec& crack, double depth) {
@@ -116,7 +129,7 @@ CrackResult half_space_crack(const CaseSpec& spec, const BemResult& result) {
     return measure_patch(a->field).p_max < measure_patch(b->field).p_max;
   });
   const bool inside = crack.top > 0;
-  const double deepest = inside ? crack.depth : std::max(crack.allowable, 1.5 * crack.depth);
+  const double deepest = inside ? crack.depth : std::max(crack.allowable, crack.depth);
   CrackResult out;
   out.y = loaded_line(patch) + crack.lateral;
   PlaneOfRolling plane = crack_plane(spec, result, patch, {.y = out.y, .deepest = deepest});
@@ -133,11 +146,9 @@ CrackResult half_space_crack(const CaseSpec& spec, const BemResult& result) {
   return out;
 }
 
-CrackSummary crack_summary(const CrackSpec& crack, const CrackResult& result) {
+CrackSummary crack_summary(const CrackSpec& crack, const CrackResult& result, double wheel_force) {
   CrackSummary out;
   out.depth = crack.depth;
-  out.K_I = 0;
-  for (const StressIntensity& k : result.passage.end) out.K_I = std::max(out.K_I, k.I);
   out.K_I_range = result.state.range.I;
   out.K_II_range = result.state.range.II;
   out.equivalent_range = result.state.equivalent;
@@ -145,6 +156,7 @@ CrackSummary crack_summary(const CrackSpec& crack, const CrackResult& result) {
   out.kink_range = result.state.kink.range;
   out.kink_angle = crack.angle + result.state.kink.angle;
   out.azimuth = result.azimuth;
+  out.life = wheels_between(crack, result, crack.allowable) * 1e3 * gross_tonnes(wheel_force);
   out.slipping = *std::max_element(result.passage.slipping.begin(), result.passage.slipping.end());
   return out;
 }

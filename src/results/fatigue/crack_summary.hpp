@@ -54,6 +54,7 @@ CrackState crack_state(const CrackSpec& crack, double depth, const LayeredHalfSp
 
 /// Of the patch with the largest pressure. The case has a crack.
 CrackResult half_space_crack(const CaseSpec& spec, const BemResult& result);
-CrackSummary crack_summary(const CrackSpec& crack, const CrackResult& result);
+/// wheel_force: N, of each wheel, for traffic in gross tonnes.
+CrackSummary crack_summary(const CrackSpec& crack, const CrackResult& result, double wheel_force);
 
 }  // namespace railstrata

@@ -13,17 +13,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The numbers of one group, in the order of the table.
+/// The numbers of one group, in the order of the table; a life that does not end as text.
 void add_numbers(std::string_view group, const Summary& s, Json& out) {
   for (const ResultNumber& n : result_numbers())
-    if (n.group == group) out[n.key()] = json_number(n.unit, n.value(s));
-}
-
-/// Lives: a text for one that does not end, null for one that is not known.
-void add_lives(const Summary& s, Json& out) {
-  for (const ResultNumber& n : result_numbers())
-    if (n.group == kLifeGroup)
-      out[n.key()] = std::isinf(n.value(s)) ? Json(kEndlessLife) : json_number(n.unit, n.value(s));
+    if (n.group == group) out[n.key()] = std::isinf(n.value(s)) ? Json(kEndlessLife) : json_number(n.unit, n.value(s));
 }
 
 Json patches(const Summary& s) {
@@ -96,7 +89,7 @@ Json summary_json(const Summary& s) {
     add_numbers(kLayersGroup, s, out[kLayersGroup]);
   }
   if (!s.life.text.empty()) {
-    add_lives(s, out["life"]);
+    add_numbers(kLifeGroup, s, out["life"]);
     out["life"]["text"] = s.life.text;
   }
   if (std::isfinite(s.crack.K_II_range)) add_numbers(kCrackGroup, s, out[std::string(kCrackGroup)]);

@@ -65,6 +65,10 @@ struct Metal::Kind {
   std::vector<double> changes;  ///< of the history, at its own points
 };
 
+std::size_t MetalGrid::nearest(double s) const {
+  return static_cast<std::size_t>(std::lround(std::clamp((s - from) / apart, 0.0, columns - 1.0)));
+}
+
 std::vector<double> MetalGrid::depths() const {
   std::vector<double> out;
   double top = 0;
@@ -218,11 +222,10 @@ StateChange Metal::change(const std::vector<double>& given) {
   return out;
 }
 
-std::vector<Sym3> Metal::residual(int column) const {
+std::vector<Sym3> Metal::residual(std::size_t column) const {
   std::vector<Sym3> out(grid_.thickness.size());
   for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const double* e =
-        state_.data() + (r * static_cast<std::size_t>(grid_.columns) + static_cast<std::size_t>(column)) * kHistory;
+    const double* e = state_.data() + (r * static_cast<std::size_t>(grid_.columns) + column) * kHistory;
     const double mean = rows_[r].moduli.lambda * (e[0] + e[1] + e[2]), mu2 = 2 * rows_[r].moduli.mu;
     out[r] = {-mean - mu2 * e[0], -mean - mu2 * e[1], -mean - mu2 * e[2], -mu2 * e[3], -mu2 * e[4], -mu2 * e[5]};
   }

@@ -39,7 +39,8 @@ struct MetalGrid {
   int columns = 0;
   std::vector<double> thickness;  ///< m, of rows
   double s(int column) const { return from + column * apart; }
-  std::vector<double> depths() const;  ///< m, middles of rows
+  std::size_t nearest(double s) const;  ///< column
+  std::vector<double> depths() const;   ///< m, middles of rows
   std::size_t points() const { return thickness.size() * static_cast<std::size_t>(columns); }
 };
 /// Rows from `first` [m] on that grow by a quarter of their depth, at most 1 mm, down to `deepest`.
@@ -63,7 +64,7 @@ class Metal {
   void stand(std::vector<double> state) { state_ = std::move(state); }
   /// Pa, residual stress of a column by rows, of the wheels' moduli: an elastic strain is what plastic strain lacks to
   /// be compatible. Zero before the first wheels are put.
-  std::vector<Sym3> residual(int column) const;
+  std::vector<Sym3> residual(std::size_t column) const;
   /// Other wheels from now on.
   void put(std::vector<MetalWheel> wheels);
   /// The state after so many wheels of the mixture, in one implicit step (steady/settle.hpp).

@@ -66,11 +66,26 @@ std::map<std::string, std::string> profiles_of(const ReportRun& run, const fs::p
 }
 
 void read_tables(const fs::path& folder, ReportRun& run) {
-  for (const std::string name :
-       {"crack", "crack_depths", "depth_line", "history", "force_spectrum", "points_history", "patch_film", "residual",
-        "rail_longitudinal_section", "rail_cross_section", "wheel_longitudinal_section", "wheel_cross_section",
-        "rail_slices", "wheel_slices", "shakedown_rail", "shakedown_rail_map", "shakedown_rail_sliding",
-        "shakedown_wheel", "shakedown_wheel_map", "shakedown_wheel_sliding"})
+  for (const std::string name : {"crack",
+                                 "crack_depths",
+                                 "depth_line",
+                                 "history",
+                                 "force_spectrum",
+                                 "points_history",
+                                 "patch_film",
+                                 "residual",
+                                 "rail_longitudinal_section",
+                                 "rail_cross_section",
+                                 "wheel_longitudinal_section",
+                                 "wheel_cross_section",
+                                 "rail_slices",
+                                 "wheel_slices",
+                                 "shakedown_rail",
+                                 "shakedown_rail_map",
+                                 "shakedown_rail_sliding",
+                                 "shakedown_wheel",
+                                 "shakedown_wheel_map",
+                                 "shakedown_wheel_sliding"})
     if (const fs::path file = file_of(folder, name + ".csv"); !file.empty())
       if (CsvTable table = read_csv(file); table.rows() > 0) run.tables.emplace(name, std::move(table));
 }

@@ -397,8 +397,6 @@ std::vector<ResultNumber> crack_numbers() {
   using K = CrackSummary;
   return {
       row("depth", kMillimetres, crack<&K::depth>, "crack", "Crack, depth", "Depth of the crack's lower end", kShown),
-      row("K_I", kRootMetres, crack<&K::K_I>, "K_I", "Crack, largest K_I",
-          "Largest stress intensity of opening at the crack's lower end over a passage of the wheel", kMain),
       row("K_I_range", kRootMetres, crack<&K::K_I_range>, "ΔK_I", "Crack, range of K_I",
           "Range of K_I over a passage, closed faces counted as 0", kMain),
       row("K_II_range", kRootMetres, crack<&K::K_II_range>, "ΔK_II", "Crack, range of K_II",
@@ -407,6 +405,10 @@ std::vector<ResultNumber> crack_numbers() {
           "Range that crack.law counts with", kMain),
       row("growth", kNanometres, crack<&K::growth>, "growth", "Crack growth a wheel",
           "Growth of the crack along its direction in one passage, by crack.law", kMain),
+      row("life", kMGT, crack<&K::life>, "to allowable", "Crack, traffic to crack.allowable",
+          "Gross traffic of such wheels in which the crack grows from its depth to crack.allowable in its direction, "
+          "without wear; inf: it does not get there; null: it is inside, or deeper already",
+          kMain),
       row("azimuth", kDegrees, crack<&K::azimuth>, "azimuth", "Crack, direction",
           "Direction in which the crack goes down, from that of rolling to the field side: crack.azimuth, or the one "
           "in which it grows fastest",

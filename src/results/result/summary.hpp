@@ -265,10 +265,11 @@ struct LifeSummary {
 
 /// A crack of the rail in one passage (fatigue/crack_summary.hpp), at its lower end; where the case gives one.
 struct CrackSummary {
-  double depth = kNotApplicable;  ///< m
-  double K_I = kNotApplicable, K_I_range = kNotApplicable, K_II_range = kNotApplicable;  ///< Pa √m
-  double equivalent_range = kNotApplicable;                                              ///< Pa √m, of the growth law
-  double growth = kNotApplicable;                                                        ///< m a wheel, along the crack
+  double depth = kNotApplicable;                                   ///< m
+  double K_I_range = kNotApplicable, K_II_range = kNotApplicable;  ///< Pa √m
+  double equivalent_range = kNotApplicable;                        ///< Pa √m, of the growth law
+  double growth = kNotApplicable;                                  ///< m a wheel, along the crack
+  double life = kNotApplicable;        ///< kg of gross traffic to crack.allowable; infinite: it does not get there
   double kink_angle = kNotApplicable;  ///< rad from the surface, where a kink would open most
   double kink_range = kNotApplicable;  ///< Pa √m
   double azimuth = kNotApplicable;     ///< rad, as of crack.azimuth

@@ -59,7 +59,7 @@ void judge(const CaseSpec& given, const Wanted& wanted, Answer& out, const AskOp
     judge_sections(spec, out.shakedown, s);
     if (wanted.crack && spec.life.crack.depth > 0 && !out.crack) {
       out.crack = half_space_crack(spec, out.result);
-      s.crack = crack_summary(spec.life.crack, *out.crack);
+      s.crack = crack_summary(spec.life.crack, *out.crack, s.contact.F_z);
       out.result.notes.insert(out.result.notes.end(), out.crack->notes.begin(), out.crack->notes.end());
     }
     const bool alone = spec.loads.empty();  // else a collective is asked

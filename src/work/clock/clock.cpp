@@ -95,8 +95,6 @@ class Clock {
   std::vector<double> removed_of_columns() const;
   std::vector<double> day_feet() const;
   double largest_pressure() const;
-  void add_crack_loads(const CollectiveRow& row, std::vector<CrackLoad>& to) const;
-  void begin_crack();
   void grow_crack(ClockMoment& moment);
   void note(const ClockMoment& stretch);
   double wheels_until(double kg) const { return (kg - now_.out.reached) / now_.kilograms; }
@@ -284,7 +282,9 @@ void Clock::put_wheels() {
                                                1e-9 * now_.out.reached, fault_line(e)));
       }
     }
-    add_crack_loads(row, over_crack);
+    if (now_.crack.there() && now_.crack.allowable == RailCrack::kNot)
+      add_crack_loads(spec_.life.crack, row, row.passages / now_.out.wheels, {now_.crack, surface_, *metal_},
+                      over_crack);
     row.result.reset();
   }
   crack_growth_.reset();
@@ -293,54 +293,17 @@ void Clock::put_wheels() {
   metal_->put(std::move(wheels));
 }
 
-/// The patches of a load that roll over the crack, with their stresses there.
-void Clock::add_crack_loads(const CollectiveRow& row, std::vector<CrackLoad>& to) const {
-  if (!now_.crack.there() || now_.crack.allowable < RailCrack::kNot) return;
-  const MetalGrid& g = metal_->grid();
-  const double column = std::clamp((now_.crack.s - g.from) / g.apart, 0.0, g.columns - 1.0);
-  const auto passes = PassesStress{g.depths(), metal_->residual(static_cast<int>(std::lround(column)))};
-  for (const BemPatch* patch : patches_of(*row.result)) {
-    const double y =
-        now_.crack.s - surface_.unworn_s_of(patch->place.rail_s) + along_plane(patch->contact, patch->place.point);
-    if (!near_crack(*patch, y)) continue;
-    const CrackPlace place{
-        .y = y,
-        .deepest = spec_.life.crack.allowable,
-        .azimuth = std::isfinite(now_.crack.azimuth) ? std::optional(now_.crack.azimuth) : spec_.life.crack.azimuth,
-        .further = [&](double depth) { return stress_at(passes, depth); }};
-    to.push_back({row.passages / now_.out.wheels, row.result->rail, crack_plane(row.spec, *row.result, *patch, place)});
-  }
-}
-
-/// Where the metal has failed first, once it has.
-void Clock::begin_crack() {
-  const FirstFailure* first = nullptr;
-  for (const auto& [key, failure] : damages_->gathered().failures)
-    if ((key.damage == 0 || key.damage == 2) && (!first || failure.traffic < first->traffic)) first = &failure;
-  if (!first || !(spec_.life.crack.depth > 0)) return;
-  now_.crack.s = first->s;
-  now_.crack.tip = surface_.removed_at(first->s) + spec_.life.crack.depth;
-  now_.crack.begun = first->traffic * now_.kilograms;
-}
-
 void Clock::grow_crack(ClockMoment& moment) {
-  if (!now_.crack.there()) begin_crack();
+  const CrackSpec& crack = spec_.life.crack;
+  if (!now_.crack.there()) begin_crack(crack, damages_->gathered(), surface_, now_.kilograms, now_.crack);
   if (!now_.crack.there()) return;
-  const MetalGrid& g = metal_->grid();
-  const double place = std::clamp((now_.crack.s - g.from) / g.apart, 0.0, g.columns - 1.0);
-  const auto column = static_cast<std::size_t>(std::lround(place));
-  if (crack_growth_ && std::isnan(now_.crack.azimuth)) {
-    const auto in_direction = [&](double azimuth) {
-      crack_growth_->turn(azimuth);
-      return crack_growth_->rate(spec_.life.crack.depth);
-    };
-    now_.crack.azimuth = spec_.life.crack.azimuth ? *spec_.life.crack.azimuth : fastest_azimuth(in_direction);
-    crack_growth_->turn(now_.crack.azimuth);
-  }
-  if (crack_growth_)
+  const std::size_t column = metal_->grid().nearest(now_.crack.s);
+  if (crack_growth_) {
+    take_direction(crack, *crack_growth_, now_.crack);
     for (const Sinking& s : sinkings_)
-      grow(spec_.life.crack, *crack_growth_,
+      grow(crack, *crack_growth_,
            {s.to - s.from, s.before[column], s.after[column], s.from * now_.kilograms, now_.kilograms}, now_.crack);
+  }
   moment.crack = now_.crack.tip - sinkings_.back().after[column];
   if (crack_growth_) moment.crack_growth = crack_growth_->rate(moment.crack) / now_.kilograms;
 }
@@ -533,14 +496,6 @@ void Clock::note(const ClockMoment& of_stretch) {
 }
 
 }  // namespace
-
-ClockOptions clock_options(const CaseSpec& spec, const BemOptions& bem, const Control* control) {
-  ClockOptions out;
-  out.bem = bem;
-  out.horizon = spec.life.until;
-  out.control = control;
-  return out;
-}
 
 ClockResult run_clock(const CaseSpec& spec, const std::filesystem::path& folder, const ClockOptions& options) {
   return Clock(spec, folder, options).run();

@@ -81,6 +81,14 @@ std::string differences(const std::string& is, const std::string& was) {
 
 }  // namespace
 
+ClockOptions clock_options(const CaseSpec& spec, const BemOptions& bem, const Control* control) {
+  ClockOptions out;
+  out.bem = bem;
+  out.horizon = spec.life.until;
+  out.control = control;
+  return out;
+}
+
 std::string clock_identity(const LoadedCase& loaded, const ClockOptions& o) {
   return fmt::format(
       "version of results = {}\n--cell = {}\nmax_wear = {}\nchange = {}\nmoved = {}\napart = {}\nfirst_row = {}\n"

@@ -6,25 +6,26 @@
 #include <cmath>
 #include <numbers>
 
+#include "bem/contact_places.hpp"
 #include "clock/clock.hpp"
-#include "result/patch.hpp"
+#include "spec/case_spec.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kPerMGT = 1e12;  // mm/MGT of m/kg
 
-}  // namespace
-
-Sym3 stress_at(const PassesStress& of, double depth) {
-  const auto below = std::upper_bound(of.depth.begin(), of.depth.end(), depth);
-  if (below == of.depth.begin()) return of.stress.front();
-  if (below == of.depth.end()) return of.stress.back();
-  const auto k = static_cast<std::size_t>(below - of.depth.begin());
-  const double share = (depth - of.depth[k - 1]) / (of.depth[k] - of.depth[k - 1]);
-  return (1 - share) * of.stress[k - 1] + share * of.stress[k];
+/// Of values at ascending depths.
+Sym3 value_at_depth(const std::vector<double>& depths, const std::vector<Sym3>& values, double depth) {
+  const auto below = std::upper_bound(depths.begin(), depths.end(), depth);
+  if (below == depths.begin()) return values.front();
+  if (below == depths.end()) return values.back();
+  const auto k = static_cast<std::size_t>(below - depths.begin());
+  const double share = (depth - depths[k - 1]) / (depths[k] - depths[k - 1]);
+  return (1 - share) * values[k - 1] + share * values[k];
 }
 
+/// Whether a patch is near enough to a place across to matter.
 bool near_crack(const BemPatch& patch, double y) {
   constexpr double kReach = 2;  // half widths
   const PatchGrid& g = patch.grid;
@@ -35,6 +36,38 @@ bool near_crack(const BemPatch& patch, double y) {
     last = std::max(last, i % patch.field.columns);
   }
   return last >= first && std::abs(y - 0.5 * (g.y(first) + g.y(last))) < kReach * 0.5 * (last - first + 1) * g.dy;
+}
+
+}  // namespace
+
+void add_crack_loads(const CrackSpec& crack, const CollectiveRow& row, double share, const CrackedRail& rail,
+                     std::vector<CrackLoad>& to) {
+  const std::vector<double> depths = rail.metal.grid().depths();
+  const std::vector<Sym3> residual = rail.metal.residual(rail.metal.grid().nearest(rail.crack.s));
+  for (const BemPatch* patch : patches_of(*row.result)) {
+    const double y =
+        rail.crack.s - rail.surface.unworn_s_of(patch->place.rail_s) + along_plane(patch->contact, patch->place.point);
+    if (!near_crack(*patch, y)) continue;
+    const CrackPlace place{
+        .y = y,
+        .deepest = crack.allowable,
+        .azimuth = std::isfinite(rail.crack.azimuth) ? std::optional(rail.crack.azimuth) : crack.azimuth,
+        .further = [&](double depth) { return value_at_depth(depths, residual, depth); }};
+    to.push_back({share, row.result->rail, crack_plane(row.spec, *row.result, *patch, place)});
+  }
+}
+
+void begin_crack(const CrackSpec& crack, const Gathered& damage, const WornProfile& surface, double kilograms,
+                 RailCrack& rail) {
+  constexpr std::size_t kDuctility = 0, kClosedCycles = 2;  // of numbers_of, their best values
+  const FirstFailure* first = nullptr;
+  for (const auto& [key, failure] : damage.failures)
+    if ((key.damage == kDuctility || key.damage == kClosedCycles) && (!first || failure.traffic < first->traffic))
+      first = &failure;
+  if (!first || !(crack.depth > 0)) return;
+  rail.s = first->s;
+  rail.tip = surface.removed_at(first->s) + crack.depth;
+  rail.begun = first->traffic * kilograms;
 }
 
 double CrackGrowth::at_step(int step) {
@@ -79,6 +112,16 @@ void grow(const CrackSpec& crack, CrackGrowth& growth, const CrackStep& step, Ra
     if (rail.allowable < RailCrack::kNot) return;
   } while (done < step.wheels * (1 - 1e-12));
   rail.tip = std::max(rail.tip, step.after + floor);
+}
+
+void take_direction(const CrackSpec& crack, CrackGrowth& growth, RailCrack& rail) {
+  if (std::isfinite(rail.azimuth)) return;
+  const auto in_direction = [&](double azimuth) {
+    growth.turn(azimuth);
+    return growth.rate(crack.depth);
+  };
+  rail.azimuth = crack.azimuth ? *crack.azimuth : fastest_azimuth(in_direction);
+  growth.turn(rail.azimuth);
 }
 
 std::string crack_note(const CrackSpec& crack, const RailCrack& rail, const std::vector<ClockMoment>& history) {

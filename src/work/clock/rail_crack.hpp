@@ -13,8 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "damage/residual_rows.hpp"
+#include "clock/gathered_damage.hpp"
+#include "clock/worn_profile.hpp"
+#include "collective/collective.hpp"
 #include "fatigue/crack_summary.hpp"
+#include "passes/metal.hpp"
 #include "spec/crack_spec.hpp"
 
 namespace railstrata {
@@ -36,14 +39,20 @@ struct CrackLoad {
   PlaneOfRolling plane;
 };
 
-/// The residual stress of passes by depth, Pa.
-struct PassesStress {
-  std::vector<double> depth;
-  std::vector<Sym3> stress;
+/// What a crack lies in.
+struct CrackedRail {
+  const RailCrack& crack;
+  const WornProfile& surface;
+  const Metal& metal;
 };
-Sym3 stress_at(const PassesStress& of, double depth);
-/// Whether a patch is near enough to a place across to matter.
-bool near_crack(const BemPatch& patch, double y);
+/// The patches of a kind of wheels that roll over the crack or near it, with the residual stress of its process and of
+/// the passes.
+void add_crack_loads(const CrackSpec& crack, const CollectiveRow& row, double share, const CrackedRail& rail,
+                     std::vector<CrackLoad>& to);
+
+/// Begins where the metal has failed first by strain; kilograms: of a wheel.
+void begin_crack(const CrackSpec& crack, const Gathered& damage, const WornProfile& surface, double kilograms,
+                 RailCrack& rail);
 
 /// Growth of the crack by the loads of a day.
 class CrackGrowth {
@@ -68,6 +77,9 @@ struct CrackStep {
   double from = 0, each = 0;
 };
 void grow(const CrackSpec& crack, CrackGrowth& growth, const CrackStep& step, RailCrack& rail);
+
+/// Gives a crack without a direction that of the case, or the one in which it grows fastest.
+void take_direction(const CrackSpec& crack, CrackGrowth& growth, RailCrack& rail);
 
 /// What the crack did, for people; empty: there is none.
 std::string crack_note(const CrackSpec& crack, const RailCrack& rail, const std::vector<ClockMoment>& history);

@@ -47,9 +47,10 @@ std::vector<CollectiveRow> plan_collective(const CaseSpec& spec);
 
 struct CollectiveOptions {
   BemOptions bem;
-  Wanted wanted{.rail = false, .wheel = false, .crack = false, .life = false};  ///< of each row; the life is that of all rows
-  const Profile* rail = nullptr;                                ///< instead of the case's
-  bool keep_results = false;                                    ///< CollectiveRow::result
+  Wanted wanted{
+      .rail = false, .wheel = false, .crack = false, .life = false};  ///< of each row; the life is that of all rows
+  const Profile* rail = nullptr;                                      ///< instead of the case's
+  bool keep_results = false;                                          ///< CollectiveRow::result
   const Control* control = nullptr;  ///< asked to stop, rows that have not begun are left out; progress: "loads"
 };
 
