@@ -198,9 +198,11 @@ class Contact:
             contact.solve(load=80e3, yaw=1e-3, creepage_x=0)
             contact.jacobian("lateral_shift", "yaw")["yaw"].force
 
-        The linearised equations of the cells in contact: errors of some 1e-4, 1e-6 after set_tolerance(1e-8). Several
-        patches, friction that falls and films that yield: differences of new solutions, several times dearer. Of a
-        lifted wheel all are 0; after an answer that is `beyond`, those of the solution that it is continued from.
+        The linearised equations of the cells in contact: errors of some 1e-4, 1e-6 after set_tolerance(1e-8). Of
+        several patches in one plane `force` is that of `solve`, all else is of the whole plane, where `solve` has one
+        patch. Patches in planes of their own, friction that falls and films that yield: differences of new solutions,
+        several times dearer. Of a lifted wheel all are 0; after an answer that is `beyond`, those of the solution that
+        it is continued from.
         CaseError: no solution, an input that is a result of the last state; ValueError: no input.
         """
         found = _bridge.work("jacobian_of_contact", contact=self._contact, inputs=list(inputs), threads=self._given[2])

@@ -165,10 +165,11 @@ typedef struct rs_derivatives {
  * turns with the wheel unless RS_CREEPAGE_Y was given. The equations of the cells in contact, sticking and slipping,
  * linearised at the last solution, so that errors are those of its sets: some 1e-4 after a tolerance of 1e-5, 1e-6
  * after 1e-8. Six inputs cost three to eight warm solutions. Where a derivative jumps (a cell comes into contact, a
- * profile's curvature changes) it is that of one side.
- * Without linear equations (several patches, friction that falls with slip or temperature, a film that yields, a force
- * over a given approach) by central differences of new solutions of a tolerance of 1e-10, several times dearer. Of a
- * lifted wheel all are 0. After an answer that is `beyond`, those of the solution that it is
+ * profile's curvature changes) it is that of one side. Of several patches in one plane force_x, force_y and force_z are
+ * those of rs_forces; all else is of the whole plane, where rs_forces has one patch.
+ * Without linear equations (patches in planes of their own, friction that falls with slip or temperature, a film that
+ * yields, a force over a given approach) by central differences of new solutions of a tolerance of 1e-10, several times
+ * dearer. Of a lifted wheel all are 0. After an answer that is `beyond`, those of the solution that it is
  * continued from. Errors: RS_CASE without a solution, for an input that the last state has as a result (a load
  * where the approach was given, a creepage where a force was); as rs_solve. */
 RS_API int rs_jacobian(rs_contact* contact, const unsigned* inputs, int count, rs_derivatives* out, rs_error* error);

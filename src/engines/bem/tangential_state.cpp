@@ -98,22 +98,19 @@ void SlipOperator::extrapolate_at_leading_cells() {
 }
 
 void SlipOperator::weights_of_displacement(const double* of_slip, Plane& out) const {
-  out.assign(2 * n_, 0.0);
-  const auto add = [&](std::size_t i, double value) {
-    if (value != 0) out[i] += value * inverse_step_;
-  };
-  for (const std::size_t half : {std::size_t{0}, n_})
-    for (std::size_t i = 0; i < n_; ++i) {
-      add(half + i, of_slip[half + i]);
-      if (i + ahead_ < n_) add(half + i + ahead_, -of_slip[half + i]);
+  out.resize(2 * n_);
+  for (const std::size_t half : {std::size_t{0}, n_}) {
+    const double* slip = of_slip + half;
+    double* u = out.data() + half;
+    for (std::size_t i = 0; i < ahead_; ++i) u[i] = inverse_step_ * slip[i];
+    for (std::size_t i = ahead_; i < n_; ++i) u[i] = inverse_step_ * (slip[i] - slip[i - ahead_]);
+    for (const LeadingCell& first : leading_) {
+      const double more = inverse_step_ * first.weight * slip[first.index];
+      u[first.index] += more;
+      u[first.index + ahead_] -= 2 * more;
+      u[first.index + 2 * ahead_] += more;
     }
-  for (const LeadingCell& first : leading_)
-    for (const std::size_t half : {std::size_t{0}, n_}) {
-      const double more = first.weight * of_slip[half + first.index];
-      add(half + first.index, more);
-      add(half + first.index + ahead_, -2 * more);
-      add(half + first.index + 2 * ahead_, more);
-    }
+  }
   if (lateral_share_ != 1)
     for (std::size_t i = n_; i < 2 * n_; ++i) out[i] *= lateral_share_;
 }
