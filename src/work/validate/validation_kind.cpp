@@ -55,7 +55,7 @@ std::vector<std::string> contact_results() {
 LoadedCase case_of(const ValidationSet& set, const ValidationSeries& series, const std::vector<std::string>& row = {}) {
   std::vector<std::string> overrides = series.overrides;
   overrides.insert(overrides.end(), row.begin(), row.end());
-  return parse_case(set.loaded.source_text, set.loaded.file, overrides);
+  return with_overrides(set.loaded, overrides);
 }
 
 /// The k-th varied column of all rows [SI]. Throws CaseError with key and row.
@@ -160,7 +160,7 @@ Columns<ClockResult> traffic_columns() {
           {"ductility_per_100MGT", unit::kCount,
            [=](const ClockResult& r) { return per_100_tonnes(r.history.back().ductility, r); }},
           {"first_crack_MGT", unit::kCount, [](const ClockResult& r) {
-             const LifeRow* first = shortest(r.lives);
+             const LifeRow* first = first_damage(r.lives);
              return first ? first->mgt.best : std::numeric_limits<double>::infinity();
            }}};
 }
