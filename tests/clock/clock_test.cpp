@@ -105,14 +105,30 @@ TEST(Clock, ADateOfFirstCracksNamesTheDuctilityThatGivesIt) {
 }
 
 TEST(Clock, ItSaysThatAllWheelsWearOneTrack) {
-  std::vector<ClockMoment> history(2);
-  CaseSpec spec;
-  spec.loads.resize(1);
-  EXPECT_EQ(one_track(spec, history), "") << "nothing wears";
-  history[1].removed = 1e-4;
-  EXPECT_NE(one_track(spec, history).find("run in one track"), std::string::npos);
-  spec.loads.resize(3);
-  EXPECT_EQ(one_track(spec, history), "");
+  EXPECT_EQ(one_track(0), "") << "nothing wears";
+  EXPECT_NE(one_track(1e-4).find("run in one track (100 µm)"), std::string::npos) << one_track(1e-4);
+  EXPECT_EQ(one_track(kNotApplicable), "") << "several kinds of wheels";
+}
+
+// Two stretches of a single step of wear, then one of three.
+TEST(Clock, ItSaysWhichDaysAreNotResolved) {
+  std::vector<ClockMoment> history(4);
+  for (std::size_t i = 1; i < 4; ++i) {
+    history[i].kilograms = 0.1e9 * static_cast<double>(i);
+    history[i].removed = history[i - 1].removed + (i < 3 ? 1e-5 : 3e-5);
+    history[i].contact_change = i == 1 ? 2.5 : 1.2;
+  }
+  std::vector<LifeRow> lives(1);
+  lives[0].wheels = lives[0].mgt = {0.15, 0.15, 0.15};
+  const std::string note = unresolved_days(history, lives, 1e-5);
+  EXPECT_NE(note.find("before 0.2 MGT"), std::string::npos) << note;
+  EXPECT_NE(note.find("2.5 times"), std::string::npos) << note;
+  EXPECT_NE(note.find("first crack"), std::string::npos) << note;
+  lives[0].wheels = lives[0].mgt = {30, 30, 30};
+  EXPECT_EQ(unresolved_days(history, lives, 1e-5), "") << "hardly any damage by then";
+  history[2].ductility = 0.5;
+  EXPECT_NE(unresolved_days(history, lives, 1e-5), "");
+  EXPECT_EQ(unresolved_days(history, lives, 1e-6), "") << "several steps in each";
 }
 
 TEST(Clock, TheLifeOfOneWheelIsThatOfItsCollective) {

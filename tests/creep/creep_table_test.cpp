@@ -93,18 +93,28 @@ TEST(CreepTable, TakesUnitsWithOrWithoutABlankAndSlopesAsTangents) {
 
 TEST(CreepTable, NamesTheAxisWhoseValueTheCaseRefuses) {
   try {
-    CreepTable table(ball(), {}, axes_of({"creepage_x=0,1e-3", "layer.0.thickness=1 mm,2 mm"}));
+    CreepTable table(ball(), axes_of({"creepage_x=0,1e-3", "layer.0.thickness=1 mm,2 mm"}));
     FAIL() << "a layer without a modulus";
   } catch (const CaseError& e) {
     EXPECT_EQ(e.diagnostics.front().where, "--axis layer.0.thickness, 1 mm");
   }
 }
 
+TEST(CreepTable, IsOfTheCaseWithItsOverrides) {
+  const auto force = [](const LoadedCase& base) {
+    CreepTable table(base, axes_of({"creepage_x=0,0.1"}));
+    table.solve(coarse());
+    return table.table().numbers[number(table.table(), "force_x")].values[1];
+  };
+  EXPECT_NEAR(force(with_overrides(ball(), {"drive.friction_coefficient=0.6"})) / force(ball()), 2, 1e-3)
+      << "full sliding";
+}
+
 TEST(CreepTable, RefusesTwoAxesOfWhichOneGivesTheOther) {
   for (const auto& [one, other] : {std::pair{"creepage_x=0,1e-3", "drive.traction_coefficient=0.1,0.2"},
                                    std::pair{"drive.lateral_force=0,1 kN", "creepage_y=0,1e-3"}}) {
     try {
-      CreepTable(ball(), {}, axes_of({one, other}));
+      CreepTable(ball(), axes_of({one, other}));
       FAIL() << one << " and " << other;
     } catch (const CaseError& e) {
       EXPECT_NE(std::string(e.what()).find("a case has one of them"), std::string::npos) << e.what();
@@ -117,20 +127,20 @@ TEST(CreepTable, CountsItsPointsBeforeItMakesThem) {
   for (const char* axis : {"creepage_x=0:0.01", "creepage_y=0:0.01", "spin=0:0.1 1/m", "load=10:100 kN",
                            "friction=0.1:0.3", "lateral_shift=0:1 mm", "yaw=0:0.01", "drive.speed=1:10 m/s"})
     axes.push_back(std::string(axis) + ":256");  // 256^8 = 2^64
-  EXPECT_THROW(CreepTable(ball(), {}, axes_of(axes)), CaseError);
+  EXPECT_THROW(CreepTable(ball(), axes_of(axes)), CaseError);
 }
 
 TEST(CreepTable, LeavesTheTractionOfTheCaseWhereACreepageIsGiven) {
   LoadedCase driven = ball();
   driven.source_text += "traction_coefficient = 0.2\n";  // more than the smaller friction
-  CreepTable table(driven, {}, axes_of({"creepage_x=-1e-3,1e-3", "friction=0.1,0.3", "mesh.element_size=1,2 mm"}));
+  CreepTable table(driven, axes_of({"creepage_x=-1e-3,1e-3", "friction=0.1,0.3", "mesh.element_size=1,2 mm"}));
   table.solve(coarse());
   EXPECT_EQ(table.missing(), 0u);
   EXPECT_EQ(table.idle_axes(), (std::vector<std::string>{"mesh.element_size"}));
 }
 
 TEST(CreepTable, HasTheSolutionsOfItsPoints) {
-  CreepTable table(ball(), {}, axes_of({"creepage_x=+-0.01:7", "load=60 kN,90 kN"}));
+  CreepTable table(ball(), axes_of({"creepage_x=+-0.01:7", "load=60 kN,90 kN"}));
   table.solve(coarse());
   EXPECT_EQ(table.points(), 14u);
   EXPECT_EQ(table.missing(), 0u);
@@ -151,7 +161,7 @@ TEST(CreepTable, RollsWhateverRunRollingSays) {
   LoadedCase still = ball();
   still.source_text += "\n[run]\nrolling = false\n";
   const auto axes = [] { return axes_of({"creepage_x=+-0.01:3"}); };
-  CreepTable rolling(ball(), {}, axes()), table(still, {}, axes());
+  CreepTable rolling(ball(), axes()), table(still, axes());
   rolling.solve(coarse());
   table.solve(coarse());
   EXPECT_GT(table.table().numbers[number(table.table(), "force_x")].values[0], 0);
@@ -165,31 +175,31 @@ TEST(CreepTable, HasTheSameBitsForAnyThreadsAndAfterAStop) {
   for (const int threads : {1, 2}) {
     const int before = max_threads();
     set_threads(threads);
-    CreepTable table(ball(), {}, axes);
+    CreepTable table(ball(), axes);
     table.solve(coarse());
     set_threads(before);
     forces.push_back(table.table().numbers[number(table.table(), "force_x")].values);
   }
   EXPECT_EQ(forces[0], forces[1]);
   Control control;
-  CreepTable begun(ball(), {}, axes);
+  CreepTable begun(ball(), axes);
   CreepTableOptions how = coarse();
   how.control = &control;
   how.solved = [&](std::size_t done) { control.stop = done >= 5; };
   begun.solve(how);
   EXPECT_GT(begun.missing(), 0u);
-  CreepTable resumed(ball(), {}, axes);
+  CreepTable resumed(ball(), axes);
   resumed.take(begun.table());
   resumed.solve(coarse());
   EXPECT_EQ(resumed.missing(), 0u);
   EXPECT_EQ(resumed.table().numbers[number(resumed.table(), "force_x")].values, forces[0]);
-  CreepTable other(ball(), {}, axes_of({"creepage_x=+-0.02:5"}));
+  CreepTable other(ball(), axes_of({"creepage_x=+-0.02:5"}));
   EXPECT_THROW(other.take(begun.table()), CaseError);
 }
 
 TEST(CreepTable, SaysWhichPointsHaveNoAnswer) {
   const LoadedCase whole = parse_case("", "base.toml", {});
-  CreepTable table(whole, {}, axes_of({"lateral_shift=0 mm,30 mm", "creepage_x=0,0.001"}));
+  CreepTable table(whole, axes_of({"lateral_shift=0 mm,30 mm", "creepage_x=0,0.001"}));
   table.solve(coarse());
   EXPECT_EQ(table.missing(), 2u) << "the wheel has left the rail";
   ASSERT_FALSE(table.faults().empty());
@@ -202,12 +212,12 @@ const std::vector<std::string> kCreepageEnds = {"creepage_x=-0.01,0.01", "creepa
 
 CreepTable scaled_ball(const ScaledCounts& counts, std::vector<std::string> more = {}) {
   more.insert(more.begin(), kCreepageEnds.begin(), kCreepageEnds.end());
-  return {ball(), {}, axes_of(more), counts};
+  return {ball(), axes_of(more), counts};
 }
 
 std::string refusal_of_scaled(const LoadedCase& base, const std::vector<std::string>& axes) {
   try {
-    CreepTable(base, {}, axes_of(axes), ScaledCounts{});
+    CreepTable(base, axes_of(axes), ScaledCounts{});
   } catch (const CaseError& e) {
     return e.what();
   }
@@ -256,7 +266,7 @@ TEST(SlowScaledCreepTable, OfAEuropeanPairOverItsShiftIsNearDirectSolutions) {
       "[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\ncant = \"1:40\"\nwheel_radius = \"460 mm\"\n"
       "[drive]\nfriction_coefficient = 0.35\ntraction_coefficient = 0.0\n",
       "european.toml", {});
-  CreepTable table(european, {},
+  CreepTable table(european,
                    axes_of({"creepage_x=-0.02,0.02", "creepage_y=-0.02,0.02", "spin=-0.5,0.5 1/m",
                             "lateral_shift=-4,-2.3,-1.5,-1,-0.6,-0.2,0.2,0.6,1,1.4,1.8,2.2,2.6,3,3.5,4 mm"}),
                    ScaledCounts{10, 7, 9});
@@ -283,7 +293,7 @@ TEST(ScaledCreepTable, GoesOnWithTheSameEndsAlone) {
   CreepTable begun = scaled_ball({4, 5, 4}), same = scaled_ball({4, 5, 4});
   begun.solve(coarse());
   same.take(begun.table());
-  CreepTable other(ball(), {}, axes_of({"creepage_x=-0.02,0.02", kCreepageEnds[1], kCreepageEnds[2]}),
+  CreepTable other(ball(), axes_of({"creepage_x=-0.02,0.02", kCreepageEnds[1], kCreepageEnds[2]}),
                    ScaledCounts{4, 5, 4});
   EXPECT_THROW(other.take(begun.table()), CaseError);
 }
@@ -291,7 +301,7 @@ TEST(ScaledCreepTable, GoesOnWithTheSameEndsAlone) {
 TEST(CreepTable, ErrorOfInterpolationFallsWithTheSquareOfItsCells) {
   double before = 0;
   for (const int n : {5, 9}) {
-    CreepTable table(ball(), {}, axes_of({"creepage_x=-0.002:-0.0002:" + std::to_string(n), "load=60 kN,60.1 kN"}));
+    CreepTable table(ball(), axes_of({"creepage_x=-0.002:-0.0002:" + std::to_string(n), "load=60 kN,60.1 kN"}));
     table.solve(coarse());
     const TableError error = interpolation_error(table, 40, coarse());
     EXPECT_EQ(error.places, 40);

@@ -88,6 +88,10 @@ TEST(Plausibility, EachLimitSpeaksAboveAndIsSilentBelow) {
   EXPECT_EQ(s.warnings(), Names{"patches_near_each_other"});
   s.around.bent_by_others *= 0.98;
   EXPECT_EQ(s.warnings(), Names{});
+  s.summary.life.groove = 1.01 * kGroove;
+  EXPECT_EQ(s.warnings(), Names{"wheels_in_one_track"});
+  s.summary.life.groove *= 0.98;
+  EXPECT_EQ(s.warnings(), Names{});
   s.spec.third_body.thickness = 20e-6;
   s.spec.third_body.shear_modulus = 100e6;
   s.summary.contact.patch.q_max_point = 1.01 * kLargestFilmShear * 6e-3 * 100e6 / 20e-6;

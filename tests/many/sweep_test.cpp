@@ -19,7 +19,7 @@ SweepOptions coarse() {
 
 TEST(Sweep, SolvesTheCasesThatTakeTheirValuesAndNamesTheFaultOfTheOthers) {
   std::vector<SweepCase> cases =
-      plan_sweep(base(), {}, {{"drive.friction_coefficient", {"0.3", "7", "0.1"}}});  // at most 2; more than F_T / G
+      plan_sweep(base(), {{"drive.friction_coefficient", {"0.3", "7", "0.1"}}});  // at most 2; more than F_T / G
   ASSERT_EQ(cases.size(), 3u);
   int ended = 0;
   SweepOptions options = coarse();
@@ -55,11 +55,16 @@ TEST(Sweep, SaysOfItsColumnsWhatTheyAreOfAndOfItsCasesWhatIsWrong) {
 }
 
 TEST(Sweep, IsRefusedIfNoCaseTakesItsValues) {
-  EXPECT_THROW(plan_sweep(base(), {}, {{"drive.no_such_key", {"1", "2"}}}), CaseError);
+  EXPECT_THROW(plan_sweep(base(), {{"drive.no_such_key", {"1", "2"}}}), CaseError);
+}
+
+TEST(Sweep, KeepsTheOverridesOfItsBase) {
+  const LoadedCase dry = with_overrides(base(), {"drive.friction_coefficient=0.6"});
+  EXPECT_EQ(plan_sweep(dry, {{"drive.traction_coefficient", {"0.1"}}})[0].loaded->spec.drive.friction_coefficient, 0.6);
 }
 
 TEST(Sweep, LeavesOutWhatHasNotBegunWhenItIsStopped) {
-  std::vector<SweepCase> cases = plan_sweep(base(), {}, {{"drive.traction_coefficient", {"0.1", "0.2"}}});
+  std::vector<SweepCase> cases = plan_sweep(base(), {{"drive.traction_coefficient", {"0.1", "0.2"}}});
   Control control;
   control.stop = true;
   SweepOptions options = coarse();
@@ -69,7 +74,7 @@ TEST(Sweep, LeavesOutWhatHasNotBegunWhenItIsStopped) {
 }
 
 TEST(Sweep, ThrowsWhatGoesWrongWhereACaseEnds) {
-  std::vector<SweepCase> cases = plan_sweep(base(), {}, {{"drive.traction_coefficient", {"0.1"}}});
+  std::vector<SweepCase> cases = plan_sweep(base(), {{"drive.traction_coefficient", {"0.1"}}});
   SweepOptions options = coarse();
   options.ended = [] { throw EnvironmentError("the disk is full"); };
   EXPECT_THROW(run_sweep(cases, options), EnvironmentError);

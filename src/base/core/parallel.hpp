@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <vector>
 
 namespace railstrata {
@@ -22,6 +23,25 @@ void for_each(std::ptrdiff_t n, Kernel&& kernel, bool uneven = false) {
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t i = 0; i < n; ++i) kernel(i);
   }
+}
+
+/// The same for calls that take different times and may throw; what the first of them throws, by its index, is thrown
+/// at the end.
+template <class Kernel>
+void for_each_that_throws(std::size_t n, Kernel&& kernel) {
+  std::vector<std::exception_ptr> thrown(n);
+  for_each(
+      static_cast<std::ptrdiff_t>(n),
+      [&](std::ptrdiff_t i) {
+        try {
+          kernel(static_cast<std::size_t>(i));
+        } catch (...) {
+          thrown[static_cast<std::size_t>(i)] = std::current_exception();
+        }
+      },
+      true);
+  for (const std::exception_ptr& fault : thrown)
+    if (fault) std::rethrow_exception(fault);
 }
 
 /// Calls kernel(i) once for each i in [0, n), calls that take different times, such that threads work far from one

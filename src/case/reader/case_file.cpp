@@ -282,6 +282,12 @@ LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::s
   return loaded;
 }
 
+LoadedCase with_overrides(const LoadedCase& loaded, const std::vector<std::string>& further) {
+  std::vector<std::string> all = loaded.overrides;
+  all.insert(all.end(), further.begin(), further.end());
+  return parse_case(loaded.source_text, loaded.file, all);
+}
+
 CaseError in_case_file(const LoadedCase& loaded, const CaseError& error) {
   CaseSource source(loaded.file, loaded.source_text);
   static_cast<void>(read_case_tree(source, loaded.overrides));

@@ -31,6 +31,9 @@ LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::s
 LoadedCase parse_case(const std::string& text, const std::filesystem::path& file,
                       const std::vector<std::string>& overrides = {});
 
+/// The same case with further overrides after its own.
+LoadedCase with_overrides(const LoadedCase& loaded, const std::vector<std::string>& further);
+
 /// The same faults, those that name a key of the case alone (in `where`) at its place in the file, others at the file.
 CaseError in_case_file(const LoadedCase& loaded, const CaseError& error);
 

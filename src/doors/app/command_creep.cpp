@@ -144,11 +144,7 @@ ExitCode creep_table_in_folder(const CreepOptions& own, const CommandOptions& op
   std::vector<NumberAxis> axes = parse_number_axes("--axis", own.axes);
   const LoadedCase base = load_case_of(options, uses::kCreepTable);
   CreepTableOrder order{job_order_of(options, output_folder_of(options, base, "-creep-table"), own.resume),
-                        options.overrides,
-                        std::move(axes),
-                        scaled_counts(own.scaled),
-                        cell_size(options.cell),
-                        own.places};
+                        std::move(axes), scaled_counts(own.scaled), cell_size(options.cell), own.places};
   const auto show = [&](const CreepTable& table, const TableError& error, const nlohmann::ordered_json& json) {
     if (options.json)
       fmt::print("{}\n", json.dump(2));

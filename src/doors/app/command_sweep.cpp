@@ -67,7 +67,7 @@ void print_table(const CaseTable& table, const std::vector<SweepCase>& cases) {
 ExitCode command_sweep(const SweepWords& own, const CommandOptions& options) {
   const std::vector<Axis> axes = parse_axes("--vary", own.vary);
   const LoadedCase base = load_case_of(options, uses::kHalfSpaces);
-  std::vector<SweepCase> cases = plan_sweep(base, options.overrides, axes);
+  std::vector<SweepCase> cases = plan_sweep(base, axes);
   warn_of_notes(base, cases);
   InfluenceCache cache;
   SweepOptions sweep;

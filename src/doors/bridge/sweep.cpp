@@ -35,7 +35,7 @@ Json row_of(const SweepCase& c, const std::vector<Axis>& axes) {
 void sweep(Call& call) {
   const auto base = call.made<LoadedCase>("case");
   const std::vector<Axis> axes = keys_of(call.argument("varied"));
-  std::vector<SweepCase> cases = plan_sweep(*base, base->overrides, axes);
+  std::vector<SweepCase> cases = plan_sweep(*base, axes);
   InfluenceCache cache;
   std::size_t done = 0;
   SweepOptions options;

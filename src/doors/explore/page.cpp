@@ -56,10 +56,8 @@ void place_others(const LoadedCase& loaded, Json& seed) {
 
 /// Whether a layer of the case may be given its stiffness as a ratio: not where the case has a modulus.
 bool takes_ratio(const LoadedCase& loaded, std::size_t layer) {
-  std::vector<std::string> overrides = loaded.overrides;
-  overrides.push_back(fmt::format("layer.{}.young_ratio=1", layer));
   try {
-    static_cast<void>(parse_case(loaded.source_text, loaded.file, overrides));
+    static_cast<void>(with_overrides(loaded, {fmt::format("layer.{}.young_ratio=1", layer)}));
     return true;
   } catch (const CaseError&) {
     return false;

@@ -13,6 +13,8 @@
 // perfect plasticity. The additive split holds for small strains: the error against logarithmic strain is of the order
 // of |E|, below 0.5 % at 0.005 and some 3 % at 0.05. The law is rate-independent; its uniaxial stress saturates at
 // σ_y0 + Q + Σ C_i/γ_i.
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/simd.hpp"
@@ -154,6 +156,16 @@ RAILSTRATA_POINTWISE RecalledShare<T> recalled_share(const PlasticParameters<Rea
   const T theta = 1 / (1 + recall * increment);
   const T share = recall / (1 + (power + 1) * recall * increment);
   return {theta, theta * share, theta * (1 - share * increment)};
+}
+
+/// Share of an excess of a backstress that flow by Δp takes away, at most: γ Δp of Armstrong and Frederick; Ohno and
+/// Wang's recall grows with (m + 1) y^m, y the share of the saturation with half of the flow added, and takes no more
+/// than the excess.
+inline double most_recalled(const PlasticParameters<double>& p, int k, const double* alpha, double increment) {
+  const double all = p.recall[k] * increment;
+  if (p.power == 0 || !(p.modulus[k] > 0)) return all;
+  const double y = std::sqrt(1.5 * double_contraction(alpha, alpha)) * p.recall[k] / p.modulus[k];
+  return -std::expm1(-all * (p.power + 1) * std::pow(std::min(1.0, y + 0.5 * all), p.power));
 }
 
 /// Whether a trial of Newton's method is farther from the yield condition than rounding of its next steps would show,

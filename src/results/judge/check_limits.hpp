@@ -84,6 +84,8 @@ inline constexpr double kLargestFilmShear = 0.05, kFilmShearsAway = 0.5;
 inline constexpr double kFlangeTip = 2e-3;
 /// Share of the wear by Jendel's map from outside it.
 inline constexpr double kLargestOutsideMap = 0.05;
+/// m, of wear in one track.
+inline constexpr double kGroove = 0.01e-3;
 /// Share of p_max: a tension maximum at the edge of the searched region is reported only above it.
 inline constexpr double kReportedTension = 0.01;
 
@@ -194,6 +196,11 @@ inline constexpr std::array kCheckRows{
                       "the map has few tests there, and seizure some 70 times the wear of mild slip: take usfd, or a "
                       "measured wear_factor, or a pressure that the metal bears",
                       {.bem = kLargestOutsideMap}, unit::kShare, kOwnText),
+    CheckRow::warning("wheels_in_one_track", "Wheels in one track",
+                      "depth of the groove that wheels wear that are alike and run in one track",
+                      "no other wheel levels its edges, which bear peaks: with cells of 0.25 mm up to twice the "
+                      "pressure beside them; give collective.lateral_deviation (2 to 6 mm), or a load for each place",
+                      {.bem = kGroove}, unit::kMicrometres),
     CheckRow::warning("measured_within_torque_ramp", "Measured while the torque rises",
                       "the measuring window begins before the torque has its full value",
                       "the wanted traction cannot be reached there",

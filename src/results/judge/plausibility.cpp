@@ -176,6 +176,7 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const P
   warn_of_process_stress(spec, out);
   warn_of_stress(s, spec, out);
   warn_of_wear_map(s.damage, out);
+  out.above("wheels_in_one_track", s.life.groove);
   return out.take();
 }
 

@@ -301,6 +301,14 @@ std::string number_text(double v, double followed) {
   return v >= 1000 ? fmt::format("{:.0f}", v) : fmt::format("{:.3g}", v);
 }
 
+const LifeRow* shortest_of(const std::vector<LifeRow>& rows, bool with_wear) {
+  const LifeRow* out = nullptr;
+  for (const LifeRow& row : rows)
+    if (row.mgt.known() && (with_wear || row.mechanism != kWornThrough) && (!out || row.mgt.best < out->mgt.best))
+      out = &row;
+  return out;
+}
+
 }  // namespace
 
 double strength_factor(const CaseSpec& spec, std::size_t variant) {
@@ -320,12 +328,8 @@ Lives zone_lives(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const
   return out;
 }
 
-const LifeRow* shortest(const std::vector<LifeRow>& rows) {
-  const LifeRow* out = nullptr;
-  for (const LifeRow& row : rows)
-    if (row.mgt.known() && (!out || row.mgt.best < out->mgt.best)) out = &row;
-  return out;
-}
+const LifeRow* shortest(const std::vector<LifeRow>& rows) { return shortest_of(rows, true); }
+const LifeRow* first_damage(const std::vector<LifeRow>& rows) { return shortest_of(rows, false); }
 
 std::string range_text(const LifeRange& r, double followed) {
   if (!r.known()) return "not known";

@@ -77,6 +77,8 @@ Lives zone_lives(const CaseSpec& spec, const std::vector<LifeLoad>& loads, const
 
 /// The rail's row with the shortest life; null where none is known.
 const LifeRow* shortest(const std::vector<LifeRow>& rows);
+/// That of those that end by damage, not by wear through a layer.
+const LifeRow* first_damage(const std::vector<LifeRow>& rows);
 
 /// "lasts 42 MGT (25 to 70): rail, at the surface, ductility exhausted; not known: …".
 std::string life_text(const std::vector<LifeRow>& rows);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <numbers>
 #include <optional>
 
@@ -25,16 +24,6 @@ SteadyGrid section_grid(const MetalGrid& g) {
   out.y0 = g.from;
   out.thickness = g.thickness;
   return out;
-}
-
-/// Share of an excess of a backstress that a pass of so much plastic strain takes away, at most: γ Δp of Armstrong and
-/// Frederick; Ohno and Wang's recall grows with (m + 1) y^m, y the share of the saturation with half of the pass added,
-/// and takes no more than the excess.
-double recalled_share_of_pass(const PlasticParameters<double>& law, std::size_t k, const double* alpha, double flow) {
-  const double all = law.recall[k] * flow;
-  if (law.power == 0 || !(law.modulus[k] > 0)) return all;
-  const double size = std::sqrt(1.5 * double_contraction(alpha, alpha)) * law.recall[k] / law.modulus[k];
-  return -std::expm1(-all * (law.power + 1) * std::pow(std::min(1.0, size + 0.5 * all), law.power));
 }
 
 double norm_weight(std::size_t component) { return component < 3 ? 1 : std::numbers::sqrt2; }
@@ -105,7 +94,8 @@ void Metal::put(std::vector<MetalWheel> wheels) {
   kinds_.clear();
   rows_.clear();
   section_.reset();
-  for (MetalWheel& wheel : wheels) kinds_.push_back(std::make_unique<Kind>(std::move(wheel)));
+  kinds_.resize(wheels.size());
+  for_each_that_throws(wheels.size(), [&](std::size_t k) { kinds_[k] = std::make_unique<Kind>(std::move(wheels[k])); });
   if (!kinds_.empty()) {
     const auto deepest = std::max_element(kinds_.begin(), kinds_.end(), [](const auto& a, const auto& b) {
       return a->wheel.rail.rows.size() < b->wheel.rail.rows.size();
@@ -168,9 +158,9 @@ void Metal::add_pace(const std::vector<double>& state, const std::vector<double>
     std::fill_n(pace, 6, fastest);
     if (!(flowing[n] > 0)) continue;
     const double flow = change.mean[n * kHistory + 6] / flowing[n];
-    for (std::size_t k = 0; k < kMostBackstresses; ++k) {
+    for (int k = 0; k < kMostBackstresses; ++k) {
       const double slow = static_cast<double>(terms + 1) * row.law.modulus[k] / (3 * row.moduli.mu);
-      const double recalled = recalled_share_of_pass(row.law, k, state.data() + n * kHistory + 7 + 6 * k, flow);
+      const double recalled = most_recalled(row.law, k, state.data() + n * kHistory + 7 + 6 * k, flow);
       std::fill_n(pace + 7 + 6 * k, 6, flowing[n] * (std::min(1.0, slow) + recalled));
     }
   }
@@ -182,19 +172,7 @@ StateChange Metal::change(const std::vector<double>& given) {
   flow_ = {std::vector<double>(points, 0.0), std::vector<std::array<double, 3>>(points), {}};
   if (kinds_.empty()) return out;
   const std::vector<double> strain = compatible(given);
-  std::vector<std::exception_ptr> faults(kinds_.size());
-  for_each(
-      static_cast<std::ptrdiff_t>(kinds_.size()),
-      [&](std::ptrdiff_t k) {
-        try {
-          pass(*kinds_[static_cast<std::size_t>(k)], given, strain);
-        } catch (...) {
-          faults[static_cast<std::size_t>(k)] = std::current_exception();
-        }
-      },
-      true);
-  for (const std::exception_ptr& fault : faults)
-    if (fault) std::rethrow_exception(fault);
+  for_each_that_throws(kinds_.size(), [&](std::size_t k) { pass(*kinds_[k], given, strain); });
   std::vector<double> flowing(points, 0.0);  // share of the wheels
   for (const auto& kind : kinds_) {
     std::vector<double>& flowed = flow_.flowed.emplace_back(points, 0.0);

@@ -260,7 +260,8 @@ struct Warning {
 /// How long the rail lasts if every wheel were this one (lives/zone_life.hpp); where the case asks for it.
 struct LifeSummary {
   double best = kNotApplicable, low = kNotApplicable, high = kNotApplicable;  ///< kg of gross traffic; infinite: never
-  std::string text;                                                           ///< in words; empty: it was not asked for
+  double groove = kNotApplicable;  ///< m, worn by wheels that are alike and run in one track; NaN: they are not
+  std::string text;                ///< in words; empty: it was not asked for
 };
 
 /// A crack of the rail in one passage (fatigue/crack_summary.hpp), at its lower end; where the case gives one.

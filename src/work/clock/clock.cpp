@@ -7,9 +7,9 @@
 #include <map>
 #include <optional>
 
-#include "bem/contact_places.hpp"
 #include "clock/clock_lives.hpp"
 #include "clock/clock_state.hpp"
+#include "clock/metal_wheels.hpp"
 #include "clock/wheel_kinds.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
@@ -59,11 +59,13 @@ class Clock {
       stretch();
       if (!at_horizon()) keep();
     }
+    if (spec_.loads.size() == 1) now_.out.groove = now_.out.history.back().removed;
     now_.out.lives = clock_lives(spec_, state(), unworn_.rail);
     for (const std::string& note :
          {now_.out.worn_through ? std::string() : now_.out.ended, fitted_ductility(spec_, now_.out.history),
-          one_track(spec_, now_.out.history), ratchets_on(now_.out.history),
-          wearing_in(now_.out.history, now_.out.lives), crack_note(spec_.life.crack, now_.crack, now_.out.history)})
+          one_track(now_.out.groove), ratchets_on(now_.out.history), wearing_in(now_.out.history, now_.out.lives),
+          unresolved_days(now_.out.history, now_.out.lives, options_.max_wear),
+          crack_note(spec_.life.crack, now_.crack, now_.out.history)})
       if (!note.empty()) now_.out.notes.push_back(note);
     now_.out.profile = surface_.points();
     return std::move(now_.out);
@@ -84,7 +86,7 @@ class Clock {
   CaseSpec case_of_day() const;
   void put_wheels();
   std::vector<ContactMark> marks() const;
-  bool changed(const std::vector<ContactMark>& from) const;
+  double change_since(const std::vector<ContactMark>& from) const;
   void wear_until_changed();
   double wear_step(double most);
   void roll_metal();
@@ -111,6 +113,7 @@ class Clock {
   std::vector<CollectiveRow> rows_;   ///< solved for the next stretch; empty: they are not
   std::vector<std::size_t> load_of_;  ///< of the metal's wheels, the row
   std::vector<Sinking> sinkings_;
+  double contact_change_ = 0;                ///< ClockMoment::contact_change of the stretch
   std::optional<CrackGrowth> crack_growth_;  ///< of the stretch; none: no crack has begun
 };
 
@@ -235,9 +238,10 @@ std::vector<ContactMark> Clock::marks() const {
   return out;
 }
 
-/// In the mean square of all wheels; a patch that has come or gone is the change that is allowed, and none counts for
-/// more than four of it, so that a few loads that go from tread to flange do not end every stretch.
-bool Clock::changed(const std::vector<ContactMark>& from) const {
+/// Of what may change in a stretch, in the mean square of all wheels; a patch that has come or gone is the change that
+/// is allowed, and none counts for more than four of it, so that a few loads that go from tread to flange do not end
+/// every stretch.
+double Clock::change_since(const std::vector<ContactMark>& from) const {
   constexpr double kMost = 4;
   const std::vector<ContactMark> now = marks();
   double sum = 0;
@@ -249,7 +253,7 @@ bool Clock::changed(const std::vector<ContactMark>& from) const {
     by = std::min(by, kMost);
     if (now[i].p_max > 0 || from[i].p_max > 0) sum += rows_[i].passages / now_.out.wheels * by * by;
   }
-  return sum > 1;
+  return std::sqrt(sum);
 }
 
 void Clock::put_wheels() {
@@ -258,39 +262,18 @@ void Clock::put_wheels() {
   for (std::size_t c = 0; c < since.size(); ++c) since[c] -= now_.metal_removed[c];
   metal_->sink(since);
   now_.metal_removed = removed;
-  load_of_.clear();
-  const MetalGrid& g = metal_->grid();
-  std::vector<CrackLoad> over_crack;
-  std::vector<MetalWheel> wheels;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    CollectiveRow& row = rows_[i];
-    if (!row.sound() || !row.result) continue;
-    for (const BemPatch* patch : patches_of(*row.result)) {
-      // arc length of the unworn rail where the contact frame has y = 0
-      const double at = surface_.unworn_s_of(patch->place.rail_s) - along_plane(patch->contact, patch->place.point);
-      const double line = g.s(static_cast<int>(std::lround((at - g.from) / g.apart))) - at;
-      const PassLattice lattice{g.apart, line, g.thickness};
-      try {
-        MetalWheel wheel{.rail = rail_passes(row.spec, {alone(*row.result, *patch)}, &lattice),
-                         .share = row.passages / now_.out.wheels};
-        wheel.column = static_cast<int>(std::lround((at + wheel.rail.grid.y0 - g.from) / g.apart));
-        wheels.push_back(std::move(wheel));
-        load_of_.push_back(i);
-      } catch (const CaseError& e) {
-        if (now_.noted.insert(row.name + "/flow").second)
-          now_.out.notes.push_back(fmt::format("{}: at {:.3g} MGT its metal is not followed: {}", row.name,
-                                               1e-9 * now_.out.reached, fault_line(e)));
-      }
-    }
-    if (now_.crack.there() && now_.crack.allowable == RailCrack::kNot)
-      add_crack_loads(spec_.life.crack, row, row.passages / now_.out.wheels, {now_.crack, surface_, *metal_},
-                      over_crack);
-    row.result.reset();
-  }
   crack_growth_.reset();
-  if (now_.crack.there()) crack_growth_.emplace(spec_.life.crack, std::move(over_crack));
-  now_.followed = now_.followed || !wheels.empty();
-  metal_->put(std::move(wheels));
+  if (now_.crack.there())
+    crack_growth_.emplace(spec_.life.crack,
+                          crack_loads(spec_.life.crack, rows_, now_.out.wheels, {now_.crack, surface_, *metal_}));
+  MetalWheels put = metal_wheels(rows_, surface_, metal_->grid(), now_.out.wheels);
+  for (const MetalWheels::Fault& fault : put.faults)
+    if (now_.noted.insert(rows_[fault.load].name + "/flow").second)
+      now_.out.notes.push_back(fmt::format("{}: at {:.3g} MGT its metal is not followed: {}", rows_[fault.load].name,
+                                           1e-9 * now_.out.reached, fault.why));
+  load_of_ = std::move(put.load_of);
+  now_.followed = now_.followed || !put.wheels.empty();
+  metal_->put(std::move(put.wheels));
 }
 
 void Clock::grow_crack(ClockMoment& moment) {
@@ -334,6 +317,7 @@ double Clock::wear_step(double most) {
 void Clock::wear_until_changed() {
   const std::vector<ContactMark> from = marks();
   sinkings_.clear();
+  contact_change_ = 0;
   for (;;) {
     const double end = std::min(options_.horizon, now_.next_grinding);
     wear_step(wheels_until(end));
@@ -352,7 +336,9 @@ void Clock::wear_until_changed() {
       return;
     }
     solve(false);
-    if (!now_.out.ended.empty() || changed(from)) return;
+    if (!now_.out.ended.empty()) return;
+    contact_change_ = change_since(from);
+    if (contact_change_ > 1) return;
   }
 }
 
@@ -469,6 +455,7 @@ double Clock::largest_pressure() const {
 void Clock::note(const ClockMoment& of_stretch) {
   ClockMoment m = of_stretch;
   m.kilograms = now_.out.reached;
+  m.contact_change = contact_change_;
   const std::vector<double>& removed = surface_.removed();
   const auto most = std::max_element(removed.begin(), removed.end());
   m.removed = *most;

@@ -59,6 +59,8 @@ struct ClockMoment {
                                                                ///< from the surface on, where that is deepest
   double cycles = 0, fatigue = 0;                              ///< largest Miner's sums
   double net = 0;                                              ///< strain that stays, by a wheel, largest
+  double contact_change = 0;                                   ///< of pressures and places in the stretch, over what
+                                                               ///< ends one; above 1 by the last step of wear
   double unsettled = 0;                                        ///< SettledState::unsettled of the stretch, the largest
   int changes = 0;                                             ///< changes of the metal computed in the stretch
   double crack = kNotApplicable;         ///< m, depth of the crack below the surface of the day; NaN: none has begun
@@ -72,6 +74,7 @@ struct ClockResult {
   double reached = 0;                ///< kg, gross traffic that was followed
   std::string ended;                 ///< why before the horizon; empty: at it
   bool worn_through = false;         ///< because of a layer
+  double groove = kNotApplicable;    ///< m, worn by one kind of wheels in one track; NaN: there are several
   std::vector<std::string> notes;    ///< loads that were left out or could not yield
   std::vector<Vec2> profile;         ///< m, at the end, frame of the unworn one
 };

@@ -41,6 +41,8 @@ const std::vector<MomentColumn>& moments() {
       {{"cycles_used", kNone, [](const M& m) { return m.cycles; }}, "largest share used by closed cycles of strain"},
       {{"fatigue_used", kNone, [](const M& m) { return m.fatigue; }}, "largest share used by stress"},
       {{"net_strain", kNone, [](const M& m) { return m.net; }}, "that a wheel leaves, the largest"},
+      {{"contact_change", kNone, [](const M& m) { return m.contact_change; }},
+       "of the contacts from the beginning to the end of the stretch, over what ends one (20 % of the pressure, 1 mm)"},
       {{"unsettled", kNone, [](const M& m) { return m.unsettled; }},
        "share of the strain rates that steps have not brought to rest, the largest"},
       {{"changes", kNone, [](const M& m) { return static_cast<double>(m.changes); }},

@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 
+#include "judge/check_limits.hpp"
 #include "lives/life_section.hpp"
 #include "model/zone.hpp"
+#include "record/number_text.hpp"
 #include "steady/pass_class.hpp"
 
 namespace railstrata {
@@ -118,14 +120,10 @@ std::string fitted_ductility(const CaseSpec& spec, const std::vector<ClockMoment
                      used * *spec.passes.ductility, *spec.passes.ductility);
 }
 
-std::string one_track(const CaseSpec& spec, const std::vector<ClockMoment>& history) {
-  constexpr double kGroove = 0.01e-3;  // m
-  if (spec.loads.size() != 1 || history.empty() || history.back().removed < kGroove) return {};
-  return fmt::format(
-      "all wheels are alike and run in one track: they wear a groove ({:.2f} mm deep) whose edges no other wheel "
-      "levels, so pressure can rise there with smaller cells; give collective.lateral_deviation (2 to 6 mm), or a load "
-      "for each place",
-      1e3 * history.back().removed);
+std::string one_track(double groove) {
+  static constexpr const CheckRow& kRow = check_row("wheels_in_one_track");
+  if (!(groove > kRow.bem_limit)) return {};
+  return fmt::format("{} ({}): {}", kRow.what, with_unit(kRow.unit, groove, 3), kRow.advice);
 }
 
 std::string ratchets_on(const std::vector<ClockMoment>& history) {
@@ -141,9 +139,31 @@ std::string ratchets_on(const std::vector<ClockMoment>& history) {
       end.net);
 }
 
+std::string unresolved_days(const std::vector<ClockMoment>& history, const std::vector<LifeRow>& lives,
+                            double max_wear) {
+  constexpr double kSingle = 1.01;     // steps of wear, but for rounding
+  constexpr double kMuchDamage = 0.1;  // of the ductility
+  if (history.empty()) return {};
+  std::size_t end = 0;
+  while (end + 1 < history.size() && history[end + 1].contact_change > 1 &&
+         history[end + 1].removed - history[end].removed <= kSingle * max_wear)
+    ++end;
+  const double until = 1e-9 * history[end].kilograms;
+  const LifeRow* first = first_damage(lives);
+  const bool fails = first && first->mgt.best <= until;
+  if (end == 0 || !(fails || history[end].ductility > kMuchDamage)) return {};
+  double most = 0;
+  for (std::size_t i = 1; i <= end; ++i) most = std::max(most, history[i].contact_change);
+  return fmt::format(
+      "days before {:.2g} MGT are not resolved: one step of wear ({:.2g} mm) changes the contacts there by up to "
+      "{:.2g} "
+      "times what ends a stretch, and damage by then depends on the method by a factor of two{}",
+      until, 1e3 * max_wear, most, fails ? ", so does the first crack" : "");
+}
+
 std::string wearing_in(const std::vector<ClockMoment>& history, const std::vector<LifeRow>& lives) {
   constexpr double kWornIn = 1.25;  // largest pressure over that at the end
-  const LifeRow* first = shortest(lives);
+  const LifeRow* first = first_damage(lives);
   if (!first || !(first->mgt.best < kNever) || first->mechanism == "fatigue" || history.empty()) return {};
   const auto worn = std::find_if(history.begin(), history.end(),
                                  [&](const ClockMoment& m) { return m.p_max <= kWornIn * history.back().p_max; });

@@ -24,8 +24,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DamageKey, zone, surface, damage)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstFailure, traffic, depth, s)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Gathered, damage, failures)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClockMoment, kilograms, removed, removed_y, gauge_widening, p_max, layer_left,
-                                   ductility, ductility_y, ductility_depth, exhausted, cycles, fatigue, net, unsettled,
-                                   changes, crack, crack_growth)
+                                   ductility, ductility_y, ductility_depth, exhausted, cycles, fatigue, net,
+                                   contact_change, unsettled, changes, crack, crack_growth)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RailCrack, s, tip, azimuth, begun, detectable, allowable)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClockResult, history, wheels, tonnes, reached, ended, worn_through, notes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClockState, grid, metal, metal_removed, surface, damage, kilograms, wheels,

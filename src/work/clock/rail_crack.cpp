@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
 
 #include "bem/contact_places.hpp"
 #include "clock/clock.hpp"
+#include "core/parallel.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {
@@ -40,21 +43,38 @@ bool near_crack(const BemPatch& patch, double y) {
 
 }  // namespace
 
-void add_crack_loads(const CrackSpec& crack, const CollectiveRow& row, double share, const CrackedRail& rail,
-                     std::vector<CrackLoad>& to) {
+std::vector<CrackLoad> crack_loads(const CrackSpec& crack, const std::vector<CollectiveRow>& rows, double wheels,
+                                   const CrackedRail& rail) {
+  if (rail.crack.allowable < RailCrack::kNot) return {};
   const std::vector<double> depths = rail.metal.grid().depths();
   const std::vector<Sym3> residual = rail.metal.residual(rail.metal.grid().nearest(rail.crack.s));
-  for (const BemPatch* patch : patches_of(*row.result)) {
-    const double y =
-        rail.crack.s - rail.surface.unworn_s_of(patch->place.rail_s) + along_plane(patch->contact, patch->place.point);
-    if (!near_crack(*patch, y)) continue;
+  struct Near {
+    const CollectiveRow* row;
+    const BemPatch* patch;
+    double y;
+  };
+  std::vector<Near> near;
+  for (const CollectiveRow& row : rows) {
+    if (!row.sound() || !row.result) continue;
+    for (const BemPatch* patch : patches_of(*row.result)) {
+      const double y = rail.crack.s - rail.surface.unworn_s_of(patch->place.rail_s) +
+                       along_plane(patch->contact, patch->place.point);
+      if (near_crack(*patch, y)) near.push_back({&row, patch, y});
+    }
+  }
+  std::vector<std::optional<CrackLoad>> made(near.size());
+  for_each_that_throws(near.size(), [&](std::size_t k) {
+    const CollectiveRow& row = *near[k].row;
     const CrackPlace place{
-        .y = y,
+        .y = near[k].y,
         .deepest = crack.allowable,
         .azimuth = std::isfinite(rail.crack.azimuth) ? std::optional(rail.crack.azimuth) : crack.azimuth,
         .further = [&](double depth) { return value_at_depth(depths, residual, depth); }};
-    to.push_back({share, row.result->rail, crack_plane(row.spec, *row.result, *patch, place)});
-  }
+    made[k] = {row.passages / wheels, row.result->rail, crack_plane(row.spec, *row.result, *near[k].patch, place)};
+  });
+  std::vector<CrackLoad> out;
+  for (std::optional<CrackLoad>& load : made) out.push_back(std::move(*load));
+  return out;
 }
 
 void begin_crack(const CrackSpec& crack, const Gathered& damage, const WornProfile& surface, double kilograms,
@@ -74,8 +94,11 @@ double CrackGrowth::at_step(int step) {
   const auto found = known_.find(step);
   if (found != known_.end()) return found->second;
   const double depth = crack_.depth * std::pow(kApart, step);
-  double sum = 0;
-  for (const CrackLoad& load : loads_) sum += load.share * crack_state(crack_, depth, load.rail, load.plane).growth;
+  std::vector<double> grown(loads_.size());
+  for_each_that_throws(loads_.size(), [&](std::size_t k) {
+    grown[k] = loads_[k].share * crack_state(crack_, depth, loads_[k].rail, loads_[k].plane).growth;
+  });
+  const double sum = std::accumulate(grown.begin(), grown.end(), 0.0);
   return known_.emplace(step, sum * std::sin(crack_.angle)).first->second;
 }
 

@@ -45,10 +45,10 @@ struct CrackedRail {
   const WornProfile& surface;
   const Metal& metal;
 };
-/// The patches of a kind of wheels that roll over the crack or near it, with the residual stress of its process and of
-/// the passes.
-void add_crack_loads(const CrackSpec& crack, const CollectiveRow& row, double share, const CrackedRail& rail,
-                     std::vector<CrackLoad>& to);
+/// The patches of solved rows that roll over the crack or near it, with the residual stress of their process and of the
+/// passes; none once it is as deep as is allowed. wheels: of all rows.
+std::vector<CrackLoad> crack_loads(const CrackSpec& crack, const std::vector<CollectiveRow>& rows, double wheels,
+                                   const CrackedRail& rail);
 
 /// Begins where the metal has failed first by strain; kilograms: of a wheel.
 void begin_crack(const CrackSpec& crack, const Gathered& damage, const WornProfile& surface, double kilograms,

@@ -17,6 +17,7 @@ LifeOf life_of_wheels(std::filesystem::path folder, const Control* control) {
     try {
       const ClockResult followed = run_clock(one, folder, clock_options(spec, bem, control));
       out.text = life_text(followed.lives);
+      out.groove = followed.groove;
       for (const std::string& note : followed.notes) out.text += "; note: " + note;
       if (const LifeRow* row = shortest(followed.lives)) {
         out.best = row->mgt.best / unit::kMGT.factor;

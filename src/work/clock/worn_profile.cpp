@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "wear/worn_points.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -18,17 +20,14 @@ double between(const std::vector<double>& x, const std::vector<double>& values, 
 
 }  // namespace
 
-WornProfile::WornProfile(const Placement& unworn, double cell)
-    : unworn_(unworn.rail),
-      profile_(unworn.rail),
-      track_(unworn.track),
-      has_gauge_(!unworn.wheel.primitive() && !unworn.rail.primitive()) {
-  const double length = unworn_.s_max() - unworn_.s_min();
+WornProfile::WornProfile(const Placement& unworn, double cell) : unworn_(unworn), profile_(unworn.rail) {
+  const Profile& rail = unworn_.rail;
+  const double length = rail.s_max() - rail.s_min();
   const int n = static_cast<int>(std::ceil(length / cell));
   for (int i = 0; i <= n; ++i) {
-    const double s = i < n ? unworn_.s_min() + length * i / n : unworn_.s_max();
+    const double s = i < n ? rail.s_min() + length * i / n : rail.s_max();
     unworn_s_.push_back(s);
-    now_.points.push_back(unworn_.at(s).position);
+    now_.points.push_back(rail.at(s).position);
   }
   now_.day_s = unworn_s_;
   now_.removed.assign(now_.points.size(), 0.0);
@@ -49,11 +48,8 @@ void WornProfile::grind(double depth) { move(std::vector<double>(now_.points.siz
 
 /// Makes the profile through the points; they, in its frame.
 std::vector<Vec2> WornProfile::shape() {
-  // a profile's frame has z = 0 at y = 0
-  const double crown = Profile::from_points(ProfileKind::rail, "worn", now_.points).height(0);
-  std::vector<Vec2> own = now_.points;
-  for (Vec2& p : own) p.z -= crown;
-  profile_ = Profile::from_points(ProfileKind::rail, "worn", own);
+  std::vector<Vec2> own = in_own_frame(now_.points);
+  profile_ = worn_profile(own);
   return own;
 }
 
@@ -70,7 +66,7 @@ void WornProfile::move(const std::vector<double>& depth) {
   now_.moved = true;
   const std::vector<Vec2> own = shape();
   for (std::size_t i = 0; i < own.size(); ++i) now_.day_s[i] = nearest_on(profile_, own[i], now_.day_s[i]);
-  if (has_gauge_) now_.gauge_widening = 2 * (gauge_face_y(profile_, track_) - gauge_face_y(unworn_, track_));
+  if (has_gauge(unworn_)) now_.gauge_widening = ::railstrata::gauge_widening(profile_, unworn_);
 }
 
 }  // namespace railstrata

@@ -47,9 +47,8 @@ class WornProfile {
   std::vector<Vec2> shape();
   void move(const std::vector<double>& depth);
 
-  Profile unworn_, profile_;
-  TrackGeometry track_;
-  bool has_gauge_;
+  Placement unworn_;
+  Profile profile_;
   std::vector<double> unworn_s_;
   WornSurface now_;
 };

@@ -106,9 +106,8 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 }  // namespace
 
-CreepTable::CreepTable(const LoadedCase& base, const std::vector<std::string>& overrides, std::vector<NumberAxis> axes,
-                       std::optional<ScaledCounts> scaled)
-    : base_(base), overrides_(overrides), axes_(std::move(axes)), row_axis_(axes_.size() - 1) {
+CreepTable::CreepTable(const LoadedCase& base, std::vector<NumberAxis> axes, std::optional<ScaledCounts> scaled)
+    : base_(base), axes_(std::move(axes)), row_axis_(axes_.size() - 1) {
   if (scaled) put_creepages_first(axes_);
   double points_asked = 1;
   std::vector<Axis> outer_axes;
@@ -157,10 +156,10 @@ void CreepTable::check_scaled() const {
 
 /// Where the case refuses a value, the axis is named instead of the setting.
 CreepTable::Outer CreepTable::load(const std::vector<std::string>& values) const {
-  std::vector<std::string> all = overrides_;
-  for (std::size_t k = 0; k < axes_.size(); ++k) all.push_back(fmt::format("{}=\"{}\"", axes_[k].key, values[k]));
+  std::vector<std::string> of_axes;
+  for (std::size_t k = 0; k < axes_.size(); ++k) of_axes.push_back(fmt::format("{}=\"{}\"", axes_[k].key, values[k]));
   try {
-    const LoadedCase loaded = parse_case(base_.source_text, base_.file, all);
+    const LoadedCase loaded = with_overrides(base_, of_axes);
     CaseSpec spec = loaded.spec;
     spec.run.rolling = true;  // also where the case has run.rolling = false
     spec.transient = {};

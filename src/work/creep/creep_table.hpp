@@ -43,8 +43,7 @@ class CreepTable {
   /// Loads the case once for every combination of the axes that are not creepages. A scaled table takes the ends of the
   /// axes creepage_x, creepage_y and spin, and has its own three in their place. Throws CaseError: the case refuses a
   /// value or two axes together, too many points, a scaled table without one of the three.
-  CreepTable(const LoadedCase& base, const std::vector<std::string>& overrides, std::vector<NumberAxis> axes,
-             std::optional<ScaledCounts> scaled = {});
+  CreepTable(const LoadedCase& base, std::vector<NumberAxis> axes, std::optional<ScaledCounts> scaled = {});
   const ForceTable& table() const { return table_; }
   std::size_t points() const { return table_.points(); }
   std::size_t missing() const;                                        ///< points without an answer: one that failed
@@ -89,7 +88,6 @@ class CreepTable {
   void note_fault(std::size_t point, const std::string& fault);
 
   LoadedCase base_;
-  std::vector<std::string> overrides_;
   std::vector<NumberAxis> axes_;
   std::size_t row_axis_ = 0;
   ForceTable table_;

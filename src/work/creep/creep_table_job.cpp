@@ -63,7 +63,7 @@ class CreepTableJob : public CaseJob {
  public:
   CreepTableJob(LoadedCase base, CreepTableOrder order, Control& control)
       : CaseJob(kCreepTable, std::move(base), order_in(order), control),
-        table_(loaded_, order.overrides, std::move(order.axes), order.scaled),
+        table_(loaded_, std::move(order.axes), order.scaled),
         places_(order.places) {
     require_table_files();
     options_.bem.cell = order.cell;

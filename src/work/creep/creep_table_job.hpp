@@ -14,7 +14,6 @@
 namespace railstrata {
 
 struct CreepTableOrder : JobOrder {
-  std::vector<std::string> overrides;  ///< of the case
   std::vector<NumberAxis> axes;
   std::optional<ScaledCounts> scaled{};  ///< none: a plain table
   double cell = kDefaultCell;            ///< m

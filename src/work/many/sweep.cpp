@@ -28,17 +28,17 @@ void solve(SweepCase& c, const SweepOptions& options) {
 
 }  // namespace
 
-std::vector<SweepCase> plan_rows(const LoadedCase& base, const std::vector<std::string>& overrides,
+std::vector<SweepCase> plan_rows(const LoadedCase& base, const std::vector<std::string>& further,
                                  const std::vector<std::string>& keys, std::vector<std::vector<std::string>> rows) {
   std::vector<SweepCase> cases;
   std::optional<CaseError> first_error;
   bool any = false;
   for (std::vector<std::string>& values : rows) {
-    std::vector<std::string> all = overrides;
+    std::vector<std::string> all = further;
     for (std::size_t k = 0; k < keys.size(); ++k) all.push_back(keys[k] + "=" + values[k]);
     cases.push_back({std::move(values), {}, nullptr, {}, false});
     try {
-      cases.back().loaded = parse_case(base.source_text, base.file, all);
+      cases.back().loaded = with_overrides(base, all);
       any = true;
     } catch (const CaseError& e) {
       cases.back().fault = fault_line(e);
@@ -49,11 +49,10 @@ std::vector<SweepCase> plan_rows(const LoadedCase& base, const std::vector<std::
   return cases;
 }
 
-std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
-                                  const std::vector<Axis>& axes) {
+std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<Axis>& axes) {
   std::vector<std::string> keys;
   for (const Axis& axis : axes) keys.push_back(axis.key);
-  return plan_rows(base, overrides, keys, combinations(axes));
+  return plan_rows(base, {}, keys, combinations(axes));
 }
 
 void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options) {

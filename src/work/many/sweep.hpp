@@ -26,14 +26,13 @@ struct SweepCase {
   bool done = false;
 };
 
-/// The cases of all rows of values, one per key, in their order. One whose values are refused carries the fault; if all
-/// are, the first one's CaseError is thrown: a key that does not exist, most likely. Throws CaseError for a key without
-/// values.
-std::vector<SweepCase> plan_rows(const LoadedCase& base, const std::vector<std::string>& overrides,
+/// The cases of all rows of values, one per key, in their order, with `further` overrides after the base's own. One
+/// whose values are refused carries the fault; if all are, the first one's CaseError is thrown: a key that does not
+/// exist, most likely. Throws CaseError for a key without values.
+std::vector<SweepCase> plan_rows(const LoadedCase& base, const std::vector<std::string>& further,
                                  const std::vector<std::string>& keys, std::vector<std::vector<std::string>> rows);
 /// The same for all combinations.
-std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
-                                  const std::vector<Axis>& keys);
+std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<Axis>& axes);
 
 struct SweepOptions {
   BemOptions bem;

@@ -166,13 +166,6 @@ const LifeRow* same_row(const std::vector<LifeRow>& lives, const LifeRow& row) {
   return nullptr;
 }
 
-const LifeRow* first_damage(const std::vector<LifeRow>& lives) {
-  const LifeRow* out = nullptr;
-  for (const LifeRow& row : lives)
-    if (row.mechanism != kWornThrough && row.mgt.known() && (!out || row.mgt.best < out->mgt.best)) out = &row;
-  return out;
-}
-
 TrafficRange range_of(std::vector<RangeRun> runs, const std::vector<NamedInput>& inputs) {
   TrafficRange out;
   const ReadLife read = [](const std::vector<LifeRow>& lives) {

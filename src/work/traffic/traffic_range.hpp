@@ -72,9 +72,6 @@ void set_effect(const FollowedLife& best, InputEffect& effect);
 /// The shares; the largest first, equal ones by name.
 void set_shares(const FollowedLife& best, std::vector<InputEffect>& effects);
 
-/// The first life of a run that ends by damage, not by wear through a layer; null where none is known.
-const LifeRow* first_damage(const std::vector<LifeRow>& lives);
-
 /// The row of the same zone, place and mechanism, where its life is known; else null.
 const LifeRow* same_row(const std::vector<LifeRow>& lives, const LifeRow& row);
 

@@ -55,7 +55,7 @@ std::vector<std::string> contact_results() {
 LoadedCase case_of(const ValidationSet& set, const ValidationSeries& series, const std::vector<std::string>& row = {}) {
   std::vector<std::string> overrides = series.overrides;
   overrides.insert(overrides.end(), row.begin(), row.end());
-  return parse_case(set.loaded.source_text, set.loaded.file, overrides);
+  return with_overrides(set.loaded, overrides);
 }
 
 /// The k-th varied column of all rows [SI]. Throws CaseError with key and row.
@@ -162,7 +162,7 @@ Columns<ClockResult> traffic_columns() {
           {"crack_growth", unit::both("_m_per_kg", "_mm_per_MGT", 1e12, "mm/MGT"),
            [](const ClockResult& r) { return r.history.back().crack_growth; }},
           {"first_crack_MGT", unit::kCount, [](const ClockResult& r) {
-             const LifeRow* first = shortest(r.lives);
+             const LifeRow* first = first_damage(r.lives);
              return first ? first->mgt.best : std::numeric_limits<double>::infinity();
            }}};
 }

@@ -11,6 +11,7 @@
 #include "lives/zone_life.hpp"
 #include "model/zone.hpp"
 #include "rules/support.hpp"
+#include "wear/worn_points.hpp"
 
 namespace railstrata {
 namespace {
@@ -26,13 +27,8 @@ double area_between(const std::vector<Vec2>& first, const std::vector<Vec2>& sec
   return 0.5 * twice;
 }
 
-/// A wheel without a flange stands over the rail's axis, whatever the gauge.
-bool has_gauge(const Placement& p) { return !p.wheel.primitive() && !p.rail.primitive(); }
-
 /// The height that the reader of profiles takes off so that z = 0 at y = 0.
-double origin_height(const WornRail& rail) {
-  return rail.file.empty() ? 0.0 : Profile::from_points(ProfileKind::rail, "worn", rail.points).height(0);
-}
+double origin_height(const WornRail& rail) { return rail.file.empty() ? 0.0 : crown_height(rail.points); }
 
 void require_solved(const WearStep& step, const WornRail& before) {
   for (const CollectiveRow& row : step.rows)
@@ -179,12 +175,7 @@ CaseSpec on_worn_rail(const CaseSpec& spec, const Placement& original, const Wor
   out.geometry.rail_mirror = false;  // of the file before
   out.geometry.rail_offset = 0;
   out.geometry.rail_profile = std::filesystem::absolute(rail.file).string();
-  if (!has_gauge(original)) return out;
-  std::vector<Vec2> points = rail.points;
-  const double height = origin_height(rail);
-  for (Vec2& p : points) p.z -= height;
-  const double worn = gauge_face_y(Profile::from_points(ProfileKind::rail, "worn", points), original.track);
-  out.geometry.gauge += 2 * (worn - gauge_face_y(original.rail, original.track));
+  if (has_gauge(original)) out.geometry.gauge += gauge_widening(worn_profile(in_own_frame(rail.points)), original);
   return out;
 }
 
