@@ -21,7 +21,7 @@ struct OfCircle {
 };
 
 OfCircle of_circle(const LayeredHalfSpace& body, double a, double r, double depth) {
-  double length = a + r + depth;
+  double length = a + r + depth + bending_length(body);
   for (const HalfSpaceLayer& layer : body.layers) length += layer.thickness;
   const auto steps = static_cast<long>(std::ceil(kDeepest / depth * length / kPhase));
   const double step = kDeepest / depth / static_cast<double>(steps);
