@@ -60,6 +60,7 @@ const std::map<std::string, Overrides>& examples() {
       {"layer", {"layer.0.young_ratio=2"}},
       {"layer.from", {"layer.0.young_ratio=2", "layer.0.from=150 mm"}},
       {"layer.unbonded", {"layer.0.young_ratio=2", "layer.0.unbonded=[[\"180 mm\", \"192 mm\"]]"}},
+      {"layer.interface_normal_stiffness", {"layer.0.young_ratio=2", "layer.0.interface_normal_stiffness=1e4 MPa/mm"}},
       {"stretch", {"stretch=[{along=[[\"190 mm\", 1.0, 1.0], [\"200 mm\", 1.0, 0.8]]}]"}},
       {"a layer thinner than 0.05 mm", {"layer.0.young_ratio=2", "layer.0.thickness=0.02 mm"}},
       {"layer.thickness", {"layer.0.thickness=3 mm"}},

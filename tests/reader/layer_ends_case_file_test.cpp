@@ -111,6 +111,22 @@ TEST(LayerEndsCaseFile, UnbondedStretchesLieInOrderWhereTheLayerIs) {
   }
 }
 
+TEST(InterfaceCaseFile, StiffnessesAreReadWrittenOutAgainAndRefusedByElements) {
+  const std::string springs =
+      "interface_normal_stiffness = \"20000 MPa/mm\"\ninterface_shear_stiffness = \"0 MPa/mm\"\n";
+  const LoadedCase loaded = parse_case(kClad + springs, "a.toml");
+  EXPECT_EQ(loaded.spec.layers.at(0).interface_normal_stiffness, 2e13);
+  EXPECT_EQ(loaded.spec.layers.at(0).interface_shear_stiffness, 0);
+  EXPECT_EQ(parse_case(loaded.resolved_toml, "b.toml").resolved_toml, loaded.resolved_toml);
+  EXPECT_FALSE(parse_case(kClad, "a.toml").spec.layers.at(0).interface_shear_stiffness);
+  EXPECT_THROW(require_support(uses::kFiniteElements, loaded.spec), CaseError);
+  EXPECT_NO_THROW(require_support(uses::kHalfSpaces, loaded.spec));
+  EXPECT_NE(refusal(kClad + "interface_shear_stiffness = \"1 MPa/mm\"\n").find("must be 0 or at least 10 MPa/mm"),
+            std::string::npos);
+  EXPECT_NE(refusal(kClad + "interface_normal_stiffness = \"0 MPa/mm\"\n").find("between 10 MPa/mm"),
+            std::string::npos);
+}
+
 TEST(LayerEndsCaseFile, EnginesSayWhereALayerMustHold) {
   const auto beyond = [](const std::string& run) {
     std::vector<std::string> keys;

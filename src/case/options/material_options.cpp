@@ -190,7 +190,16 @@ std::vector<Option> strength_options(std::string_view top) {
 }
 
 std::vector<Option> bond_options() {
-  return {option("bond_tension", OfLayer::slot<&S::bond, &BondSpec::tension>,
+  const Range springs{0, kStiffestInterface};
+  return {option("interface_normal_stiffness", layer<&L::interface_normal_stiffness>,
+                 "Half-spaces: stiffness per area of the layer's lower interface against opening and closing. Not "
+                 "given: it does neither. The interface transmits tension as well as pressure",
+                 kPressureGradient, {kSoftestInterface, kStiffestInterface}),
+          option("interface_shear_stiffness", layer<&L::interface_shear_stiffness>,
+                 "Half-spaces: stiffness per area of the layer's lower interface against slip; 0: smooth, without "
+                 "shear. Not given: no slip",
+                 kPressureGradient, springs),
+          option("bond_tension", OfLayer::slot<&S::bond, &BondSpec::tension>,
                  "Tensile strength of the layer's lower interface", kPressure, {0.1 * kMega, 1e4 * kMega}),
           option("bond_shear", OfLayer::slot<&S::bond, &BondSpec::shear>,
                  "Shear strength of the layer's lower interface", kPressure, {0.1 * kMega, 1e4 * kMega})};
@@ -259,7 +268,8 @@ std::vector<Option> layer_modulus_options() {
 OptionTable layer_table() {
   OptionTable out{
       "layer",
-      "A bonded layer. The first layer of a body is its surface; each further layer lies below the one before. Each "
+      "A layer, bonded to what lies below it unless its interface gives. The first layer "
+      "of a body is its surface; each further layer lies below the one before. Each "
       "needs one of young, young_ratio and young_table",
       {option("name", layer<&L::name>,
               "Name of the layer in results; default, where a body has several: \"layer 1\", \"layer 2\", … from the "

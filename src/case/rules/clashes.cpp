@@ -156,6 +156,7 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
                "a rail that is not followed so far"},
     kElastic{"run.plasticity = false", [](const C&c) { return !c.run.plasticity && c.life.until == 0; }},
     kLayerEnds{"layer.from | layer.to"},
+    kGivingInterface{"layer.interface_normal_stiffness | layer.interface_shear_stiffness"},
     kRollingColumns{
         "transient.creepage | transient.lateral_creepage | transient.spin | transient.at_distance | "
         "transient.distance"},
@@ -174,6 +175,7 @@ constexpr const char *kOneOut = "take one of them out", *kOut = "take it out",
                      *kByRun = "take it out, or roll over it with `railstrata run`",
                      *kCpu = "give run.device = \"cpu\"",
                      *kPoint = "leave it out, or give geometry.contact = \"point\"";
+constexpr const char* kOfBonded = "plastic strain is followed in bonded layers";
 constexpr const char *kStraight = "its wheel rolls straight on and level", *kAcross = "all places across are the same",
                      *kUnknown = "displacements of distant points are not known in plane strain",
                      *kNoFriction = "the wheel is pressed on without friction",
@@ -273,6 +275,7 @@ constexpr Clash kClashes[] = {
     // Layers, passes, lives
     {kLayerThickness, excludes, "layer.young_table", "the layer ends at the table's last depth", "leave thickness out"},
     {kLayerModulus, excludes, "layer.young_table", "the table gives the modulus", "keep one of them"},
+    {kGivingInterface, excludes, "life.until", kOfBonded, "take out life.until, or the interface"},
     {"passes.jump = \"auto\"", excludes, "passes.lateral_deviation",
      "wheels that scatter never repeat, so no round shows the next",
      "take passes.lateral_deviation out, or give passes.lateral_positions alone"},
@@ -318,6 +321,8 @@ constexpr Clash kClashes[] = {
     {"geometry.roll", excludes, uses::kFiniteElements, "the wheel is meshed upright", kByBem},
     {kHollowRail, excludes, uses::kFiniteElements, "there is no axle below a hollow rail", kByBem},
     {kThinLayer, excludes, uses::kFiniteElements, "so thin elements would need tiny time steps", kByBem},
+    {kGivingInterface, excludes, uses::kFiniteElements, "layers of elements are bonded, or loose within layer.unbonded",
+     kByBem},
     {kIncompressible, excludes, uses::kFiniteElements, "elements lock; to the contact the difference is small", kByBem},
     {kPlastic, needs, kYieldStrength, "nothing could yield",
      "give material.rail.yield_strength, or a ready set: material.rail.hardening = \"R260\"", kInElements},
@@ -358,7 +363,7 @@ constexpr Clash kClashes[] = {
 
     // Half-spaces
     {"track.preset", excludes, uses::kHalfSpaces, "half-spaces have no inertia, and nothing below them", kByRun},
-    {"layer.unbonded", excludes, uses::kHalfSpaces, "layers of half-spaces are bonded", kByRun},
+    {"layer.unbonded", excludes, uses::kHalfSpaces, "interfaces of half-spaces are endless", kByRun},
     {kLayerEnds, excludes, uses::kHalfSpaces, "layers of half-spaces are endless", kByRun},
     {"stretch", excludes, uses::kHalfSpaces, "half-spaces are the same all along", kByRun},
     {"irregularity", excludes, uses::kSteadyRolling,
@@ -380,6 +385,7 @@ constexpr Clash kClashes[] = {
     {uses::kScaledTable, needs, kFriction, "its creepages are scaled by it",
      "give drive.friction_coefficient above 0, or make the table without --scaled"},
     {"transient.kind", excludes, uses::kPasses, "they roll steadily", "take out [transient]"},
+    {kGivingInterface, excludes, uses::kPasses, kOfBonded, "take it out; `railstrata bem` has the elastic stresses"},
     {kAtRest, idle_with, uses::kPasses, "passes roll", ""},
     {kElastic, overlooked, uses::kPasses, "", ""},
     {"track.preset | irregularity | layer.from | layer.to | layer.unbonded | stretch", excludes, uses::kRolledPasses,

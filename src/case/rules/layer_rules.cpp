@@ -73,6 +73,18 @@ void check_unbonded(const CaseSpec& spec, std::size_t i, CaseSource& source) {
                              "let it lie between from and to of the layer, without the taper_length at these ends");
 }
 
+/// Springs so soft that they hold nothing within the length of a rail.
+void check_interface(const CaseSpec& spec, std::size_t i, CaseSource& source) {
+  const std::string key = key_of(i, "interface_shear_stiffness");
+  const double stiffness = spec.layers[i].interface_shear_stiffness.value_or(0);
+  if (stiffness > 0 && stiffness < kSoftestInterface && source.sound({key}))
+    source.complain(
+        key,
+        fmt::format("{} = {}: must be 0 or at least {}", key, format_quantity(stiffness, dimension::kPressureGradient),
+                    format_quantity(kSoftestInterface, dimension::kPressureGradient)),
+        "give 0 for a smooth interface");
+}
+
 /// Layers of a body of which any ends are meshed as one stack.
 void check_widths(const CaseSpec& spec, BodyId body, CaseSource& source) {
   std::vector<std::size_t> on;
@@ -104,6 +116,7 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
     check_name(spec, i, source);
     check_ends(spec, i, source);
     check_unbonded(spec, i, source);
+    check_interface(spec, i, source);
   }
   for (const BodyId body : kBodies) check_widths(spec, body, source);
   for (std::size_t i = 0; i < spec.stretches.size(); ++i) check_stretch(spec.stretches[i], i, source);

@@ -34,6 +34,9 @@ inline std::array<double*, 2> columns(UnbondedStretch& s) { return {&s.from, &s.
 /// m, of a layer's thickness: the range of a case, and from where on finite elements take it.
 inline constexpr double kThinnestLayer = 0.01e-3, kThickestLayer = 50e-3, kThinnestMeshedLayer = 0.05e-3;
 
+/// Pa/m, of an interface's springs; a shear stiffness may also be 0.
+inline constexpr double kSoftestInterface = 1e10, kStiffestInterface = 1e19;
+
 struct LayerSpec {
   std::string name = "layer";  ///< of several of a body that have none in the file: "layer 1", "layer 2", …
   BodyId on = BodyId::rail;
@@ -47,6 +50,8 @@ struct LayerSpec {
   double taper_length = 0;  ///< m, over which the thickness runs out at these ends, within them; 0: a step
   std::vector<UnbondedStretch> unbonded;  ///< in order, apart from each other; empty: bonded all along
   double unbonded_friction = 0.3;         ///< Coulomb's coefficient on the interface there
+  /// Pa/m, of the springs of its lower interface along its normal and in shear; not given: bonded in this direction.
+  std::optional<double> interface_normal_stiffness, interface_shear_stiffness;
   bool graded() const { return !young_table.empty(); }
   bool ends() const { return from || to; }
   bool changes_along() const { return ends() || !unbonded.empty(); }

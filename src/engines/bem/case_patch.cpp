@@ -159,8 +159,10 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
   LayeredHalfSpace out{{}, half_space(body == BodyId::wheel ? spec.wheel_material : spec.rail_material)};
   for (const LayerSpec& layer : spec.layers) {
     if (layer.on != body) continue;
+    const auto give = [](const std::optional<double>& stiffness) { return stiffness ? 1 / *stiffness : 0.0; };
+    const Bond bond{give(layer.interface_normal_stiffness), give(layer.interface_shear_stiffness)};
     if (!layer.graded()) {
-      out.layers.push_back({layer.thickness, half_space(layer.material)});
+      out.layers.push_back({.thickness = layer.thickness, .material = half_space(layer.material), .bond = bond});
       continue;
     }
     std::vector<GradedPoint> table;
@@ -168,6 +170,7 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
       table.push_back({point.depth, {point.young, layer.material.poisson}});
     const std::vector<HalfSpaceLayer> cuts = cut_into_layers(table, kGradingTolerance);
     out.layers.insert(out.layers.end(), cuts.begin(), cuts.end());
+    out.layers.back().bond = bond;
   }
   return out;
 }

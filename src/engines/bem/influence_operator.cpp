@@ -40,7 +40,7 @@ bool same(const LayeredHalfSpace& a, const LayeredHalfSpace& b) {
   return a.substrate == b.substrate && std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(), b.layers.end(),
                                                   [](const HalfSpaceLayer& one, const HalfSpaceLayer& other) {
                                                     return one.thickness == other.thickness &&
-                                                           one.material == other.material;
+                                                           one.material == other.material && one.bond == other.bond;
                                                   });
 }
 

@@ -17,25 +17,29 @@ constexpr std::array<double WaveResponse::*, 10> kResponse{
     &WaveResponse::kW_q, &WaveResponse::T_q,  &WaveResponse::S_q, &WaveResponse::kV,  &WaveResponse::Q};
 
 /// Amplitudes of the two surface waves from unit tractions at the surface, then the state at the depth.
-WaveResponse response(const LayerWaves& waves, double depth) {
-  const WaveState top = waves.state(0, 0), s = waves.state(depth);
+WaveResponse response(const LayerWaves& waves, std::size_t layer, double depth) {
+  const WaveState top = waves.state(0, 0), s = waves.state(layer, depth);
   // amplitudes for S/k = -1 (unit pressure) and T/k = -1 (unit radial traction), times k
   const double t1 = top(2, 0), t2 = top(2, 1), s1 = top(3, 0), s2 = top(3, 1), det = t1 * s2 - t2 * s1;
   const Eigen::Vector2d p{t2 / det, -t1 / det}, q{-s2 / det, s1 / det};
   const Eigen::Vector4d by_p = s * p, by_q = s * q;
-  const ShearState v0 = waves.shear_state(0, 0), v = waves.shear_state(depth);
+  const ShearState v0 = waves.shear_state(0, 0), v = waves.shear_state(layer, depth);
   return {by_p[0], by_p[1], by_p[2], by_p[3], by_q[0], by_q[1], by_q[2], by_q[3], -v[0] / v0[1], -v[1] / v0[1]};
 }
 
-/// `extents` times the grid, up to twice that for thick layers, whose strains reach farther. Those of a line contact
-/// reach still farther, and its waves run along x alone.
+/// `extents` times the grid, up to twice that for thick or loose layers, whose strains reach farther. Those of a line
+/// contact reach still farther, and its waves run along x alone.
 double period_of(const LayeredHalfSpace& body, const PatchGrid& g, double extents) {
   constexpr double kFarther = 8;
-  double thickness = 0;
-  for (const HalfSpaceLayer& layer : body.layers) thickness += layer.thickness;
-  if (g.line) return kFarther * std::max(8 * thickness, extents * g.nx * g.dx);
-  const double extent = std::max(g.nx * g.dx, g.ny * g.dy);
-  return std::clamp(8 * thickness, extents * extent, 2 * extents * extent);
+  double thickness = bending_length(body),
+         least = g.line ? extents * g.nx * g.dx : extents * std::max(g.nx * g.dx, g.ny * g.dy);
+  const double most = 2 * least;
+  for (const HalfSpaceLayer& layer : body.layers) {
+    thickness += layer.thickness;
+    if (layer.bond.shear > 0) least = most;
+  }
+  if (g.line) return kFarther * std::max(8 * thickness, least);
+  return std::clamp(8 * thickness, least, most);
 }
 
 /// sin(k d/2)/(k d/2) at the wave numbers 0, 1, … n - 1 times `unit` for cells of a size d.
@@ -73,10 +77,11 @@ double LayerCorrection::points_of(const LayeredHalfSpace& body, const PatchGrid&
   return g.line ? along : along * along * g.dx / g.dy;
 }
 
-LayerCorrection::Nodes LayerCorrection::nodes(double depth) const {
+LayerCorrection::Nodes LayerCorrection::nodes(double depth, bool below_interface) const {
   Nodes out(kNodes);
+  const std::size_t layer = stack_.front().layer_at(depth, below_interface);
   for (std::size_t i = 0; i < kNodes; ++i) {
-    const WaveResponse a = response(stack_[i], depth), b = response(plain_[i], depth);
+    const WaveResponse a = response(stack_[i], layer, depth), b = response(plain_[i], 0, depth);
     for (auto m : kResponse) out[i].*m = a.*m - b.*m;
   }
   return out;
@@ -209,8 +214,8 @@ WaveResponse LayerCorrection::between(const Nodes& node, double k) const {
 
 // Layered minus homogeneous, wave by wave. k^ = (cx, cy) is the direction of the wave; along = -i k^·q and across =
 // k^⊥·q are the tractions in its axes (layer_waves.hpp: sigma_x'z = i T).
-void LayerCorrection::add(const PlaneLoads& loads, StatePlane& to) const {
-  const Nodes node = nodes(to.depth);
+void LayerCorrection::add(const PlaneLoads& loads, bool below_interface, StatePlane& to) const {
+  const Nodes node = nodes(to.depth, below_interface);
   const Means mean = means_of(node);
   const auto wave = [](Complex P, Complex X, Complex Y, double cx, double cy, double, const WaveResponse& w,
                        std::array<Complex, kMostPlanes>& z) {
@@ -236,8 +241,8 @@ void LayerCorrection::add(const PlaneLoads& loads, StatePlane& to) const {
   add_waves(loads, node, to, wave, zero);
 }
 
-void LayerCorrection::add(const PlaneLoads& loads, DisplacementPlane& to) const {
-  const Nodes node = nodes(to.depth);
+void LayerCorrection::add(const PlaneLoads& loads, bool below_interface, DisplacementPlane& to) const {
+  const Nodes node = nodes(to.depth, below_interface);
   const Means mean = means_of(node, 1), slope = means_of(node);
   const auto wave = [](Complex P, Complex X, Complex Y, double cx, double cy, double k, const WaveResponse& w,
                        std::array<Complex, kMostPlanes>& z) {

@@ -41,9 +41,9 @@ class LayerCorrection {
   /// Points of the transform that such a correction takes.
   static double points_of(const LayeredHalfSpace& body, const PatchGrid& grid, double period);
 
-  /// Add what the layers change at the planes' depth.
-  void add(const PlaneLoads& loads, StatePlane& to) const;
-  void add(const PlaneLoads& loads, DisplacementPlane& to) const;
+  /// Add what the layers change at the planes' depth; on an interface that of the layer above, or below if asked.
+  void add(const PlaneLoads& loads, bool below_interface, StatePlane& to) const;
+  void add(const PlaneLoads& loads, bool below_interface, DisplacementPlane& to) const;
 
  private:
   using Nodes = std::vector<WaveResponse>;
@@ -53,7 +53,7 @@ class LayerCorrection {
   };
 
   double points() const { return static_cast<double>(fft_.mx()) * fft_.my(); }
-  Nodes nodes(double depth) const;
+  Nodes nodes(double depth, bool below_interface) const;
   WaveResponse between(const Nodes& node, double k) const;
   double largest_wave_number(const Nodes& node) const;
   /// The FFT's sum over wave numbers instead of an integral is the pull of the periodic images, nearly uniform over the

@@ -1,5 +1,6 @@
 #include "bem/subsurface.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <complex>
@@ -81,7 +82,21 @@ Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plan
 Subsurface::~Subsurface() = default;
 Subsurface::Subsurface(Subsurface&&) noexcept = default;
 
+bool Subsurface::gives_at(double depth) const {
+  double bottom = 0;
+  return std::any_of(body_.layers.begin(), body_.layers.end(), [&](const HalfSpaceLayer& layer) {
+    bottom += layer.thickness;
+    return bottom == depth && layer.bond.gives();
+  });
+}
+
 StatePlane Subsurface::plane(double depth) const {
+  StatePlane out = plane(depth, false);
+  if (gives_at(depth)) out.lower = std::make_shared<const StatePlane>(plane(depth, true));
+  return out;
+}
+
+StatePlane Subsurface::plane(double depth, bool below_interface) const {
   stop_if_requested();
   StatePlane out;
   out.depth = depth;
@@ -94,12 +109,12 @@ StatePlane Subsurface::plane(double depth) const {
   straighten_steps(depth, out);
   if (layered_) {
     stop_if_requested();
-    layered_->add(loads_, out);
+    layered_->add(loads_, below_interface, out);
   }
   return out;
 }
 
-DisplacementPlane Subsurface::displacement(double depth) const {
+DisplacementPlane Subsurface::displacement(double depth, bool below_interface) const {
   DisplacementPlane out;
   out.depth = depth;
   if (grid_.line) {
@@ -113,7 +128,7 @@ DisplacementPlane Subsurface::displacement(double depth) const {
            [](const InteriorDisplacement& t, std::size_t load, std::size_t axis) { return t[load].*kAxis[axis]; });
   if (layered_) {
     stop_if_requested();
-    layered_->add(loads_, out);
+    layered_->add(loads_, below_interface, out);
   }
   return out;
 }
@@ -164,7 +179,7 @@ HalfSpaceMaterial Subsurface::material_at(double depth, bool below_interface) co
 }
 
 Sym3 Subsurface::stress(const StatePlane& plane, std::size_t k, bool below_interface) const {
-  return stress_of(plane.at(k), material_at(plane.depth, below_interface));
+  return stress_of(plane.side(below_interface).at(k), material_at(plane.depth, below_interface));
 }
 
 }  // namespace railstrata

@@ -21,10 +21,12 @@ struct PlaneLoads {
 };
 
 /// The state (halfspace/interior.hpp) in every cell of the grid at one depth. Axes: x rolling, y lateral, z into the
-/// body.
+/// body. On an interface that gives, that of its upper side.
 struct StatePlane {
   double depth = 0;
   Plane e_xx, e_yy, e_xy, s_xz, s_yz, s_zz;
+  std::shared_ptr<const StatePlane> lower = {};  ///< of an interface that gives, else null
+  const StatePlane& side(bool below_interface) const { return below_interface && lower ? *lower : *this; }
   InteriorState at(std::size_t k) const { return {e_xx[k], e_yy[k], e_xy[k], s_xz[k], s_yz[k], s_zz[k]}; }
 };
 
@@ -82,7 +84,7 @@ class Subsurface {
 
   const PatchGrid& grid() const { return grid_; }
   StatePlane plane(double depth) const;
-  DisplacementPlane displacement(double depth) const;
+  DisplacementPlane displacement(double depth, bool below_interface = false) const;
   /// Stresses in cell k of a plane; at an interface those of the layer above, or below if asked.
   Sym3 stress(const StatePlane& plane, std::size_t k, bool below_interface = false) const;
   /// The material at a depth, of a graded layer its own there.
@@ -112,6 +114,8 @@ class Subsurface {
   SubsurfacePeaks peaks(SearchDepths depths) const;
 
  private:
+  StatePlane plane(double depth, bool below_interface) const;
+  bool gives_at(double depth) const;
   /// Takes the first-order error of stepwise tractions out of a plane nearer to the surface than a cell.
   void straighten_steps(double depth, StatePlane& out) const;
 

@@ -116,7 +116,8 @@ bool Subsurface::covers(const Vec3& at) const {
   return at.x >= g.x(1) && at.x <= g.x(g.nx - 2) && (g.line || (at.y >= g.y(1) && at.y <= g.y(g.ny - 2)));
 }
 
-Sym3 Subsurface::stress_at(const StatePlane& s, const Vec3& at, bool below_interface) const {
+Sym3 Subsurface::stress_at(const StatePlane& plane, const Vec3& at, bool below_interface) const {
+  const StatePlane& s = plane.side(below_interface);
   const Around near(grid_, at);
   const auto of = [&](const Plane& v) { return near.of(grid_, v); };
   return stress_of({of(s.e_xx), of(s.e_yy), of(s.e_xy), of(s.s_xz), of(s.s_yz), of(s.s_zz)},
@@ -237,7 +238,7 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
     const Vec3& p = points[k];
     if (s.s_zz.empty() || s.depth != p.z) {
       s = plane(p.z);
-      u = displacement(p.z);
+      u = displacement(p.z, below_interface);
     }
     const Around near(grid_, p);
     const auto of = [&](const Plane& v) { return near.of(grid_, v); };

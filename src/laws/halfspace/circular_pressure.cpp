@@ -21,7 +21,7 @@ struct OfCircle {
 };
 
 OfCircle of_circle(const LayeredHalfSpace& body, double a, double r, double depth) {
-  double length = a + r + depth;
+  double length = a + r + depth + bending_length(body);
   for (const HalfSpaceLayer& layer : body.layers) length += layer.thickness;
   const auto steps = static_cast<long>(std::ceil(kDeepest / depth * length / kPhase));
   const double step = kDeepest / depth / static_cast<double>(steps);
@@ -52,6 +52,16 @@ HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth) {
   return body.substrate;
 }
 
+Sym3 strain_of(const Sym3& s, const HalfSpaceMaterial& m) {
+  const double trace = m.poisson * (s.xx + s.yy + s.zz), turn = (1 + m.poisson) / m.young;
+  return {.xx = turn * s.xx - trace / m.young,
+          .yy = turn * s.yy - trace / m.young,
+          .zz = turn * s.zz - trace / m.young,
+          .xy = turn * s.xy,
+          .yz = turn * s.yz,
+          .xz = turn * s.xz};
+}
+
 }  // namespace
 
 PointBelow below_circles(const LayeredHalfSpace& body, std::span<const PressedCircle> circles, Vec3 at) {
@@ -72,6 +82,7 @@ PointBelow below_circles(const LayeredHalfSpace& body, std::span<const PressedCi
     out.stress = out.stress + circle.pressure * turned;
     out.sinking += circle.pressure * one.sinking;
   }
+  out.strain = strain_of(out.stress, material);
   return out;
 }
 

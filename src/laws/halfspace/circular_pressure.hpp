@@ -14,8 +14,8 @@ struct PressedCircle {
 };
 
 struct PointBelow {
-  Sym3 stress;         ///< Pa, axes x, y, z into the body; tension positive
-  double sinking = 0;  ///< m, into the body
+  Sym3 stress, strain;  ///< Pa, axes x, y, z into the body; tension positive
+  double sinking = 0;   ///< m, into the body
 };
 
 /// At a point, z > 0 into the body; on an interface in the layer above it. The waves of layer_waves.hpp of a circle of

@@ -45,6 +45,14 @@ LayerWaves::LayerWaves(const LayeredHalfSpace& body, double k) : k_(k) {
     Eigen::Matrix4d match;
     match << growing(p.shear, p.kappa, 0), -below;
     Eigen::Matrix<double, 4, 2> incoming = -decay * decaying(p.shear, p.kappa, k * p.thickness);
+    // the lower side's displacement less what the springs give; both over 1 + c k G, which stays finite
+    const Bond& bond = body.layers[l].bond;
+    const double held[2] = {1 / (1 + bond.shear * k * p.shear), 1 / (1 + bond.normal * k * p.shear)};
+    for (int r = 0; r < 2; ++r) {
+      match.row(r) *= held[r];
+      incoming.row(r) *= held[r];
+      match.block<1, 2>(r, 2) += (1 - held[r]) * unit * below.row(r + 2);
+    }
     match.bottomRows<2>() *= unit;
     incoming.bottomRows<2>() *= unit;
     const Eigen::Matrix<double, 4, 2> out = match.partialPivLu().solve(incoming);
@@ -52,9 +60,10 @@ LayerWaves::LayerWaves(const LayeredHalfSpace& body, double k) : k_(k) {
     transmitted[l + 1] = out.bottomRows<2>();
 
     const ShearState shear_below = shear_state(l + 1, parts_[l + 1].top);
-    const double impedance = -shear_below[1] / (shear_below[0] * p.shear);  // of what lies below, over this layer's
+    const double under_springs = shear_below[0] - bond.shear * k * shear_below[1];
+    const double impedance = -shear_below[1] / (under_springs * p.shear);  // of what lies below, over this layer's
     p.shear_reflection = decay * (1 - impedance) / (1 + impedance);
-    shear_transmitted[l + 1] = (decay + p.shear_reflection) / shear_below[0];
+    shear_transmitted[l + 1] = (decay + p.shear_reflection) / under_springs;
   }
   for (std::size_t l = 1; l < parts_.size(); ++l) {
     parts_[l].amplitude = transmitted[l] * parts_[l - 1].amplitude;
@@ -62,9 +71,9 @@ LayerWaves::LayerWaves(const LayeredHalfSpace& body, double k) : k_(k) {
   }
 }
 
-std::size_t LayerWaves::layer_at(double depth) const {
+std::size_t LayerWaves::layer_at(double depth, bool below_interface) const {
   std::size_t l = 0;
-  while (l + 1 < parts_.size() && depth > parts_[l + 1].top) ++l;
+  while (l + 1 < parts_.size() && (below_interface ? depth >= parts_[l + 1].top : depth > parts_[l + 1].top)) ++l;
   return l;
 }
 

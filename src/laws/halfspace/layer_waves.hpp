@@ -27,8 +27,9 @@ class LayerWaves {
   LayerWaves(const LayeredHalfSpace& body, double k);
   WaveState state(double depth) const;
   ShearState shear_state(double depth) const;
-  /// Layer index containing the depth; layers.size() is the substrate. An interface belongs to the layer above.
-  std::size_t layer_at(double depth) const;
+  /// Layer index containing the depth; layers.size() is the substrate. An interface belongs to the layer above,
+  /// or below if asked.
+  std::size_t layer_at(double depth, bool below_interface = false) const;
   WaveState state(std::size_t layer, double depth) const;
   ShearState shear_state(std::size_t layer, double depth) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// A half-space of bonded elastic layers.
+// A half-space of elastic layers, bonded to each other or joined by springs.
 //
 // In the Fourier domain every layer carries two decaying and two growing waves in depth; the growing ones are measured
 // from the layer's bottom, so that no exponential exceeds one, and are found from the interface below as reflections of
@@ -11,12 +11,21 @@
 
 namespace railstrata {
 
+/// An interface as a bed of springs: the jump of displacement, lower minus upper side, over the traction across it,
+/// m/Pa. Faces stay together under tension too. 0: bonded; shear infinite: smooth.
+struct Bond {
+  double normal = 0, shear = 0;
+  bool gives() const { return normal > 0 || shear > 0; }
+  friend bool operator==(const Bond&, const Bond&) = default;
+};
+
 struct HalfSpaceLayer {
   double thickness = 0;  ///< m
   HalfSpaceMaterial material;
   bool continues = false;  ///< one cut of a graded layer that goes on below: its bottom is no interface
   double young_slope = 0,
          poisson_slope = 0;  ///< of the graded material within the cut, 1/m of depth; `material` is its mean
+  Bond bond = {};            ///< of its bottom
   /// The graded material at a depth below the cut's top.
   HalfSpaceMaterial local(double depth) const {
     const double from_middle = depth - 0.5 * thickness;
@@ -30,6 +39,10 @@ struct LayeredHalfSpace {
   HalfSpaceMaterial substrate;
 };
 
+/// Length over which the layers above an interface that gives spread a pressure by bending, (D c_n)^(1/4), m: the
+/// longest; 0 without springs.
+double bending_length(const LayeredHalfSpace& body);
+
 /// The layers as they were laid, from the surface down: cuts of a graded one joined. Depths in m.
 struct LayerExtent {
   double top = 0, bottom = 0;
@@ -41,7 +54,10 @@ CompliancePoint layered_compliance_at(const LayeredHalfSpace& body, double k);
 
 /// The surface compliance as the top material's closed form plus images at depths spread geometrically over the scales
 /// of the stack, fitted to layered_compliance_at. `tolerance`: largest deviation of zz, rr, tt relative to themselves
-/// and of rz relative to sqrt(zz rr), at any wave number; throws NumericalError if it cannot be met.
+/// and of rz relative to sqrt(zz rr), at any wave number; throws NumericalError if it cannot be met. On interfaces that
+/// give it is met where the springs are at least k_n h = 0.1 E; a layer that bends on softer ones is thousands of
+/// times softer than its material, and a hundred times the tolerance is allowed for rounding. A smooth layer is held by
+/// springs over which it stretches within 1 m: a layer without end would hold no tangential force.
 SurfaceCompliance layered_compliance(const LayeredHalfSpace& body, double tolerance = 1e-6);
 
 /// A modulus that varies with depth, given as a table with increasing depths from 0 (linear between, the substrate

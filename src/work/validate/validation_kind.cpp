@@ -125,6 +125,7 @@ std::vector<std::string> names(const std::vector<CsvColumn>& columns) {
 
 Columns<PointBelow> below_columns() {
   Columns<PointBelow> out = tensor_columns<PointBelow>("sigma", unit::kMPa, &PointBelow::stress);
+  append(out, tensor_columns<PointBelow>("strain", unit::kNone, &PointBelow::strain));
   append(out, {{"sinking", unit::kMicrometres, &PointBelow::sinking}});
   return out;
 }
