@@ -96,7 +96,7 @@ TEST_P(CTableOf, HasTheForcesOfAContactAtItsPoints) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "table.h5";
   CreepTable solved(
-      load_case(kQuick), {GetParam().begin(), GetParam().end()},
+      load_case(kQuick, {GetParam().begin(), GetParam().end()}),
       parse_number_axes("--axis", {"creepage_x=-1e-3,2e-4,1e-3", "lateral_shift=0,1 mm", "load=60 kN,90 kN"}));
   CreepTableOptions options;
   options.bem.cell = 0.5e-3;

@@ -4,8 +4,8 @@
     tests/crack/calculix_edge_crack.py
 
 Half of the body (symmetry), eight-node elements in plane strain that are small at the tip, the far side pulled by one
-displacement, so that the layer bears sigma E1/E0 and the body below sigma. G is the elastic energy that is given up from
-one crack length to the next on the same mesh, K_I = sqrt(E1' G). Prints K_I over sigma sqrt(pi c)."""
+displacement, so that the layer bears sigma E1/E0 and the body below sigma. G is the elastic energy that is given up
+from one crack length to the next on the same mesh, K_I = sqrt(E1' G). Prints K_I over sigma sqrt(pi c)."""
 import pathlib
 import subprocess
 import sys

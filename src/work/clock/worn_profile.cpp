@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "wear/worn_points.hpp"
+#include "collective/worn_points.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "collective/collective_files.hpp"
+#include "collective/worn_points.hpp"
 #include "core/faults.hpp"
 #include "lives/zone_life.hpp"
 #include "model/zone.hpp"
 #include "rules/support.hpp"
-#include "wear/worn_points.hpp"
 
 namespace railstrata {
 namespace {

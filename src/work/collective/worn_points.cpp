@@ -1,4 +1,4 @@
-#include "wear/worn_points.hpp"
+#include "collective/worn_points.hpp"
 
 namespace railstrata {
 
