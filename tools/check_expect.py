@@ -99,7 +99,7 @@ def command_for(case):
     tables = tomllib.loads(case.read_text())
     geometry = tables.get("geometry", {})
     yawed_on_roller = {"yaw", "rail_radius"} <= set(geometry)
-    by_half_spaces = (case.absolute().parent.name == "contact" or "transient" in tables or yawed_on_roller or
+    by_half_spaces = (case.absolute().parent.name in ("contact", "crack") or "transient" in tables or yawed_on_roller or
                       geometry.get("contact") == "line")
     if "collective" in tables:
         return ["collective", "--set", "life.until=0 Mt", "--cell", "1 mm"]

@@ -58,6 +58,13 @@ const std::map<std::string, Overrides>& examples() {
       {"irregularity", {"irregularity=[{at=\"200 mm\", length=\"20 mm\", depth=\"0.2 mm\"}]"}},
       {"a dip or a step", {"irregularity=[{kind=\"dip\", at=\"2 m\", angle=\"10 mrad\"}]"}},
       {"layer", {"layer.0.young_ratio=2"}},
+      {"crack.top | crack.angle | crack.lateral | crack.place | crack.face_friction | crack.fluid | crack.aspect | "
+       "crack.law | crack.threshold | crack.detectable | crack.allowable",
+       {"crack.allowable=4 mm"}},
+      {"crack.depth", {"crack.depth=4 mm"}},
+      {"crack.top", {"crack.top=2 mm"}},
+      {"crack.place", {"crack.place=5 mm"}},
+      {"crack.fluid", {"crack.fluid=mouth"}},
       {"layer.from", {"layer.0.young_ratio=2", "layer.0.from=150 mm"}},
       {"layer.unbonded", {"layer.0.young_ratio=2", "layer.0.unbonded=[[\"180 mm\", \"192 mm\"]]"}},
       {"layer.interface_normal_stiffness", {"layer.0.young_ratio=2", "layer.0.interface_normal_stiffness=1e4 MPa/mm"}},

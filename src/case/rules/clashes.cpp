@@ -286,8 +286,7 @@ constexpr Clash kClashes[] = {
     {"crack.top | crack.angle | crack.lateral | crack.place | crack.face_friction | crack.fluid | crack.aspect | "
      "crack.law | crack.threshold | crack.detectable | crack.allowable",
      needs, "crack.depth", "without a depth there is no crack", "give crack.depth = \"1 mm\""},
-    {"crack.depth", idle_with, uses::kFiniteElements, "stress intensities come from half-spaces",
-     "solve the case with `railstrata bem`"},
+    {"crack.depth", idle_with, uses::kFiniteElements, "stress intensities come from half-spaces, `railstrata bem`", ""},
     {"crack.place", excludes, "crack.top", "in a life the crack breaks the surface", kOneOut},
     {"crack.fluid", excludes, "crack.top", "a crack inside has no mouth", kOneOut},
 

@@ -111,14 +111,18 @@ PlaneOfRolling crack_plane(const CaseSpec& spec, const BemResult& result, const 
 }
 
 double fastest_azimuth(const std::function<double(double azimuth)>& growth) {
-  constexpr int kDirections = 24;
+  constexpr int kDirections = 12;  // then half a step to either side of the fastest
+  const double step = 2 * std::numbers::pi / kDirections;
   double most = -1, out = 0;
-  for (int i = 0; i < kDirections; ++i) {
-    const double azimuth = 2 * std::numbers::pi * (i <= kDirections / 2 ? i : i - kDirections) / kDirections;
+  const auto attempt = [&](double azimuth) {
     const double rate = growth(azimuth);
     if (rate > most) out = azimuth;
     most = std::max(most, rate);
-  }
+  };
+  for (int i = 0; i < kDirections; ++i) attempt(step * (i <= kDirections / 2 ? i : i - kDirections));
+  const double coarse = out;
+  if (most > 0)
+    for (const double half : {-0.5 * step, 0.5 * step}) attempt(std::remainder(coarse + half, 2 * std::numbers::pi));
   return out;
 }
 
