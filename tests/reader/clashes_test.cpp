@@ -60,7 +60,7 @@ const std::map<std::string, Overrides>& examples() {
       {"layer", {"layer.0.young_ratio=2"}},
       {"crack.top | crack.angle | crack.lateral | crack.place | crack.face_friction | crack.fluid | crack.aspect | "
        "crack.law | crack.threshold | crack.detectable | crack.allowable",
-       {"crack.allowable=4 mm"}},
+       {"crack.top=2 mm"}},
       {"crack.depth", {"crack.depth=4 mm"}},
       {"crack.top", {"crack.top=2 mm"}},
       {"crack.place", {"crack.place=5 mm"}},
