@@ -3,7 +3,7 @@
 //
 //   da/dN = A (ΔK_eq^m - ΔK_th^m),    0 below the threshold
 //   shear:  ΔK_eq^2 = ΔK_I² + [(614/507) ΔK_II^3.21]^(2/3.74),  A = 0.000507 nm, m = 3.74; MPa √m. In its own plane
-//           under shear, of rail steel with a tensile cycle before the shear; ΔK_II of 9 to 25. [Bold1991]
+//           under shear, of rail steel; constants as later work quotes them. [Bold1991]
 //   paris:  ΔK_eq² = ΔK_I² + ΔK_II²,  A and m of the most that the standard of rails allows in tension: 17 nm at 10 and
 //           55 nm at 13.5 MPa √m. [EN13674]
 #include "crack/crack_line.hpp"

@@ -202,10 +202,17 @@ StateChange Metal::change(const std::vector<double>& given) {
 
 std::vector<Sym3> Metal::residual(std::size_t column) const {
   std::vector<Sym3> out(grid_.thickness.size());
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const double* e = state_.data() + (r * static_cast<std::size_t>(grid_.columns) + column) * kHistory;
-    const double mean = rows_[r].moduli.lambda * (e[0] + e[1] + e[2]), mu2 = 2 * rows_[r].moduli.mu;
-    out[r] = {-mean - mu2 * e[0], -mean - mu2 * e[1], -mean - mu2 * e[2], -mu2 * e[3], -mu2 * e[4], -mu2 * e[5]};
+  if (!section_) return out;
+  const std::vector<double> strain = compatible(state_);
+  const std::size_t points = grid_.points();
+  for (std::size_t r = 0; r < out.size(); ++r) {
+    const std::size_t n = r * static_cast<std::size_t>(grid_.columns) + column;
+    const auto [lambda, mu] = rows_[r].moduli;
+    const double mean = lambda * (strain[n] + strain[points + n] + strain[2 * points + n]);
+    std::array<double, 6> stress{};
+    for (std::size_t c = 0; c < 6; ++c)
+      stress[c] = (c < 3 ? mean : 0) + 2 * mu * (strain[c * points + n] - state_[n * kHistory + c]);
+    out[r] = {stress[0], stress[1], stress[2], stress[3], stress[4], stress[5]};
   }
   return out;
 }

@@ -262,10 +262,6 @@ void Clock::put_wheels() {
   for (std::size_t c = 0; c < since.size(); ++c) since[c] -= now_.metal_removed[c];
   metal_->sink(since);
   now_.metal_removed = removed;
-  crack_growth_.reset();
-  if (now_.crack.there())
-    crack_growth_.emplace(spec_.life.crack,
-                          crack_loads(spec_.life.crack, rows_, now_.out.wheels, {now_.crack, surface_, *metal_}));
   MetalWheels put = metal_wheels(rows_, surface_, metal_->grid(), now_.out.wheels);
   for (const MetalWheels::Fault& fault : put.faults)
     if (now_.noted.insert(rows_[fault.load].name + "/flow").second)
@@ -274,6 +270,11 @@ void Clock::put_wheels() {
   load_of_ = std::move(put.load_of);
   now_.followed = now_.followed || !put.wheels.empty();
   metal_->put(std::move(put.wheels));
+  crack_growth_.reset();
+  if (now_.crack.there())
+    crack_growth_.emplace(spec_.life.crack,
+                          crack_loads(spec_.life.crack, rows_, now_.out.wheels, {now_.crack, surface_, *metal_}));
+  for (CollectiveRow& row : rows_) row.result.reset();
 }
 
 void Clock::grow_crack(ClockMoment& moment) {

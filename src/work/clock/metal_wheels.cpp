@@ -23,7 +23,7 @@ MetalWheel wheel_of(const CollectiveRow& row, const BemPatch& patch, const WornP
 
 }  // namespace
 
-MetalWheels metal_wheels(std::vector<CollectiveRow>& rows, const WornProfile& surface, const MetalGrid& grid,
+MetalWheels metal_wheels(const std::vector<CollectiveRow>& rows, const WornProfile& surface, const MetalGrid& grid,
                          double wheels) {
   std::vector<std::pair<std::size_t, const BemPatch*>> patches;
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -50,7 +50,6 @@ MetalWheels metal_wheels(std::vector<CollectiveRow>& rows, const WornProfile& su
     out.wheels.push_back(std::move(*made[k]));
     out.load_of.push_back(i);
   }
-  for (CollectiveRow& row : rows) row.result.reset();
   return out;
 }
 

@@ -21,8 +21,8 @@ struct MetalWheels {
   std::vector<Fault> faults;  ///< patches under which the metal cannot be followed
 };
 
-/// Of the rows that are sound and have their results, which are dropped; wheels: of all rows.
-MetalWheels metal_wheels(std::vector<CollectiveRow>& rows, const WornProfile& surface, const MetalGrid& grid,
+/// Of the rows that are sound and have their results; wheels: of all rows.
+MetalWheels metal_wheels(const std::vector<CollectiveRow>& rows, const WornProfile& surface, const MetalGrid& grid,
                          double wheels);
 
 }  // namespace railstrata
