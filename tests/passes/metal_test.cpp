@@ -34,12 +34,12 @@ struct OnMetal {
   MetalWheel wheel;
 };
 /// The metal is as wide as the wheel's own grid, so that both have the same neighbours.
-OnMetal on_metal(const CaseSpec& spec, double share) {
+OnMetal on_metal(const CaseSpec& spec, double share, double first_row = 0.4e-3) {
   BemOptions bem;
   bem.cell = 1e-3;
   const BemResult result = solve_bem(spec, place(spec, {}), bem);
   constexpr double kApart = 1.5e-3;
-  OnMetal out{metal_grid(0, 1e-3, kApart, 0.4e-3, 12e-3), {}};
+  OnMetal out{metal_grid(0, 1e-3, kApart, first_row, 12e-3), {}};
   const PassLattice lattice{kApart, 0, out.grid.thickness};
   out.wheel = {.rail = rail_passes(spec, {result}, &lattice), .share = share};
   out.grid.columns = out.wheel.rail.grid.ny;
@@ -110,6 +110,36 @@ TEST(Metal, WhatWasBelowComesNearerToTheSurface) {
   const auto columns = static_cast<std::size_t>(one.grid.columns);
   for (std::size_t c = 0; c < columns; ++c)
     EXPECT_NEAR(metal.state()[c * kStreamlineHistory + 6], before[(columns + c) * kStreamlineHistory + 6], 1e-15);
+}
+
+/// Of every row no force across the depth, at the surface no stress upon it; and nothing but the state decides.
+TEST(Metal, ResidualStressIsInEquilibrium) {
+  const OnMetal one = on_metal(ratchetting(), 1, 0.05e-3);
+  Metal metal(one.grid, 5);
+  metal.put({one.wheel});
+  metal.roll(30, kClose);
+  const std::size_t rows = one.grid.thickness.size();
+  std::vector<Sym3> sum(rows);
+  double largest_xx = 0, compressed = 0, at_surface = 0;
+  for (int c = 0; c < one.grid.columns; ++c) {
+    const std::vector<Sym3> column = metal.residual(static_cast<std::size_t>(c));
+    for (std::size_t r = 0; r < rows; ++r) {
+      sum[r] = sum[r] + column[r];
+      largest_xx = std::max(largest_xx, std::abs(column[r].xx));
+    }
+    compressed = std::min(compressed, column[0].xx);
+    at_surface = std::max(at_surface, std::abs(column[0].zz));
+  }
+  EXPECT_LT(compressed, -20e6);
+  EXPECT_LT(at_surface, 0.1 * largest_xx);
+  for (const Sym3& of_row : sum) {
+    EXPECT_NEAR(of_row.zz, 0, 1e-6 * largest_xx);
+    EXPECT_NEAR(of_row.yz, 0, 1e-6 * largest_xx);
+    EXPECT_NEAR(of_row.xz, 0, 1e-6 * largest_xx);
+  }
+  const Sym3 before = metal.residual(3)[1];
+  metal.put({one.wheel});
+  EXPECT_EQ(metal.residual(3)[1].xx, before.xx);
 }
 
 }  // namespace

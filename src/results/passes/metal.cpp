@@ -205,15 +205,21 @@ std::vector<Sym3> Metal::residual(std::size_t column) const {
   if (!section_) return out;
   const std::vector<double> strain = compatible(state_);
   const std::size_t points = grid_.points();
-  for (std::size_t r = 0; r < out.size(); ++r) {
-    const std::size_t n = r * static_cast<std::size_t>(grid_.columns) + column;
-    const auto [lambda, mu] = rows_[r].moduli;
-    const double mean = lambda * (strain[n] + strain[points + n] + strain[2 * points + n]);
-    std::array<double, 6> stress{};
-    for (std::size_t c = 0; c < 6; ++c)
-      stress[c] = (c < 3 ? mean : 0) + 2 * mu * (strain[c * points + n] - state_[n * kHistory + c]);
-    out[r] = {stress[0], stress[1], stress[2], stress[3], stress[4], stress[5]};
-  }
+  const std::size_t columns = static_cast<std::size_t>(grid_.columns);
+  const auto add = [&](std::size_t at, double weight) {
+    for (std::size_t r = 0; r < out.size(); ++r) {
+      const std::size_t n = r * columns + at;
+      const auto [lambda, mu] = rows_[r].moduli;
+      const double mean = lambda * (strain[n] + strain[points + n] + strain[2 * points + n]);
+      std::array<double, 6> stress{};
+      for (std::size_t c = 0; c < 6; ++c)
+        stress[c] = (c < 3 ? mean : 0) + 2 * mu * (strain[c * points + n] - state_[n * kHistory + c]);
+      out[r] = out[r] + weight * Sym3{stress[0], stress[1], stress[2], stress[3], stress[4], stress[5]};
+    }
+  };
+  add((column + columns - 1) % columns, 0.25);
+  add(column, 0.5);
+  add((column + 1) % columns, 0.25);
   return out;
 }
 

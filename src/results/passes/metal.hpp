@@ -63,7 +63,8 @@ class Metal {
   /// The state of the same metal before; wheels must be put then.
   void stand(std::vector<double> state) { state_ = std::move(state); }
   /// Pa, residual stress of a column by rows, S = λ tr e I + 2µ (e - E^p), e the strain that the section answers with
-  /// (steady/plastic_strain_response.hpp); zero without wheels.
+  /// (steady/plastic_strain_response.hpp), a half of it and a quarter of either neighbour's:
+  /// equilibrium lets stress alternate from column to column. Zero without wheels.
   std::vector<Sym3> residual(std::size_t column) const;
   /// Other wheels from now on.
   void put(std::vector<MetalWheel> wheels);
