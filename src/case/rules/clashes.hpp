@@ -20,7 +20,8 @@ struct Use {
   std::string_view name;                     ///< after "is not supported by"
   const Use* part_of = nullptr;              ///< a wider use, whose rules hold too
   bool (*comes)(const CaseSpec&) = nullptr;  ///< set: the wider use brings this one for such a case
-  bool is(const Use& wider) const { return this == &wider || (part_of && part_of->is(wider)); }
+  /// By name: every shared library has its own copies of these constants.
+  bool is(const Use& wider) const { return name == wider.name || (part_of && part_of->is(wider)); }
 };
 
 namespace uses {
