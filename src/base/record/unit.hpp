@@ -47,6 +47,8 @@ inline constexpr Unit kMPa = both("_Pa", "_MPa", kToMega, "MPa");
 inline constexpr Unit kRootMetres = both("_Pa_sqrt_m", "_MPa_sqrt_m", kToMega, "MPa √m");
 /// Million gross tonnes of traffic.
 inline constexpr Unit kMGT = both("_kg", "_MGT", 1e-9, "MGT");
+/// Depth by gross traffic.
+inline constexpr Unit kMillimetresPerMGT = both("_m_per_kg", "_mm_per_MGT", 1e12, "mm/MGT");
 inline constexpr Unit kMillimetres = both("_m", "_mm", kToMilli, "mm");
 inline constexpr Unit kMicrometres = both("_m", "_um", kToMicro, "µm");
 inline constexpr Unit kNanometres = both("_m", "_nm", 1e9, "nm");

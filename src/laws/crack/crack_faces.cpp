@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "crack/crack_passage.hpp"
 #include "crack/dislocation.hpp"
 #include "crack/layered_dislocation.hpp"
 
@@ -148,10 +147,6 @@ CrackFaces::Faces CrackFaces::load(const std::vector<LineTraction>& given, doubl
     out.open += s == State::open ? to - from : 0;
     out.slipping += s == State::forward || s == State::backward ? to - from : 0;
     out.volume += jump[k] * (to - from) * line_.length;
-    out.opening.push_back(jump[k]);
-    out.slip.push_back(jump[n + k]);
-    out.pressure.push_back(s == State::open ? 0 : -traction[k] - fluid);
-    out.shear.push_back(s == State::open ? 0 : traction[n + k]);
   }
   return out;
 }

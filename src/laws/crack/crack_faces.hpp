@@ -20,13 +20,10 @@ class CrackFaces {
   /// points: of crack_rule.
   CrackFaces(const CrackLine& line, const LayeredHalfSpace& body, int points);
 
-  const CrackLine& line() const { return line_; }
   /// m from the start, of the collocation points.
   std::vector<double> places() const;
 
   struct Faces {
-    std::vector<double> opening, slip;    ///< m, at places()
-    std::vector<double> pressure, shear;  ///< Pa, of the faces on each other
     StressIntensity end;
     std::optional<StressIntensity> start;  ///< of a crack inside
     double open = 0, slipping = 0;         ///< shares of the length

@@ -1,6 +1,8 @@
 #include "crack/crack_growth.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace railstrata {
 
@@ -25,10 +27,10 @@ FrontFactors front_factors(double aspect, double poisson) {
   // k²/[(k² + ν b²) E(k) - ν b² K(k)], of the circle its limit
   constexpr double kCircle = 1e-4;
   const double shape =
-      k2 < kCircle ? 4 / (3.14159265358979324 * (2 - poisson))
+      k2 < kCircle ? 4 / (std::numbers::pi * (2 - poisson))
                    : k2 / ((k2 + poisson * b * b) * std::comp_ellint_2(k) - poisson * b * b * std::comp_ellint_1(k));
   out.II = shape;
-  out.III = shape * (1 - poisson) * b / std::sqrt(b);
+  out.III = shape * (1 - poisson) * std::sqrt(b);
   return out;
 }
 

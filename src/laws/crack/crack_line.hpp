@@ -1,5 +1,5 @@
 #pragma once
-// A straight crack in the plane of rolling, and the words for what it is asked.
+// A straight crack in a vertical plane, and the words for what it is asked.
 #include <cmath>
 
 namespace railstrata {
@@ -18,7 +18,7 @@ enum class GrowthLaw { shear, paris };
 
 struct CrackLine {
   CrackKind kind = CrackKind::mouth;
-  double angle = 0;   ///< rad, from the surface, 0 to pi; above pi/2 it leans against the way of rolling
+  double angle = 0;   ///< rad, from the surface
   double length = 0;  ///< m
   double depth = 0;   ///< m, of its start; 0: the mouth
   double x(double r) const { return r * std::cos(angle); }

@@ -28,15 +28,6 @@ double trapped_pressure(const CrackFaces& faces, const std::vector<LineTraction>
 
 }  // namespace
 
-HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth) {
-  double top = 0;
-  for (const HalfSpaceLayer& layer : body.layers) {
-    if (depth <= top + layer.thickness) return layer.local(depth - top);
-    top += layer.thickness;
-  }
-  return body.substrate;
-}
-
 CrackPassage pass_over(const CrackLine& line, const LayeredHalfSpace& body, const PlaneOfRolling& plane,
                        const PassageOptions& options) {
   CrackFaces faces(line, body, options.points);

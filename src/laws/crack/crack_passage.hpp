@@ -12,9 +12,6 @@
 
 namespace railstrata {
 
-/// An interface belongs to the layer above.
-HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth);
-
 struct PassageOptions {
   double friction = 0.2;  ///< of the faces
   CrackFluid fluid = CrackFluid::none;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "crack/crack_passage.hpp"
 #include "halfspace/layer_waves.hpp"
 
 namespace railstrata {

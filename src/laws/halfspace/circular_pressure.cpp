@@ -43,15 +43,6 @@ OfCircle of_circle(const LayeredHalfSpace& body, double a, double r, double dept
   return sum;
 }
 
-HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth) {
-  double top = 0;
-  for (const HalfSpaceLayer& layer : body.layers) {
-    if (depth <= top + layer.thickness) return layer.local(depth - top);
-    top += layer.thickness;
-  }
-  return body.substrate;
-}
-
 Sym3 strain_of(const Sym3& s, const HalfSpaceMaterial& m) {
   const double trace = m.poisson * (s.xx + s.yy + s.zz), turn = (1 + m.poisson) / m.young;
   return {.xx = turn * s.xx - trace / m.young,

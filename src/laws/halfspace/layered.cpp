@@ -214,6 +214,15 @@ double bending_length(const LayeredHalfSpace& body) {
   return longest;
 }
 
+HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth) {
+  double top = 0;
+  for (const HalfSpaceLayer& layer : body.layers) {
+    if (depth <= top + layer.thickness) return layer.local(depth - top);
+    top += layer.thickness;
+  }
+  return body.substrate;
+}
+
 std::vector<LayerExtent> layer_extents(const LayeredHalfSpace& body) {
   std::vector<LayerExtent> out;
   double top = 0;

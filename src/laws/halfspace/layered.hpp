@@ -43,6 +43,9 @@ struct LayeredHalfSpace {
 /// longest; 0 without springs.
 double bending_length(const LayeredHalfSpace& body);
 
+/// An interface belongs to the layer above.
+HalfSpaceMaterial material_at(const LayeredHalfSpace& body, double depth);
+
 /// The layers as they were laid, from the surface down: cuts of a graded one joined. Depths in m.
 struct LayerExtent {
   double top = 0, bottom = 0;

@@ -49,7 +49,7 @@ const std::vector<MomentColumn>& moments() {
        "of the metal that were computed"},
       {{"crack", kMillimetres, [](const M& m) { return m.crack; }},
        "depth of the crack below the surface of that time; empty: none has begun"},
-      {{"crack_growth", both("_m_per_kg", "_mm_per_MGT", 1e12, "mm/MGT"), [](const M& m) { return m.crack_growth; }},
+      {{"crack_growth", kMillimetresPerMGT, [](const M& m) { return m.crack_growth; }},
        "of its depth by the traffic alone, without what wear takes off"}};
   return columns;
 }

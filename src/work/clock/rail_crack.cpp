@@ -11,12 +11,11 @@
 #include "bem/contact_places.hpp"
 #include "clock/clock.hpp"
 #include "core/parallel.hpp"
+#include "record/unit.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr double kPerMGT = 1e12;  // mm/MGT of m/kg
 
 /// Of values at ascending depths.
 Sym3 value_at_depth(const std::vector<double>& depths, const std::vector<Sym3>& values, double depth) {
@@ -163,7 +162,7 @@ std::string crack_note(const CrackSpec& crack, const RailCrack& rail, const std:
   const ClockMoment& end = history.back();
   if (!std::isfinite(end.crack_growth)) return out;
   out += fmt::format(" and {:.2f} mm in the end, where traffic deepens it by {:.3g} mm/MGT", 1e3 * end.crack,
-                     kPerMGT * end.crack_growth);
+                     unit::kMillimetresPerMGT.factor * end.crack_growth);
   return out + (end.crack > crack.depth ? "" : ": wear and grinding take off more than it grows");
 }
 

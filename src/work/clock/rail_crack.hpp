@@ -2,11 +2,11 @@
 // The crack that follows the first failure of a rail's metal: growth by the traffic as it comes, less what wear and
 // grinding take off its mouth.
 //
-// It breaks the surface where the metal failed first, in the plane of rolling, at crack.angle. Each load's growth is
-// that of its stresses on the profile of the day (fatigue/crack_summary.hpp), with the residual stress that its process
-// and the passes have left; loads of all kinds add up by their numbers. While the metal there has failed it is never
-// shallower than crack.depth: a crack that wears away begins again. With crack.place it is there from the beginning,
-// and no metal needs to fail. Growth ends at crack.allowable.
+// It breaks the surface where the metal failed first, at crack.angle, and goes down in the direction in which it grows
+// fastest. Each load's growth is that of its stresses on the profile of the day (fatigue/crack_summary.hpp), with the
+// residual stress that its process and the passes have left; loads of all kinds add up by their numbers. While the
+// metal there has failed it is never shallower than crack.depth: a crack that wears away begins again. With crack.place
+// it is there from the beginning, and no metal needs to fail. Growth ends at crack.allowable.
 #include <limits>
 #include <map>
 #include <string>

@@ -156,16 +156,16 @@ Columns<ClockResult> traffic_columns() {
   const auto per_100_tonnes = [](double amount, const ClockResult& r) {
     return 100 * amount / (unit::kMGT.factor * r.reached);
   };
-  return {{"wear_per_100MGT", unit::kMillimetres,
-           [=](const ClockResult& r) { return per_100_tonnes(r.history.back().removed, r); }},
-          {"ductility_per_100MGT", unit::kCount,
-           [=](const ClockResult& r) { return per_100_tonnes(r.history.back().ductility, r); }},
-          {"crack_growth", unit::both("_m_per_kg", "_mm_per_MGT", 1e12, "mm/MGT"),
-           [](const ClockResult& r) { return r.history.back().crack_growth; }},
-          {"first_crack_MGT", unit::kCount, [](const ClockResult& r) {
-             const LifeRow* first = first_damage(r.lives);
-             return first ? first->mgt.best : std::numeric_limits<double>::infinity();
-           }}};
+  return {
+      {"wear_per_100MGT", unit::kMillimetres,
+       [=](const ClockResult& r) { return per_100_tonnes(r.history.back().removed, r); }},
+      {"ductility_per_100MGT", unit::kCount,
+       [=](const ClockResult& r) { return per_100_tonnes(r.history.back().ductility, r); }},
+      {"crack_growth", unit::kMillimetresPerMGT, [](const ClockResult& r) { return r.history.back().crack_growth; }},
+      {"first_crack_MGT", unit::kCount, [](const ClockResult& r) {
+         const LifeRow* first = first_damage(r.lives);
+         return first ? first->mgt.best : std::numeric_limits<double>::infinity();
+       }}};
 }
 
 Answers traffic_answers(const ValidationSet& set, const ValidationSeries& series, const RowTexts& rows,
