@@ -31,7 +31,17 @@ class PlaneFft {
   /// Symmetry of a kernel given for offsets >= 0: +1 even, -1 odd in x and in y. Even total parity gives a real
   /// spectrum, odd an imaginary one; the returned numbers are the real or the imaginary part. table[i * (my/2 + 1) +
   /// j], i = 0 … mx/2, j = 0 … my/2. Divided by mx my, so that `multiply` needs no scaling.
-  std::vector<double> spectrum(const std::vector<double>& table, int parity_x, int parity_y) const;
+  Plane spectrum(const Plane& table, int parity_x, int parity_y) const;
+  /// Such a table of a kernel.
+  struct KernelTable {
+    Plane values;
+    int parity_x, parity_y;
+    double unit = 1;  ///< a power of two
+    void take_unit();
+  };
+  /// The spectra of several: up to four of unlike parities share a transform, and differ from those of `spectrum` by
+  /// round-off.
+  std::vector<Plane> spectra(std::vector<KernelTable> tables) const;
 
   /// Entries of several planes' spectra: z[c] points to those of plane c.
   struct Spectra {
@@ -80,6 +90,9 @@ class PlaneFft {
   }
   std::size_t pitch() const { return static_cast<std::size_t>(groups_) * kGroup; }
   std::size_t group_size() const { return static_cast<std::size_t>(mx_) * kGroup; }
+  struct Pack;
+  std::vector<Complex> rows_of(const std::vector<KernelTable>& tables, const Pack& pack) const;
+  void take_from(const Complex* z, int group, const KernelTable& table, bool packed, Plane& out) const;
   Complex* rows_in(const std::vector<const double*>& in, std::size_t planes) const;
   Complex* group_buffer(std::size_t planes) const;
   void rows_out_of(Complex* work, const std::vector<double*>& out, int rows_out) const;

@@ -42,13 +42,14 @@ constexpr Parity kDisplacementParity[3][3] = {
 template <std::size_t N, class Table, class Planes, class Value>
 void convolve(const PlaneFft& fft, const PlaneLoads& loads, const Table& table, const Parity (&parity)[3][N],
               Planes& out, Value&& value) {
-  Plane hat[3][N];
-  Plane values(table.size());
+  std::vector<PlaneFft::KernelTable> tables;
   for (std::size_t load = 0; load < 3; ++load)
     for (std::size_t s = 0; s < N; ++s) {
+      Plane& values = tables.emplace_back(PlaneFft::KernelTable{{}, parity[load][s].x, parity[load][s].y}).values;
+      values.resize(table.size());
       for (std::size_t i = 0; i < table.size(); ++i) values[i] = value(table[i], load, s);
-      hat[load][s] = fft.spectrum(values, parity[load][s].x, parity[load][s].y);
     }
+  const std::vector<Plane> hat = fft.spectra(std::move(tables));
   const std::vector<const double*> in{loads.p.data(), loads.q_x.data(), loads.q_y.data()};
   fft.apply(in, cleared(out, loads.p.size()), fft.nx(), [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
     for (int k = 0; k < count; ++k) {
@@ -56,7 +57,7 @@ void convolve(const PlaneFft& fft, const PlaneLoads& loads, const Table& table, 
       for (std::size_t s = 0; s < N; ++s) {
         Complex sum = 0;
         for (std::size_t l = 0; l < 3; ++l) {
-          const double h = hat[l][s][first + static_cast<std::size_t>(k)];
+          const double h = hat[l * N + s][first + static_cast<std::size_t>(k)];
           sum += parity[l][s].x * parity[l][s].y > 0 ? h * load[l] : Complex(-h * load[l].imag(), h * load[l].real());
         }
         z[s][k] = sum;
