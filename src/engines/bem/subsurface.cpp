@@ -35,13 +35,10 @@ constexpr std::array<double Vec3::*, 3> kAxis{&Vec3::x, &Vec3::y, &Vec3::z};
 constexpr Parity kDisplacementParity[3][3] = {
     {{-1, 1}, {1, -1}, {1, 1}}, {{1, 1}, {-1, -1}, {-1, 1}}, {{-1, -1}, {1, 1}, {1, -1}}};
 
-/// The planes s of `out` = sum over the loads (p, q_x, q_y) of table entry times load, by one FFT: value(entry, load,
-/// s) is the influence at an offset from a cell. The table holds the quadrant x, y >= 0 alone; the parities complete
-/// it. A spectrum is real where both parities agree, else imaginary with its imaginary part kept: hence the two
-/// products below.
-template <std::size_t N, class Table, class Planes, class Value>
-void convolve(const PlaneFft& fft, const PlaneLoads& loads, const Table& table, const Parity (&parity)[3][N],
-              Planes& out, Value&& value) {
+/// Spectra of a table, by load (p, q_x, q_y) and s: value(entry, load, s) is the influence at an offset from a cell.
+/// The table holds the quadrant x, y >= 0 alone; the parities complete it.
+template <std::size_t N, class Table, class Value>
+std::vector<Plane> spectra_of(const PlaneFft& fft, const Table& table, const Parity (&parity)[3][N], Value&& value) {
   std::vector<PlaneFft::KernelTable> tables;
   for (std::size_t load = 0; load < 3; ++load)
     for (std::size_t s = 0; s < N; ++s) {
@@ -49,7 +46,14 @@ void convolve(const PlaneFft& fft, const PlaneLoads& loads, const Table& table, 
       values.resize(table.size());
       for (std::size_t i = 0; i < table.size(); ++i) values[i] = value(table[i], load, s);
     }
-  const std::vector<Plane> hat = fft.spectra(std::move(tables));
+  return fft.spectra(std::move(tables));
+}
+
+/// The planes s of `out` = sum over the loads (p, q_x, q_y) of kernel times load. A spectrum is real where both
+/// parities agree, else imaginary with its imaginary part kept: hence the two products below.
+template <std::size_t N, class Planes>
+void convolve(const PlaneFft& fft, const PlaneLoads& loads, const std::vector<Plane>& hat, const Parity (&parity)[3][N],
+              Planes& out) {
   const std::vector<const double*> in{loads.p.data(), loads.q_x.data(), loads.q_y.data()};
   fft.apply(in, cleared(out, loads.p.size()), fft.nx(), [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
     for (int k = 0; k < count; ++k) {
@@ -67,6 +71,25 @@ void convolve(const PlaneFft& fft, const PlaneLoads& loads, const Table& table, 
 }
 
 }  // namespace
+
+std::shared_ptr<const InteriorKernels::Spectra> InteriorKernels::get(const Key& key,
+                                                                     const std::function<Spectra()>& make) {
+  constexpr std::size_t kMost = 32 << 20;  // numbers: 256 MiB
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto it = kept_.find(key); it != kept_.end()) return it->second;
+  }
+  auto made = std::make_shared<const Spectra>(make());
+  std::size_t numbers = 0;
+  for (const Plane& one : *made) numbers += one.size();
+  const std::lock_guard lock(mutex_);
+  if (numbers_ + numbers > kMost) {
+    kept_.clear();
+    numbers_ = 0;
+  }
+  if (kept_.emplace(key, made).second) numbers_ += numbers;
+  return made;
+}
 
 Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y,
                        double period)
@@ -103,10 +126,20 @@ StatePlane Subsurface::plane(double depth, bool below_interface) const {
   out.depth = depth;
   const PlaneFft fft(grid_.nx, grid_.ny, reach_x_, reach_y_);
   const int nx = fft.mx() / 2 + 1, ny = fft.my() / 2 + 1;
-  const auto table = grid_.line ? in_first_column(strip_interior_table(body_.substrate, depth, nx, grid_.dx), ny)
-                                : rectangle_interior_table(body_.substrate, depth, nx, ny, grid_.dx, grid_.dy);
-  convolve(fft, loads_, table, kParity, out,
-           [](const InteriorInfluence& t, std::size_t load, std::size_t s) { return t[load].*kState[s]; });
+  const auto make = [&] {
+    const auto table = grid_.line ? in_first_column(strip_interior_table(body_.substrate, depth, nx, grid_.dx), ny)
+                                  : rectangle_interior_table(body_.substrate, depth, nx, ny, grid_.dx, grid_.dy);
+    return spectra_of(fft, table, kParity,
+                      [](const InteriorInfluence& t, std::size_t load, std::size_t s) { return t[load].*kState[s]; });
+  };
+  if (kernels_)
+    convolve(fft, loads_,
+             *kernels_->get({body_.substrate.young, body_.substrate.poisson, depth, grid_.dx, grid_.dy, fft.mx(),
+                             fft.my(), grid_.line},
+                            make),
+             kParity, out);
+  else
+    convolve(fft, loads_, make(), kParity, out);
   straighten_steps(depth, out);
   if (layered_) {
     stop_if_requested();
@@ -125,8 +158,10 @@ DisplacementPlane Subsurface::displacement(double depth, bool below_interface) c
   const PlaneFft fft(grid_.nx, grid_.ny, reach_x_, reach_y_);
   const auto table =
       rectangle_displacement_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
-  convolve(fft, loads_, table, kDisplacementParity, out,
-           [](const InteriorDisplacement& t, std::size_t load, std::size_t axis) { return t[load].*kAxis[axis]; });
+  const auto value = [](const InteriorDisplacement& t, std::size_t load, std::size_t axis) {
+    return t[load].*kAxis[axis];
+  };
+  convolve(fft, loads_, spectra_of(fft, table, kDisplacementParity, value), kDisplacementParity, out);
   if (layered_) {
     stop_if_requested();
     layered_->add(loads_, below_interface, out);

@@ -5,7 +5,11 @@
 // plus for layers the difference of the Fourier-domain solutions (layer_waves.hpp), which dies out away from the patch,
 // so that the periodic images of its grid do not reach back. Of a line contact (PatchGrid::line) in plane strain, the
 // same along every y.
+#include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <tuple>
 #include <vector>
 
 #include "bem/patch_grid.hpp"
@@ -72,6 +76,22 @@ struct SubsurfacePeaks {
 
 class LayerCorrection;
 
+/// Spectra of the influence below homogeneous half-spaces, for bodies that ask for the same depths on the same cells
+/// again. Threads may share one.
+class InteriorKernels {
+ public:
+  /// Young's modulus, Poisson's ratio, depth, cells and lengths of the transform; the last: of a line.
+  using Key = std::tuple<double, double, double, double, double, int, int, bool>;
+  using Spectra = std::vector<Plane>;
+  /// What is kept, or what `make` gives, which is kept from now on.
+  std::shared_ptr<const Spectra> get(const Key& key, const std::function<Spectra()>& make);
+
+ private:
+  std::mutex mutex_;
+  std::map<Key, std::shared_ptr<const Spectra>> kept_;
+  std::size_t numbers_ = 0;
+};
+
 class Subsurface {
  public:
   /// p, q_x, q_y act on the body in its own axes: for the rail z is down and q as in ContactField; for the wheel z is
@@ -81,6 +101,9 @@ class Subsurface {
   Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y, double period = 4);
   ~Subsurface();
   Subsurface(Subsurface&&) noexcept;
+
+  /// Takes the influence of its planes, and of bodies made from it, from these; they must outlive it.
+  void share(InteriorKernels* kernels) { kernels_ = kernels; }
 
   const PatchGrid& grid() const { return grid_; }
   StatePlane plane(double depth) const;
@@ -125,6 +148,7 @@ class Subsurface {
   double period_;
   int reach_x_, reach_y_;  ///< cells from a traction to the farthest cell
   std::unique_ptr<LayerCorrection> layered_;
+  InteriorKernels* kernels_ = nullptr;
 };
 
 }  // namespace railstrata

@@ -137,6 +137,7 @@ std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {
   auto wide = std::make_unique<Subsurface>(body_, g, padded(loads_.p), padded(loads_.q_x), padded(loads_.q_y), period_);
   wide->reach_x_ = reach_x_ + more_x;
   wide->reach_y_ = reach_y_ + more_y;
+  wide->share(kernels_);
   return wide;
 }
 
@@ -177,7 +178,9 @@ std::unique_ptr<Subsurface> Subsurface::refined(int times) const {
                scale = sum > 0 ? cells * std::accumulate(loads_.p.begin(), loads_.p.end(), 0.0) / sum : 1;
   for (Plane* plane : {&p, &q_x, &q_y})
     for (double& v : *plane) v *= scale;
-  return std::make_unique<Subsurface>(body_, g, std::move(p), std::move(q_x), std::move(q_y), period_);
+  auto fine = std::make_unique<Subsurface>(body_, g, std::move(p), std::move(q_x), std::move(q_y), period_);
+  fine->share(kernels_);
+  return fine;
 }
 
 std::unique_ptr<Subsurface> Subsurface::coarsened() const {
@@ -198,8 +201,10 @@ std::unique_ptr<Subsurface> Subsurface::coarsened() const {
     }
     return out;
   };
-  return std::make_unique<Subsurface>(body_, g, means(loads_.p), means(loads_.q_x), means(loads_.q_y),
-                                      std::max(2.5, period_ / kCells));
+  auto coarse = std::make_unique<Subsurface>(body_, g, means(loads_.p), means(loads_.q_x), means(loads_.q_y),
+                                             std::max(2.5, period_ / kCells));
+  coarse->share(kernels_);
+  return coarse;
 }
 
 // Points outside the grid: the same tractions on a grid widened with empty cells. Points are taken by depth, since a

@@ -192,14 +192,14 @@ class Rows {
 /// Stress of the contact on a path (SteadyGrid::path()), row by row from the surface down.
 class ContactStress {
  public:
-  ContactStress(const BemResult& result, double middle_x, const SteadyGrid& grid)
-      : middle_x_(middle_x), grid_(grid.path()), stress_(interior(result, middle_x, grid_)) {
+  ContactStress(const BemResult& result, double middle_x, const SteadyGrid& grid, InteriorKernels* kernels)
+      : middle_x_(middle_x), grid_(grid.path()), stress_(interior(result, middle_x, grid_, kernels)) {
     // in steps of the contact's own cells tractions lose their edges, and so a fifth of what a wheel leaves
     constexpr double kCells = 21;  // of half the patch's length, at least
     constexpr int kLeast = 2;
     constexpr double kSkin = 1;  // cells: farther below steps do not show
     const double cells = footprint_of(result).x.half() / result.grid.dx;
-    stress_.refine(rail_interior(result).refined(std::max(kLeast, static_cast<int>(std::ceil(kCells / cells)))),
+    stress_.refine(sharing(result, kernels).refined(std::max(kLeast, static_cast<int>(std::ceil(kCells / cells)))),
                    kSkin * result.grid.dx);
   }
 
@@ -212,10 +212,16 @@ class ContactStress {
   }
 
  private:
-  static StressOfHalfSpace interior(const BemResult& result, double middle_x, const SteadyGrid& g) {
+  static Subsurface sharing(const BemResult& result, InteriorKernels* kernels) {
+    Subsurface out = rail_interior(result);
+    out.share(kernels);
+    return out;
+  }
+  static StressOfHalfSpace interior(const BemResult& result, double middle_x, const SteadyGrid& g,
+                                    InteriorKernels* kernels) {
     std::vector<double> interfaces;
     for (const LayerExtent& layer : layer_extents(result.rail)) interfaces.push_back(layer.bottom);
-    return {rail_interior(result), interfaces, std::max(g.front, g.active) + std::abs(middle_x) + g.dx,
+    return {sharing(result, kernels), interfaces, std::max(g.front, g.active) + std::abs(middle_x) + g.dx,
             g.ny > 1 ? 0.5 * g.ny * g.dy + std::abs(g.y(0) + 0.5 * (g.ny - 1) * g.dy) : 0};
   }
   double middle_x_;
@@ -319,7 +325,8 @@ RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solut
               : thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / spec.passes.patch_rows,
                             spec.passes.first_row.value_or(0));
   std::vector<ContactStress> contacts;
-  for (const BemResult& one : solutions) contacts.emplace_back(one, out.middle_x, out.grid);
+  for (const BemResult& one : solutions)
+    contacts.emplace_back(one, out.middle_x, out.grid, lattice ? lattice->kernels : nullptr);
   std::vector<std::vector<std::vector<Sym3>>> stresses(solutions.size());  // row by row
   const Subsurface interior = rail_interior(result);
   StressHistory section;  // rows alone, for what the process left in them
@@ -368,7 +375,7 @@ int columns_to(const SteadyGrid& g, double lateral) {
 
 Field contact_stress(const RailPasses& passes, const BemResult& contact) {
   const SteadyGrid& g = passes.grid;
-  ContactStress stress(contact, passes.middle_x, g);
+  ContactStress stress(contact, passes.middle_x, g, nullptr);
   std::vector<std::vector<Sym3>> rows;
   for (int r = 0; r < g.rows(); ++r) rows.push_back(stress.row(g.depth(r)));
   return as_field(g, rows);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bem/solve_bem.hpp"
+#include "bem/subsurface.hpp"
 #include "model/model.hpp"
 #include "spec/case_fwd.hpp"
 #include "steady/pass_class.hpp"
@@ -33,6 +34,7 @@ struct RailPasses {
 struct PassLattice {
   double apart = 0, line = 0;  ///< m, of columns; y of one of them in the contact frame, from RailPasses' origin
   std::vector<double> thickness = {};  ///< m, of rows
+  InteriorKernels* kernels = nullptr;  ///< that they share too; may be null
 };
 
 /// solutions: of cases_of_tractions (passes/pass_plan.hpp), the grid is that of the first one's patch, as wide as the

@@ -109,6 +109,7 @@ class Clock {
   ClockState now_;            ///< without what the next three hold; all of it: state()
   WornProfile surface_;
   std::optional<Metal> metal_;
+  InteriorKernels kernels_;  // under the wheels
   std::optional<GatheredDamage> damages_;
   std::vector<CollectiveRow> rows_;   ///< solved for the next stretch; empty: they are not
   std::vector<std::size_t> load_of_;  ///< of the metal's wheels, the row
@@ -262,7 +263,7 @@ void Clock::put_wheels() {
   for (std::size_t c = 0; c < since.size(); ++c) since[c] -= now_.metal_removed[c];
   metal_->sink(since);
   now_.metal_removed = removed;
-  MetalWheels put = metal_wheels(rows_, surface_, metal_->grid(), now_.out.wheels);
+  MetalWheels put = metal_wheels(rows_, surface_, metal_->grid(), now_.out.wheels, kernels_);
   for (const MetalWheels::Fault& fault : put.faults)
     if (now_.noted.insert(rows_[fault.load].name + "/flow").second)
       now_.out.notes.push_back(fmt::format("{}: at {:.3g} MGT its metal is not followed: {}", rows_[fault.load].name,

@@ -11,11 +11,12 @@
 namespace railstrata {
 namespace {
 
-MetalWheel wheel_of(const CollectiveRow& row, const BemPatch& patch, const WornProfile& surface, const MetalGrid& g) {
+MetalWheel wheel_of(const CollectiveRow& row, const BemPatch& patch, const WornProfile& surface, const MetalGrid& g,
+                    InteriorKernels& kernels) {
   // arc length of the unworn rail where the contact frame has y = 0
   const double at = surface.unworn_s_of(patch.place.rail_s) - along_plane(patch.contact, patch.place.point);
   const double line = g.s(static_cast<int>(std::lround((at - g.from) / g.apart))) - at;
-  const PassLattice lattice{g.apart, line, g.thickness};
+  const PassLattice lattice{g.apart, line, g.thickness, &kernels};
   MetalWheel out{.rail = rail_passes(row.spec, {alone(*row.result, patch)}, &lattice), .share = 0};
   out.column = static_cast<int>(std::lround((at + out.rail.grid.y0 - g.from) / g.apart));
   return out;
@@ -24,7 +25,7 @@ MetalWheel wheel_of(const CollectiveRow& row, const BemPatch& patch, const WornP
 }  // namespace
 
 MetalWheels metal_wheels(const std::vector<CollectiveRow>& rows, const WornProfile& surface, const MetalGrid& grid,
-                         double wheels) {
+                         double wheels, InteriorKernels& kernels) {
   std::vector<std::pair<std::size_t, const BemPatch*>> patches;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i].sound() && rows[i].result)
@@ -34,7 +35,7 @@ MetalWheels metal_wheels(const std::vector<CollectiveRow>& rows, const WornProfi
   for_each_that_throws(patches.size(), [&](std::size_t k) {
     const auto [i, patch] = patches[k];
     try {
-      made[k] = wheel_of(rows[i], *patch, surface, grid);
+      made[k] = wheel_of(rows[i], *patch, surface, grid, kernels);
     } catch (const CaseError& e) {
       why[k] = fault_line(e);
     }

@@ -21,8 +21,8 @@ struct MetalWheels {
   std::vector<Fault> faults;  ///< patches under which the metal cannot be followed
 };
 
-/// Of the rows that are sound and have their results; wheels: of all rows.
+/// Of the rows that are sound and have their results; wheels: of all rows; kernels: kept from one call to the next.
 MetalWheels metal_wheels(const std::vector<CollectiveRow>& rows, const WornProfile& surface, const MetalGrid& grid,
-                         double wheels);
+                         double wheels, InteriorKernels& kernels);
 
 }  // namespace railstrata
