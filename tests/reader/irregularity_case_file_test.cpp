@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <numbers>
 
 #include "reader/case_file.hpp"
 #include "rules/irregularity_rules.hpp"
@@ -121,4 +122,26 @@ TEST(IrregularityCaseFile, FiniteElementsSayWhatTheyDoNotTake) {
 }
 
 }  // namespace
+TEST(IrregularityCaseFile, HeightsMayHaveAChainageAGreekMuOrTheAnglesOfAWheel) {
+  const TemporaryFolder folder;
+  const auto read = [&](const char* table, const std::string& more) {
+    std::ofstream(folder.path() / "h.csv") << table;
+    return parse_case(
+        "[geometry]\nwheel_radius = \"460 mm\"\n[[irregularity]]\nkind = \"file\"\nfile = \"h.csv\"\n" + more,
+        folder.path() / "a.toml");
+  };
+  const auto points = [](const LoadedCase& loaded) {
+    return std::get<HeightPoints>(loaded.spec.irregularities[0].shape);
+  };
+  const LoadedCase way = read("x [m];z [\u03BCm]\n12345,00;10\n12345,01;-10\n12345,02;0\n", "");
+  EXPECT_EQ(points(way).x[0], 0);
+  EXPECT_NEAR(points(way).x[2], 0.02, 1e-9);
+  EXPECT_EQ(points(way).z, (std::vector<double>{1e-5, -1e-5, 0}));
+  EXPECT_NE(way.notes.back().find("h.csv: x counts from its first row, 12345000 mm"), std::string::npos)
+      << way.notes.back();
+  const LoadedCase turned = read("angle [deg];runout [um]\n0;50\n90;-50\n180;0\n", "on = \"wheel\"\n");
+  EXPECT_NEAR(points(turned).x[1], 0.46 * std::numbers::pi / 2, 1e-12);
+  EXPECT_EQ(points(turned).z, (std::vector<double>{5e-5, -5e-5, 0}));
+}
+
 }  // namespace railstrata

@@ -211,6 +211,30 @@ TEST(LoadRows, ASpreadsheetsSeriesIsReadAndSaysWhatItLacks) {
               "its creepages are taken for those of the contact that touches first");
 }
 
+TEST(LoadRows, ASeriesMayHaveUnitsInParenthesesAndWheelsThatLift) {
+  CaseSpec spec;
+  const std::string note = read_load_table(
+      "TIME (s),y (mm),Psi (mrad),Wheel load (kN),Y (kN)\n0.00,2.2,1.1,82,5\n0.01,1.8,0.9,-0.4,0\n0.02,2,1,78,6\n",
+      "s.csv", spec, nullptr);
+  ASSERT_EQ(spec.loads.size(), 1u);
+  EXPECT_DOUBLE_EQ(*spec.loads[0].wheel_load, 80e3);
+  EXPECT_DOUBLE_EQ(*spec.loads[0].lateral_shift, 2.1e-3);
+  EXPECT_EQ(spec.loads[0].passages, 2);
+  expect_says(note, "2 samples of a wheel became 1 loads; 1 of a lifted wheel were left out");
+}
+
+TEST(LoadRows, ASeriesWithoutAStateIsRefused) {
+  CaseSpec spec;
+  try {
+    read_load_table("time [s];Last {kN};Versatz {mm}\n0;80;1\n", "s.csv", spec, nullptr);
+    FAIL() << "taken";
+  } catch (const CaseError& e) {
+    expect_says(
+        e.what(),
+        "s.csv:1: a series without a load, a lateral shift and a yaw; not read: time [s], Last {kN}, Versatz {mm}");
+  }
+}
+
 TEST(LoadRows, NamesPartTheSamplesOfASeriesAndBinsHaveAScale) {
   const char* series =
       "time [s];name;y [mm];Q [kN];phi [mrad]\n0;wagon;2.2;82;0.1\n1;coach;1.8;78;0\n2;wagon;1.9;79;0.2\n"

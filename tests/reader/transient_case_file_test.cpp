@@ -59,7 +59,8 @@ TEST(TransientCaseFile, ColumnsAreReadInSiUnitsAndWrittenOutAgain) {
 TEST(TransientCaseFile, AHistoryFileStandsForItsColumns) {
   CaseSpec spec;
   read_history_table(
-      "# measured\ndistance [mm]; wheel_load_kN; creepage; spin_1_m\n0; 80; 0; 0.1\n10; 100.5; -1e-3; 0.2 # last\n\n",
+      "# measured\ndistance [mm]; wheel_load_kN; creepage; spin_1_m\n0; 80; 0; 0.1\n# between\n10; 100.5; -1e-3; "
+      "0.2\n\n",
       "h.csv", spec);
   EXPECT_EQ(spec.transient.at_distance, (std::vector<double>{0, 0.01}));
   EXPECT_EQ(spec.transient.wheel_load, (std::vector<double>{80e3, 100.5e3}));
@@ -85,7 +86,8 @@ TEST(TransientCaseFile, TablesOfSpreadsheetsAreRead) {
   CaseSpec spec;
   EXPECT_EQ(
       read_history_table("# of a spreadsheet\n\ndistance [mm];wheel_load [kN];creepage\n0;80;0\n2,5;100,25;-1e-3\n",
-                         "h.csv", spec),
+                         "h.csv", spec)
+          .of,
       (std::vector<int>{3, 4, 5}));
   EXPECT_EQ(spec.transient.at_distance, (std::vector<double>{0, 2.5e-3}));
   EXPECT_EQ(spec.transient.wheel_load, (std::vector<double>{80e3, 100.25e3}));
@@ -121,11 +123,30 @@ TEST(TransientCaseFile, AFaultInAHistoryFileIsOneErrorAtItsOwnLine) {
             "h.csv:3: \"x\" is not a number, in the column lateral_displacement");
   EXPECT_EQ(refusal_of_history("distance [mm], creepage\n0, 0\n# a remark\n5, 0.001\n4, 0.001\n", "rolling"),
             "h.csv:5: transient.at_distance: must not decrease from row to row");
-  EXPECT_EQ(refusal_of_history("distance [mm], creepage\n1, 0\n5, 0.001\n", "rolling"),
-            "h.csv:2: transient.at_distance: the first row must be the start, 0");
   EXPECT_NE(refusal_of_history("tractive_force_kN\n10\n50\n").find("h.csv:3: transient.tractive_force: row 2 wants"),
             std::string::npos);
   EXPECT_EQ(refusal_of_history("creepage\n0\n").find("h.csv:1: transient.creepage cannot be combined with"), 0u);
+}
+
+TEST(TransientCaseFile, ARecordOfAVehicleCodeIsAHistoryFromItsFirstRow) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
+  EXPECT_NE(refusal_of_history("Time (s);Q (kN)\n12,340;85\n12,341;\xE2\x88\x92"
+                               "1\n",
+                               "rolling")
+                .find("h.csv:3"),
+            std::string::npos)
+      << "a minus sign of a word processor is one";
+  std::ofstream(folder / "h.csv") << "Time (s);Q (kN);y [mm]\n12,340;85;0\n12,341;1.0D+02;1\n";
+  const LoadedCase loaded =
+      parse_case("[transient]\nkind = \"rolling\"\nhistory_file = \"h.csv\"\n", folder / "a.toml");
+  ASSERT_EQ(loaded.spec.transient.at_time.size(), 2u);
+  EXPECT_EQ(loaded.spec.transient.at_time[0], 0);
+  EXPECT_NEAR(loaded.spec.transient.at_time[1], 1e-3, 1e-12);
+  EXPECT_EQ(loaded.spec.transient.wheel_load, (std::vector<double>{85e3, 100e3}));
+
+  EXPECT_EQ(loaded.notes, (std::vector<std::string>{"h.csv: not read: y [mm]",
+                                                    "h.csv: Time (s) counts from its first row, 12340 ms"}));
 }
 
 std::string table_refusal(const std::string& text) {
@@ -140,7 +161,11 @@ std::string table_refusal(const std::string& text) {
 
 TEST(TransientCaseFile, AFaultOfAHistoryFileIsToldWithItsLine) {
   const std::pair<const char*, const char*> all[] = {
-      {"distance [mm], speed\n", "h.csv:1: unknown column \"speed\"\n    remedy: columns: distance, time, wheel_load"},
+      {"distance [mm], 2nd\n", "h.csv:1: unknown column \"2nd\"\n    remedy: columns: distance, "},
+      {"distance [mm], creepage\n0, 0 # first\n", "a comment stands on a line of its own"},
+      {"distance [mm], creepage\n0, 0\n1, #DIV/0!\n",
+       "h.csv:3: \"#DIV/0!\" is an error of the spreadsheet, in the column creepage"},
+      {"distance [mm], creepage\n#NV, 0\n", "h.csv:2: \"#NV\" is an error of the spreadsheet"},
       {"distance [mm], creepge\n", "did you mean creepage?"},
       {"distance, creepage\n", "h.csv:1: the column \"distance\" has no unit"},
       {"distance [kN], creepage\n", "h.csv:1: the column at_distance:"},

@@ -65,6 +65,19 @@ TEST(Units, HundredKilometresPerHourAreTheirSiValueToRoundOff) {
     EXPECT_THROW(parse_quantity(upright, kSlope), UnitError) << upright;
 }
 
+TEST(Units, OfTheTradeAndOfOtherCountriesAreRead) {
+  EXPECT_EQ(parse_quantity("388 HV10", dimension::kHardness), 388);
+  EXPECT_EQ(parse_quantity("388 HV0.5", dimension::kHardness), 388);
+  EXPECT_EQ(parse_quantity("10 \u03BCm", dimension::kLength), 10e-6);
+  EXPECT_EQ(parse_quantity("10 \u00B5m", dimension::kLength), 10e-6);
+  EXPECT_EQ(parse_quantity("\u22125\u00A0mm", dimension::kLength), -5e-3);
+  EXPECT_DOUBLE_EQ(parse_quantity("36 in", dimension::kLength), 0.9144);
+  EXPECT_DOUBLE_EQ(parse_quantity("60 mph", dimension::kSpeed), 26.8224);
+  EXPECT_NEAR(parse_quantity("145 ksi", dimension::kPressure), 999.74e6, 1e4);
+  EXPECT_NEAR(parse_quantity("36 kip", dimension::kForce), 160.14e3, 10);
+  EXPECT_THROW(parse_quantity("40 HRC", dimension::kHardness), UnitError);
+}
+
 TEST(Units, WhatIsShownReadsBackToTheSameBits) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> exponent(-9, 12);
@@ -102,7 +115,7 @@ TEST(Units, EveryBadTextIsRefusedWithItsRuleAndRemedy) {
       {"3 furlong", kLength, "unknown unit \"furlong\"", "write a length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)"},
       {"20 °C", kTemperature, "unknown unit \"°C\"",
        "write the same number in K, \"20 K\" for 20 °C: only differences count"},
-      {"50 mph", kSpeed, "unknown unit \"mph\"", "write a speed, e.g. \"100 km/h\" (units: m/s, km/h)"},
+      {"50 knots", kSpeed, "unknown unit \"knots\"", "write a speed, e.g. \"100 km/h\" (units: m/s, km/h)"},
       {"100 kmh", kSpeed, "unknown unit \"kmh\"", "did you mean km/h?"},
       {"0,5 mm", kLength, "has a comma in the number", "numbers have a decimal point: write \"0.5 mm\""},
       {"0,2", kNumber, "has a comma in the number", "numbers have a decimal point: write \"0.2\""},

@@ -79,7 +79,8 @@ void read_history(LoadedCase& loaded, CaseSource& source) {
   if (!source.sound({kHistoryFile})) return;
   loaded.inputs.push_back(file);
   try {
-    const std::vector<int> lines = read_history_table(text, said, loaded.spec);
+    const auto [lines, notes] = read_history_table(text, said, loaded.spec);
+    loaded.notes.insert(loaded.notes.end(), notes.begin(), notes.end());
     for (const GivenColumn& column : given_columns(loaded.spec))
       for (std::size_t row = 0; row < lines.size(); ++row)
         source.remember_origin(fmt::format("transient.{}{}", column.key, row == 0 ? "" : fmt::format(".{}", row)),
@@ -120,8 +121,7 @@ void read_height_files(LoadedCase& loaded, CaseSource& source) {
     if (auto* points = std::get_if<HeightPoints>(&spec.irregularities[i].shape))
       read_table_file(fmt::format("irregularity.{}.file", i), points->file, loaded, source,
                       [&](const std::string& text, const std::filesystem::path& file) {
-                        read_heights(text, file, spec, i);
-                        return std::string();
+                        return read_heights(text, file, spec, i);
                       });
 }
 

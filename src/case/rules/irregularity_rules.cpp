@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "geometry/height_field.hpp"
 #include "options/irregularity_options.hpp"
 #include "options/option_table.hpp"
+#include "tables/column_words.hpp"
 #include "tables/unit_table.hpp"
 
 namespace railstrata {
@@ -152,16 +154,37 @@ void require_fine_enough(const CaseSpec& spec, double size, const char* what, co
     if (const auto fault = too_coarse(spec, i, size, what, key)) throw CaseError(std::vector<Diagnostic>{*fault});
 }
 
-void read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec, std::size_t index) {
+std::string read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec,
+                         std::size_t index) {
+  constexpr double kTurns = 100;
+  // round a wheel: the way on its tread
+  const Option angle{
+      "angle", nullptr, "", dimension::kAngle, {-2 * kTurns * std::numbers::pi, 2 * kTurns * std::numbers::pi}};
   const OptionTable& options = *find_table("irregularity");
-  UnitTableForm form{{}, {}, "heights", "x [mm], z [um]"};
-  for (const Option& option : options.options)
-    if (std::holds_alternative<std::vector<double>*>(option.slot(spec, index)))
-      form.columns.push_back({&option, option.key});
+  UnitTableForm form{{}, {{"x", "angle"}}, "heights", "x [mm], z [um]"};
+  const Option *x = nullptr, *z = nullptr;
+  for (const Option& option : options.options) {
+    if (!std::holds_alternative<std::vector<double>*>(option.slot(spec, index))) continue;
+    form.columns.push_back({&option, option.key});
+    for (const std::string_view word : words_of(option.key)) form.columns.push_back({&option, word});
+    if (option.key == std::string_view("x")) x = &option;
+    if (option.key == std::string_view("z")) z = &option;
+  }
+  if (spec.irregularities.at(index).on == BodyId::wheel) {
+    form.columns.push_back({&angle, "angle"});
+    form.columns.push_back({z, "runout"});
+  }
+  form.chainage = "x";
   const UnitTable table = read_unit_table(text, file, form);
-  for (const UnitTable::Row& row : table.rows)
-    for (std::size_t k = 0; k < row.cells.size(); ++k)
-      std::get<std::vector<double>*>(table.columns[k]->slot(spec, index))->push_back(row.cells[k].number.value());
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    const bool turned = table.columns[k] == &angle;
+    std::vector<double>& column = *std::get<std::vector<double>*>((turned ? x : table.columns[k])->slot(spec, index));
+    for (const UnitTable::Row& row : table.rows)
+      column.push_back((turned ? spec.geometry.wheel_radius : 1) * row.cells[k].number.value());
+  }
+  return table.chainage == 0 ? ""
+                             : fmt::format("{}: x counts from its first row, {}", file.filename().string(),
+                                           format_quantity(table.chainage, dimension::kLength));
 }
 
 }  // namespace railstrata

@@ -15,35 +15,11 @@
 
 #include "core/text.hpp"
 #include "options/option_table.hpp"
+#include "tables/column_words.hpp"
 #include "tables/unit_table.hpp"
 
 namespace railstrata {
 namespace {
-
-/// Headings of spreadsheets beside the keys: German, French, Swedish, Chinese.
-using ColumnWords = std::map<std::string_view, std::vector<std::string_view>>;
-const ColumnWords& column_words() {
-  static const ColumnWords words{
-      {"name", {"Name", "Fahrzeug", "Véhicule", "Fordon", "名称"}},
-      {"passages", {"Überrollungen", "Überfahrten", "Anzahl", "Nombre", "Antal", "通过次数"}},
-      {"mgt", {"MGT", "Mio. t", "总重"}},
-      {"wheel_load", {"Q", "Radlast", "Charge par roue", "Hjullast", "轮重"}},
-      {"axle_load", {"Radsatzlast", "Achslast", "Charge par essieu", "Axellast", "轴重"}},
-      {"wheel_profile", {"Radprofil", "Profil de roue", "Hjulprofil", "车轮踏面"}},
-      {"wheel_radius", {"Radradius", "Laufkreisradius", "Rayon de roue", "Hjulradie"}},
-      {"lateral_shift", {"y", "Querverschiebung", "Déplacement latéral", "Sidoförskjutning", "横移量"}},
-      {"yaw", {"psi", "Anlaufwinkel", "Gierwinkel", "Angle d'attaque", "Anloppsvinkel", "冲角"}},
-      {"roll", {"phi", "Wankwinkel"}},
-      {"creepage", {"Längsschlupf", "Glissement longitudinal", "Längskryp", "纵向蠕滑率"}},
-      {"lateral_creepage", {"Querschlupf", "Glissement latéral", "Tvärkryp", "横向蠕滑率"}},
-      {"curve_radius", {"Bogenradius", "Bogenhalbmesser", "Rayon de courbe", "Kurvradie", "曲线半径"}},
-      {"guiding_force", {"Y", "Führungskraft"}},
-      {"t_gamma", {"T-gamma"}},
-      {"speed", {"Geschwindigkeit", "Vitesse", "Hastighet", "速度"}},
-      {"friction_coefficient", {"Reibwert", "Coefficient de frottement", "Friktionskoefficient", "摩擦系数"}},
-      {"traction_coefficient", {"Kraftschluss", "Coefficient d'adhérence", "Adhesionskoefficient", "牵引系数"}}};
-  return words;
-}
 
 /// A fault of a row.
 struct RowFault {
@@ -209,8 +185,12 @@ LoadSpec mean_of(LoadSpec sums) {
 
 /// Whether a column is the time or the distance of samples.
 bool names_way(std::string_view column) {
-  const std::array words{"time", "distance", "Zeit", "Weg"};
-  return std::any_of(words.begin(), words.end(), [&](const char* word) { return column.starts_with(word); });
+  const auto names = [&](std::string_view key) {
+    const std::vector<std::string_view>& words = words_of(key);
+    return names_column(column, key) ||
+           std::any_of(words.begin(), words.end(), [&](std::string_view word) { return names_column(column, word); });
+  };
+  return names("time") || names("distance");
 }
 
 /// Whether a line of names has a column of time or distance: its rows are then samples of one wheel.
@@ -218,7 +198,7 @@ bool names_series(std::string_view text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   std::istringstream lines{std::string(text.starts_with(kMark) ? text.substr(kMark.size()) : text)};
   std::string line;
-  while (std::getline(lines, line) && trimmed(line.substr(0, line.find('#')), " \t\r").empty()) {
+  while (std::getline(lines, line) && (is_comment(line) || trimmed(line, " \t\r").empty())) {
   }
   std::istringstream cells(line);
   for (std::string cell; std::getline(cells, cell, line.find(';') == std::string::npos ? ',' : ';');)
@@ -250,11 +230,18 @@ std::vector<LoadSpec> binned(const std::vector<LoadSpec>& samples, double scale)
   return out;
 }
 
+/// Samples without any of what differs from sample to sample are those of a table that was not understood.
+void require_states(const UnitTable& table, const std::filesystem::path& file) {
+  constexpr std::array kStates{"wheel_load", "axle_load", "lateral_shift", "yaw"};
+  if (std::any_of(kStates.begin(), kStates.end(), [&](const char* key) { return table.has(key); })) return;
+  refuse_in_table(
+      file, table.line,
+      fmt::format("a series without a load, a lateral shift and a yaw; not read: {}", fmt::join(table.ignored, ", ")),
+      "name one column at least wheel_load [kN], lateral_shift [mm] or yaw [mrad], or Q, y, psi");
+}
+
 /// What a series does not give and the case has instead.
 std::string lacking_of(const UnitTable& table, const std::vector<LoadSpec>& samples) {
-  const auto named = [&](std::string_view key) {
-    return std::any_of(table.columns.begin(), table.columns.end(), [&](const Option* o) { return o->key == key; });
-  };
   std::vector<std::string> out;
   const auto look = [&](const char* key, auto&& gives) {
     const auto count = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), std::not_fn(gives)));
@@ -269,7 +256,8 @@ std::string lacking_of(const UnitTable& table, const std::vector<LoadSpec>& samp
   look("creepage", [](const LoadSpec& l) { return l.creepage || l.traction_coefficient; });
   std::string text =
       out.empty() ? "" : fmt::format("; taken from the case, for the table has none: {}", fmt::join(out, ", "));
-  if (!named("mgt") && !named("passages")) text += "; without a column passages or mgt every sample is one wheel";
+  if (!table.has("mgt") && !table.has("passages"))
+    text += "; without a column passages or mgt every sample is one wheel";
   return text;
 }
 
@@ -282,11 +270,11 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
   UnitTableForm form{{}, options.rivals, "a load", "wheel_load [kN], lateral_shift [mm], passages"};
   for (const Option& option : options.options) form.columns.push_back({&option, option.key});
   for (const Option& option : options.options)
-    if (const auto words = column_words().find(option.key); words != column_words().end())
-      for (const std::string_view word : words->second) form.columns.push_back({&option, word});
+    for (const std::string_view word : words_of(option.key)) form.columns.push_back({&option, word});
   const bool series = names_series(text);
   form.others = series;
   form.blanks = true;
+  if (series) form.loads = {"wheel_load", "axle_load"};
   const UnitTable table = read_unit_table(text, file, form);
   for (const UnitTable::Row& row : table.rows) {
     spec.loads.emplace_back();
@@ -298,13 +286,15 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
       refuse_in_table(file, row.line, fault->message, fault->remedy);
   }
   if (!series) return {};
+  require_states(table, file);
   const std::size_t samples = spec.loads.size();
   const std::string lacking = lacking_of(table, spec.loads);
   spec.loads = binned(spec.loads, spec.collective.bin_scale);
   std::vector<std::string> unread = table.ignored;
   std::erase_if(unread, [](const std::string& name) { return names_way(name); });
   std::string note =
-      fmt::format("{}: {} samples of a wheel became {} loads{}{}{}", file.string(), samples, spec.loads.size(),
+      fmt::format("{}: {} samples of a wheel became {} loads{}{}{}{}", file.string(), samples, spec.loads.size(),
+                  table.lifted > 0 ? fmt::format("; {} of a lifted wheel were left out", table.lifted) : "",
                   unread.empty() ? "" : "; not read: ", fmt::join(unread, ", "), lacking);
   const auto lacks = [](const LoadSpec& l) { return !l.lateral_creepage && !l.lateral_traction_coefficient; };
   if (std::any_of(spec.loads.begin(), spec.loads.end(), lacks))

@@ -4,10 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "core/faults.hpp"
 #include "core/nearest_word.hpp"
@@ -57,14 +59,30 @@ std::vector<std::string> cells_of(const std::string& line, char separator, std::
   return out;
 }
 
-/// The unit that follows a key: "distance [mm]" and "distance_mm" have "mm", "spin_per_m" and
-/// "spin_1_m" have "1/m"; nothing for a name
-/// that does not begin with the key.
-std::optional<std::string> unit_after(const std::string& name, std::string_view key) {
-  if (!name.starts_with(key)) return std::nullopt;
+/// As a cell's begin.
+bool is_spreadsheet_error(std::string_view cell) {
+  constexpr std::array kErrors{"#NV",        "#N/A",     "#NA",        "#DIV/0!", "#WERT!", "#VALUE!",  "#VALEUR!",
+                               "#VÄRDEFEL!", "#REF!",    "#BEZUG!",    "#NAME?",  "#NOM?",  "#NAMN?",   "#NUM!",
+                               "#ZAHL!",     "#NOMBRE!", "#OGILTIGT!", "#NULL!",  "#NUL!",  "#SAKNAS!", "#####"};
+  return std::any_of(kErrors.begin(), kErrors.end(), [&](std::string_view error) { return cell == error; });
+}
+
+/// Lower case, blanks and hyphens as underscores.
+std::string folded(std::string_view name) {
+  std::string out(name);
+  for (char& c : out) c = c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+/// The unit that follows a key: "distance [mm]", "distance (mm)" and "distance_mm" have "mm", "spin_per_m" and
+/// "spin_1_m" have "1/m"; nothing for a name that does not begin with the key. fold: in any case, with blanks.
+std::optional<std::string> unit_after(const std::string& name, std::string_view key, bool fold) {
+  const std::string_view begin = std::string_view(name).substr(0, key.size());
+  if (begin != key && !(fold && folded(begin) == folded(key))) return std::nullopt;
   std::string rest = cell_of(std::string_view(name).substr(key.size()));
   if (rest.empty()) return "";
-  if (rest.size() > 2 && rest.front() == '[' && rest.back() == ']') return cell_of(rest.substr(1, rest.size() - 2));
+  if (rest.size() > 2 && ((rest.front() == '[' && rest.back() == ']') || (rest.front() == '(' && rest.back() == ')')))
+    return cell_of(std::string_view(rest).substr(1, rest.size() - 2));
   if (rest.front() != '_') return std::nullopt;
   rest.erase(0, 1);
   if (rest.starts_with("per_")) rest.replace(0, 3, "1");
@@ -94,10 +112,13 @@ class TableReader {
     const std::vector<std::string> cells = cells_of(line, separator_, form_.blanks ? columns_.size() : 1);
     if (std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); })) return;
     if (cells.size() != columns_.size()) refuse_width(cells.size(), columns_.size(), separator_, at);
-    UnitTable::Row& row = table_.rows.emplace_back();
-    row.line = at.line;
+    UnitTable::Row row{.line = at.line, .cells = {}};
     for (std::size_t k = 0; k < cells.size(); ++k)
       if (columns_[k].option) row.cells.push_back(cell(columns_[k], cells[k], at));
+    if (std::exchange(lifted_, false))
+      ++table_.lifted;
+    else
+      table_.rows.push_back(std::move(row));
   }
 
   UnitTable table() && {
@@ -132,27 +153,48 @@ class TableReader {
   }
 
   /// A number with the column's unit, rounded once. What is no separator may be a decimal comma.
-  double quantity(const Column& column, const std::string& given, const Place& at) const {
+  double quantity(const Column& column, const std::string& given, const Place& at) {
     double value = 0;
-    std::string number = given;
+    std::string number = plain_signs(given);
+    if (const std::size_t d = number.find_first_of("dD"); d != std::string::npos && d > 0) number[d] = 'e';
+    if (number.starts_with('+')) number.erase(0, 1);
     if (given.find('.') == std::string::npos && std::count(given.begin(), given.end(), ',') == 1)
-      number[given.find(',')] = '.';
+      number[number.find(',')] = '.';
+    if (is_spreadsheet_error(given))
+      at.refuse(fmt::format("\"{}\" is an error of the spreadsheet, in the column {}", given, column.option->key),
+                "repair the formula, or take the row out");
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
     if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(value))
       at.refuse(
           fmt::format("\"{}\" is not a number, in the column {}", given.substr(0, 40), column.option->key),
-          "write numbers with a decimal point, or with a decimal comma between semicolons; the unit stands in the "
-          "column's name");
+          given.find('#') != std::string::npos
+              ? "a comment stands on a line of its own that begins with #"
+              : "write numbers with a decimal point, or with a decimal comma between semicolons; the unit stands in "
+                "the column's name");
     try {
       value = in_si(column, column.unit.empty() ? number : number + " " + column.unit);
     } catch (const UnitError& e) {
       at.refuse(fmt::format("the column {}: {}", column.option->key, e.what()), e.remedy);
     }
+    const std::string_view key = column.option->key;
+    if (!(value > 0) && std::find(form_.loads.begin(), form_.loads.end(), key) != form_.loads.end()) {
+      lifted_ = true;
+      return value;
+    }
+    if (key == form_.chainage && !column.option->range.holds(value) && table_.rows.empty()) table_.chainage = value;
+    if (key == form_.chainage) value -= table_.chainage;
     if (!column.option->range.holds(value))
       at.refuse(fmt::format("{} = {}{}{}: must be {}", column.option->key, given, column.unit.empty() ? "" : " ",
                             column.unit, describe(column.option->range, column.option->dimension)),
                 "choose a value in this range, or another unit in the column's name");
     return value;
+  }
+
+  /// Refuses a unit of another dimension where it stands.
+  void unit_check(const Column& column, const Place& at) {
+    quantity(column, column.option->range.holds(0) ? "0" : "1e-3", at);
+    lifted_ = false;
+    table_.chainage = 0;
   }
 
   double in_si(const Column& column, const std::string& text) const {
@@ -164,19 +206,26 @@ class TableReader {
     return kGravity * parse_quantity(text, dimension::kMass);
   }
 
-  Column column_named(const std::string& name, const Place& at) const {
+  /// The column of the longest key with which the name begins.
+  std::optional<Column> known_column(const std::string& name, bool fold) const {
     std::optional<Column> best;
     std::size_t longest = 0;
-    std::vector<std::string> known;
-    for (const UnitTableForm::Column& c : form_.columns) {
-      if (std::find(known.begin(), known.end(), c.option->key) == known.end()) known.emplace_back(c.key);
+    for (const UnitTableForm::Column& c : form_.columns)
       for (const std::string_view key : {c.option->key, c.key})
-        if (const auto unit = form_.as_written && name != key ? std::nullopt : unit_after(name, key);
+        if (const auto unit = form_.as_written && name != key ? std::nullopt : unit_after(name, key, fold);
             unit && key.size() > longest) {
           longest = key.size();
           best = Column{c.option, *unit, c.option->slot && std::holds_alternative<std::string*>(any_slot(*c.option))};
         }
-    }
+    return best;
+  }
+
+  Column column_named(const std::string& name, const Place& at) {
+    std::optional<Column> best = known_column(name, false);
+    if (!best) best = known_column(name, true);
+    std::vector<std::string> known;
+    for (const UnitTableForm::Column& c : form_.columns)
+      if (std::find(known.begin(), known.end(), c.option->key) == known.end()) known.emplace_back(c.key);
     if (!best && form_.as_written) return {nullptr, ""};
     const std::string near = nearest_word(name, known);
     if (!best && form_.others && near.empty() && is_word(name)) return {nullptr, ""};
@@ -189,7 +238,7 @@ class TableReader {
     if (best->unit.empty() && !plain && best->option->dimension != dimension::kSlope)
       at.refuse(fmt::format("the column \"{}\" has no unit", name),
                 fmt::format("write it into the column's name: {}", describe(best->option->dimension)));
-    if (!best->text) quantity(Column{best->option, best->unit}, best->option->range.holds(0) ? "0" : "1e-3", at);
+    if (!best->text) unit_check(*best, at);
     return *best;
   }
 
@@ -225,6 +274,7 @@ class TableReader {
   UnitTable table_;
   char separator_ = ',';
   bool decimal_commas_ = false;
+  bool lifted_ = false;  ///< the wheel of the row
   std::optional<Thousands> thousands_;
 };
 
@@ -234,6 +284,19 @@ void refuse_in_table(const std::filesystem::path& file, int line, const std::str
   throw CaseError(printable(what), remedy, fmt::format("{}:{}", file.string(), line));
 }
 
+bool UnitTable::has(std::string_view key) const {
+  return std::any_of(columns.begin(), columns.end(), [&](const Option* o) { return o->key == key; });
+}
+
+bool names_column(std::string_view name, std::string_view key) {
+  return unit_after(std::string(name), key, true).has_value();
+}
+
+bool is_comment(std::string_view line) {
+  const std::string_view text = trimmed(line, " \t\r\"");
+  return text.starts_with('#') && !is_spreadsheet_error(trimmed(text.substr(0, text.find_first_of(";\t,\""))));
+}
+
 UnitTable read_unit_table(const std::string& text, const std::filesystem::path& file, const UnitTableForm& form) {
   std::istringstream lines(text);
   TableReader reader(form);
@@ -241,8 +304,7 @@ UnitTable read_unit_table(const std::string& text, const std::filesystem::path& 
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-    line = line.substr(0, line.find('#'));
-    if (cell_of(line).empty()) continue;
+    if (cell_of(line).empty() || is_comment(line)) continue;
     reader.read_line(line, {file, number});
   }
   UnitTable table = std::move(reader).table();

@@ -53,6 +53,13 @@ const std::array kSymbols{
     Symbol{"HBW", {1 / kBrinellOverVickers, 0, dimension::kHardness}, false},
     Symbol{"HB", {1 / kBrinellOverVickers, 0, dimension::kHardness}, false},
     Symbol{"rad", {1, 0, dimension::kSlope}, true},
+    Symbol{"in", {0.0254, 0, dimension::kLength}, false},
+    Symbol{"ft", {0.3048, 0, dimension::kLength}, false},
+    Symbol{"mph", {0.44704, 0, dimension::kSpeed}, false},
+    Symbol{"lbf", {4.4482216152605, 0, dimension::kForce}, false},
+    Symbol{"kip", {4.4482216152605, 3, dimension::kForce}, false},
+    Symbol{"psi", {6894.757293168361, 0, dimension::kPressure}, false},
+    Symbol{"ksi", {6894.757293168361, 3, dimension::kPressure}, false},
     Symbol{"rpm", {2 * std::numbers::pi / 60, 0, dimension::kRotation}, false},
     Symbol{"deg", {std::numbers::pi / 180, 0, dimension::kSlope}, false},
     Symbol{"°", {std::numbers::pi / 180, 0, dimension::kSlope}, false},
@@ -64,8 +71,10 @@ struct Prefix {
   std::string_view text;
   int decimals;
 };
-constexpr std::array kPrefixes{Prefix{"G", 9},  Prefix{"M", 6},  Prefix{"k", 3},  Prefix{"c", -2},
-                               Prefix{"m", -3}, Prefix{"µ", -6}, Prefix{"u", -6}, Prefix{"n", -9}};
+/// The sign micro, U+00B5, and the Greek letter, U+03BC, look the same.
+constexpr std::array kPrefixes{Prefix{"G", 9},       Prefix{"M", 6},  Prefix{"k", 3},
+                               Prefix{"c", -2},      Prefix{"m", -3}, Prefix{"\u00B5", -6},
+                               Prefix{"\u03BC", -6}, Prefix{"u", -6}, Prefix{"n", -9}};
 
 /// How people write each dimension: the first unit is the one values are shown in. si: as names of columns have it.
 struct Customary {
@@ -146,7 +155,15 @@ double scaled_number(std::string_view number, int decimals) {
   return value;
 }
 
-std::optional<InputUnit> find_symbol(std::string_view text) {
+/// "HV10", "HV0.5": the load of the test stands behind the scale.
+std::string_view without_test_load(std::string_view text) {
+  constexpr std::string_view kVickers = "HV";
+  const std::string_view load = text.starts_with(kVickers) ? text.substr(kVickers.size()) : std::string_view();
+  return load.find_first_not_of("0123456789.,") == std::string_view::npos && !load.empty() ? kVickers : text;
+}
+
+std::optional<InputUnit> find_symbol(std::string_view written) {
+  const std::string_view text = without_test_load(written);
   for (const Symbol& s : kSymbols)
     if (s.text == text) return s.unit;
   for (const Prefix& p : kPrefixes) {
@@ -169,6 +186,8 @@ UnitError unknown_unit(std::string_view unit, const Dimension& expected) {
   if (expected == dimension::kTemperature && (unit == "°C" || unit == "degC" || unit == "C"))
     return UnitError(fmt::format("unknown unit \"{}\"", unit),
                      "write the same number in K, \"20 K\" for 20 °C: only differences count");
+  if (expected == dimension::kHardness && unit == "HRC")
+    return UnitError("the unit \"HRC\" has no factor to HV", "write it in HV, by the table of ISO 18265");
   const std::string near = nearest_word(unit, units_of(expected));
   return UnitError(fmt::format("unknown unit \"{}\"", unit),
                    near.empty() ? how_to_write(expected) : fmt::format("did you mean {}?", near));
@@ -280,7 +299,8 @@ std::optional<double> parse_ratio(std::string_view text) {
 }  // namespace
 
 double parse_quantity(std::string_view whole, const Dimension& expected) {
-  const std::string_view text = trim(whole);
+  const std::string plain = plain_signs(whole);
+  const std::string_view text = trim(plain);
   if (expected == dimension::kSlope)
     if (const auto ratio = parse_ratio(text)) return *ratio;
   const std::size_t length = number_length(text);
