@@ -127,7 +127,7 @@ class Subsurface {
   std::unique_ptr<Subsurface> widened(int more_x, int more_y) const;
   /// The same on cells so many times smaller, between which tractions run on instead of in steps: the square of the
   /// pressure, which falls straight to the patch's edge, as a quadratic between cells (linear at the edge), the ratio
-  /// of friction to pressure linearly. The normal force stays.
+  /// of friction to pressure linearly. The normal force stays. Of the grid only the patch and a rim around it.
   std::unique_ptr<Subsurface> refined(int times) const;
   /// The same on as many cells three times as large: each takes the mean of nine.
   std::unique_ptr<Subsurface> coarsened() const;
@@ -139,6 +139,7 @@ class Subsurface {
  private:
   StatePlane plane(double depth, bool below_interface) const;
   bool gives_at(double depth) const;
+  PatchGrid loaded(int rim) const;
   /// Takes the first-order error of stepwise tractions out of a plane nearer to the surface than a cell.
   void straighten_steps(double depth, StatePlane& out) const;
 

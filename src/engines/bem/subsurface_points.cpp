@@ -141,15 +141,39 @@ std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {
   return wide;
 }
 
+/// The part of the grid that carries pressure, with a rim of so many cells where the grid has them.
+PatchGrid Subsurface::loaded(int rim) const {
+  int first_i = grid_.nx, last_i = -1, first_j = grid_.ny, last_j = -1;
+  for (int i = 0; i < grid_.nx; ++i)
+    for (int j = 0; j < grid_.ny; ++j) {
+      if (!(loads_.p[grid_.index(i, j)] > 0)) continue;
+      first_i = std::min(first_i, i);
+      last_i = i;
+      first_j = std::min(first_j, j);
+      last_j = std::max(last_j, j);
+    }
+  if (last_i < 0) return grid_;
+  first_i = std::max(0, first_i - rim);
+  first_j = std::max(0, first_j - rim);
+  PatchGrid out = grid_;
+  out.nx = std::min(grid_.nx - 1, last_i + rim) - first_i + 1;
+  out.ny = std::min(grid_.ny - 1, last_j + rim) - first_j + 1;
+  out.x0 = grid_.x(first_i);
+  out.y0 = grid_.y(first_j);
+  return out;
+}
+
 std::unique_ptr<Subsurface> Subsurface::refined(int times) const {
-  PatchGrid g = grid_;
+  constexpr int kRim = 4;  // cells: farther away from the patch steps do not show
+  const PatchGrid inner = loaded(kRim);
+  PatchGrid g = inner;
   g.nx *= times;
   g.dx /= times;
-  g.x0 -= 0.5 * (grid_.dx - g.dx);
-  if (!grid_.line) {
+  g.x0 -= 0.5 * (inner.dx - g.dx);
+  if (!g.line) {
     g.ny *= times;
     g.dy /= times;
-    g.y0 -= 0.5 * (grid_.dy - g.dy);
+    g.y0 -= 0.5 * (inner.dy - g.dy);
   }
   const AroundPatch patch(grid_, loads_.p);
   Plane square(grid_.size(), 0.0);
@@ -174,7 +198,7 @@ std::unique_ptr<Subsurface> Subsurface::refined(int times) const {
     q_y[k] = p[k] * patch.at(ratio[1], x, y);
     sum += p[k];
   }
-  const double cells = static_cast<double>(g.size() / grid_.size()),
+  const double cells = static_cast<double>(g.size() / inner.size()),
                scale = sum > 0 ? cells * std::accumulate(loads_.p.begin(), loads_.p.end(), 0.0) / sum : 1;
   for (Plane* plane : {&p, &q_x, &q_y})
     for (double& v : *plane) v *= scale;

@@ -43,8 +43,10 @@ class StressOfHalfSpace {
         out.push_back({});  // beyond the box: as good as unloaded
         continue;
       }
-      const Subsurface& body = !near ? *far_ : p.z < finer_to_ ? *finer_ : near_;
-      out.push_back(body.stress_at(plane_of(body, near, p.z), p, below));
+      const bool fine = near && p.z < finer_to_ && finer_->covers(p);
+      const Subsurface& body = fine ? *finer_ : near ? near_ : *far_;
+      std::map<double, StatePlane>& known = fine ? finer_planes_ : near ? near_planes_ : far_planes_;
+      out.push_back(body.stress_at(plane_of(body, known, p.z), p, below));
     }
     return out;
   }
@@ -58,8 +60,7 @@ class StressOfHalfSpace {
     return depth;
   }
 
-  const StatePlane& plane_of(const Subsurface& body, bool near, double depth) {
-    auto& known = near ? near_planes_ : far_planes_;
+  static const StatePlane& plane_of(const Subsurface& body, std::map<double, StatePlane>& known, double depth) {
     const auto found = known.find(depth);
     return found != known.end() ? found->second : known.emplace(depth, body.plane(depth)).first->second;
   }
@@ -68,7 +69,7 @@ class StressOfHalfSpace {
   std::vector<double> interfaces_;
   std::unique_ptr<Subsurface> far_, finer_;
   double finer_to_ = -1;
-  std::map<double, StatePlane> near_planes_, far_planes_;
+  std::map<double, StatePlane> near_planes_, far_planes_, finer_planes_;
 };
 
 }  // namespace railstrata
