@@ -23,8 +23,8 @@ std::optional<Diagnostic> too_coarse(const CaseSpec& spec, std::size_t index, do
 void require_fine_enough(const CaseSpec& spec, double size, const char* what, const char* key);
 
 /// Reads columns x, z or x, y, z into an entry; of a wheel angle and run-out, whose way is that on the tread. An x
-/// beyond its range, a chainage, counts from the first row: then a note says so, else it is empty. Throws CaseError
-/// with file, line and remedy.
+/// beyond its range, a chainage, counts from the first row: the returned note names that, else it is empty. Throws
+/// CaseError with file, line and remedy.
 std::string read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec, std::size_t index);
 
 }  // namespace railstrata

@@ -2,7 +2,7 @@
 // Rows of a load collective as cases, and what they ask of the case around them.
 //
 //   wheel_load [kN], lateral_shift [mm], passages     keys of [[load]] with their units, also as wheel_load_kN;
-//   110, 0, 250000                                    commas or semicolons; "#" begins a comment; an empty cell gives
+//   110, 0, 250000                                    unit_table.hpp; an empty cell gives
 //   85, -3, 100000                                    nothing: the case's value
 #include <cstddef>
 #include <filesystem>
