@@ -4,6 +4,8 @@ from __future__ import annotations
 import math
 import operator
 import os
+import sys
+import warnings
 from pathlib import Path
 from typing import Any, Mapping, Optional, Sequence, Union
 
@@ -40,10 +42,19 @@ def _file_of(path: PathLike) -> Path:
     if not wanted.exists() and not wanted.is_absolute():
         data = shipped_data()
         if data is not None and (data / wanted).exists():
+            warnings.warn(f"{wanted} is not here; taking the one that comes with the package", stacklevel=_outside())
             wanted = data / wanted
     if wanted.is_dir() and (wanted / "case.toml").exists():
         wanted = wanted / "case.toml"
-    return wanted
+    return Path(os.path.abspath(wanted))
+
+
+def _outside() -> int:
+    """The level of the caller's line, outside of the package, for warnings."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def _value_of(value: Any, key: str) -> Any:
@@ -127,7 +138,7 @@ class Case:
         """The case of a TOML text. `name` stands for the file in messages; profiles are looked for in its folder."""
         if not isinstance(text, str):
             raise TypeError(f"text: the TOML text of a case is wanted, not {type(text).__name__}")
-        return _parsed(text, str(name), _overrides(changes))
+        return _parsed(text, os.path.abspath(name), _overrides(changes))
 
     def with_(self, changes: Mapping[str, Value]) -> "Case":
         """The same case with further changes; this one stays as it is."""
@@ -141,7 +152,8 @@ class Case:
 
     @property
     def file(self) -> str:
-        """The file it was read from, as given."""
+        """The file it was read from. Its folder, where profiles are looked for, stays that of the case when the working
+        folder changes."""
         return str(self._loaded["file"])
 
     @property

@@ -16,13 +16,21 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple, Optional, Sequence, Union
 
+import numpy as np
+
 from . import _bridge
 
 _NO_STRESS = (0.0,) * 6
 
 
 def _value(function: str, /, **arguments: Any) -> Any:
-    """A number of the library; one that is infinite comes as a text."""
+    """A number of the library; one that is infinite comes as a text. A gap (NaN) among the arguments is an error."""
+    for name, given in arguments.items():
+        numbers = np.asarray(given) if not isinstance(given, (str, bool)) and given is not None else np.zeros(0)
+        if numbers.dtype.kind == "f" and np.isnan(numbers).any():
+            raise ValueError(f"{name}: a number is missing (NaN)")
+        if name == "t_gamma" and numbers < 0:
+            raise ValueError(f"{name}: {given} is below 0; without signs it is |F_x xi| + |F_y eta|")
     found = _bridge.call(function, **arguments)["value"]
     return float(found) if isinstance(found, str) else found
 

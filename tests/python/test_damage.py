@@ -1,5 +1,6 @@
 """rs.damage: indices for numbers of one's own, by the program's functions."""
 import inspect
+import math
 
 import numpy as np
 import pytest
@@ -80,3 +81,18 @@ def test_grades_have_their_standard_minimum():
     assert r260["use"] == "rail" and r260["tensile_strength"][0] == 880e6
     with pytest.raises(rs.CaseError):
         rs.damage.grade("R261")
+
+
+def test_a_gap_in_the_numbers_is_refused_and_never_a_number():
+    damage = rs.damage
+    gap, cycle = math.nan, [[1e8, 0, 0, 0, 0, 0], [math.nan, 0, 0, 0, 0, 0], [-1e8, 0, 0, 0, 0, 0]]
+    for call in (
+        lambda: damage.usfd_rate(gap), lambda: damage.critical_flaw(50e6, gap), lambda: damage.dang_van(cycle, 0.3),
+        lambda: damage.usfd_depth([1e8, gap, 1e8], [0] * 3, [0.01] * 3, [0] * 3, 1e-3, 20),
+        lambda: damage.archard_depth([1e9] * 3, [0.01, gap, 0.01], [0] * 3, 1e-3, 20, 3e9),
+        lambda: damage.critical_plane(cycle, 210e9, 0.3), lambda: damage.brr_wear(gap, 0.92),
+    ):
+        with pytest.raises(ValueError, match="a number is missing"):
+            call()
+    with pytest.raises(ValueError, match="below 0"):
+        damage.brr_wear(-10, 0.92)

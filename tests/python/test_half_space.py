@@ -2,6 +2,7 @@
 import copy
 import gc
 import json
+import math
 import os
 import pickle
 import signal
@@ -365,3 +366,28 @@ def test_cases_are_pickled_by_their_text(case):
     changed = case.with_({"layer.0.thickness": "3 mm"})
     for again in (pickle.loads(pickle.dumps(changed)), copy.deepcopy(changed)):
         assert again.toml == changed.toml and again["layer.0.thickness"] == "3 mm"
+
+
+def test_a_case_keeps_its_folder_when_the_working_folder_changes(tmp_path, monkeypatch):
+    for name, radius in (("a", 300.0), ("b", 80.0)):
+        (tmp_path / name).mkdir()
+        heights = "".join(f"{y / 2};{radius - math.sqrt(radius**2 - y * y / 4):.6f}\n" for y in range(-50, 51))
+        (tmp_path / name / "rail.csv").write_text("y [mm];z [mm]\n" + heights)
+        (tmp_path / name / "case.toml").write_text(
+            '[geometry]\nrail_profile = "rail.csv"\nwheel_profile = "flat"\nwheel_radius = "460 mm"\ncant = 0\n'
+            '[drive]\ntraction_coefficient = 0\n')
+    monkeypatch.chdir(tmp_path / "a")
+    case = rs.Case("case.toml")
+    here = rs.bem(case, cell="1 mm").p_max
+    monkeypatch.chdir(tmp_path / "b")
+    assert rs.bem(rs.Case("case.toml"), cell="1 mm").p_max > 1.2 * here
+    changed = case.with_({"drive.friction_coefficient": 0.31})
+    for same in (changed, pickle.loads(pickle.dumps(case)), pickle.loads(pickle.dumps(changed))):
+        assert rs.bem(same, cell="1 mm").p_max == here
+
+
+def test_a_shipped_case_that_stands_for_a_missing_file_is_named(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.warns(UserWarning, match="is not here; taking the one that comes with the package") as caught:
+        rs.Case("cases/quick")
+    assert caught[0].filename == __file__

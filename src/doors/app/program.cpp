@@ -216,7 +216,7 @@ int parse_and_run(const std::vector<std::string>& given, CommandOptions& options
   app.add_option("-j,--threads", options.threads, "Threads (default: OMP_NUM_THREADS, or one a core)")
       ->check(CLI::Range(1, kMostThreads));
   app.add_flag("--json", options.json, "Results on standard output as JSON");
-  app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
+  app.add_flag("-q,--quiet", quiet, "No progress and no notes: the result, warnings and errors");
   app.add_flag("-v,--verbose", verbose, "More messages");
   std::vector<CommandWork> work;
   for (const Command* c : commands()) {
