@@ -288,13 +288,17 @@ TEST(TransientCase, NormalAndLateralForceBearTheLoadTogether) {
   for (const TransientRow& row : run.rows()) EXPECT_NEAR(row.F_z / row.load, 1, 2e-5) << row.step;
 }
 
-TEST(TransientCase, LayersAreFollowedToo) {
-  const std::string driven =
-      circle() + "traction_coefficient = 0.2\n[[layer]]\nthickness = \"1 mm\"\nyoung_ratio = 4\n";
-  const ContactSummary steady = follow(driven, 0.5e-3).solution.summary.contact;
-  const Followed rest = follow(driven + "[transient]\nkind = \"rolling\"\ndistance = \"60 mm\"\n", 0.5e-3);
-  EXPECT_NEAR(rest.rows().back().creepage_x / steady.creepage_x, 1, 1e-3);
-  EXPECT_NEAR(rest.rows().back().p_max / steady.patch.p_max, 1, 1e-4);
+TEST(TransientCase, LayersAreFollowedTooAndInterfacesThatGive) {
+  for (const char* interface : {"",
+                                "interface_normal_stiffness = \"20000 MPa/mm\"\n"
+                                "interface_shear_stiffness = \"5000 MPa/mm\"\n"}) {
+    const std::string driven =
+        circle() + "traction_coefficient = 0.2\n[[layer]]\nthickness = \"1 mm\"\nyoung_ratio = 4\n" + interface;
+    const ContactSummary steady = follow(driven, 0.5e-3).solution.summary.contact;
+    const Followed rest = follow(driven + "[transient]\nkind = \"rolling\"\ndistance = \"60 mm\"\n", 0.5e-3);
+    EXPECT_NEAR(rest.rows().back().creepage_x / steady.creepage_x, 1, 1e-3) << interface;
+    EXPECT_NEAR(rest.rows().back().p_max / steady.patch.p_max, 1, 1e-4) << interface;
+  }
 }
 
 TEST(TransientCase, AControlEndsIt) {

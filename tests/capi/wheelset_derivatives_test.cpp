@@ -130,6 +130,17 @@ TEST(WheelsetDerivatives, OfPlacesInOnePlaneAreThoseOfColdSolutions) {
   for (const Input& input : kPressed) expect_differences(set, cold, state, input);
 }
 
+TEST(WheelsetDerivatives, UnderACladOnSpringsAreThoseOfColdSolutions) {
+  const std::string text = clad_on_springs("20000", "5000");
+  Set set(text), cold(text);
+  sharpen(set, 1e-8);
+  sharpen(cold, 1e-11);
+  const rs_wheelset_state state = running(2e-3, 1e-3);
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  for (const Input& input : {kMotions[0], kMotions[4], kMotions[9], kLoaded[0]})
+    expect_differences(set, cold, state, input);
+}
+
 // The pressure of the cell is smaller than what the step of the derivative changes.
 TEST(WheelsetDerivatives, WhereACellBeginsToTouchAreThoseOfTheSideWhereItTouches) {
   constexpr double kStep = 2e-9, kClose = 1e-4;  // m

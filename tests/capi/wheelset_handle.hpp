@@ -15,6 +15,12 @@ inline constexpr const char* kEuropeanCase =
 inline constexpr const char* kChineseCase =
     "[geometry]\nwheel_profile = \"LMA\"\nrail_profile = \"CN60\"\ncant = \"1:40\"\n"
     "[drive]\nfriction_coefficient = 0.35\n";
+/// The same under a clad whose interface has springs; MPa/mm, of opening and of slip.
+inline std::string clad_on_springs(const std::string& normal, const std::string& shear) {
+  return std::string(kChineseCase) +
+         "[[layer]]\nthickness = \"3 mm\"\nyoung_ratio = 2\ninterface_normal_stiffness = \"" + normal +
+         " MPa/mm\"\ninterface_shear_stiffness = \"" + shear + " MPa/mm\"\n";
+}
 /// The wheelset of a pair: none is the quick case.
 inline std::string case_of(const std::vector<const char*>& pair) { return pair.empty() ? "" : kEuropeanCase; }
 

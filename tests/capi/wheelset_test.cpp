@@ -83,6 +83,23 @@ TEST_P(WheelsetOf, TrialStepsLeaveNoTraceAfterAReset) {
   for (int i : {0, 1, 2}) EXPECT_EQ(set.forces.force[i], first.force[i]);
 }
 
+TEST(Wheelset, UnderACladItSinksDeeperTheSofterItsInterface) {
+  const auto sunk = [](const std::string& text) {
+    Set set(text);
+    EXPECT_EQ(set.solve(loaded(2e-3, 1e-3)), RS_OK) << set.error.message;
+    EXPECT_NEAR(set.forces.force[2], 160e3, 16);
+    return set.forces.z;
+  };
+  const double bonded = sunk(std::string(kChineseCase) + "[[layer]]\nthickness = \"3 mm\"\nyoung_ratio = 2\n");
+  EXPECT_NEAR(sunk(clad_on_springs("1e10", "1e10")), bonded, 1e-10);
+  double last = bonded;
+  for (const char* stiffness : {"1e5", "2e4", "5e3"}) {
+    const double here = sunk(clad_on_springs(stiffness, stiffness));
+    EXPECT_LT(here, last - 1e-7);
+    last = here;
+  }
+}
+
 TEST_P(WheelsetOf, AWheelThatLiftsIsAnAnswer) {
   Set set(text);
   ASSERT_EQ(set.solve(loaded()), RS_OK) << set.error.message;

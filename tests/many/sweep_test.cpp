@@ -63,6 +63,22 @@ TEST(Sweep, KeepsTheOverridesOfItsBase) {
   EXPECT_EQ(plan_sweep(dry, {{"drive.traction_coefficient", {"0.1"}}})[0].loaded->spec.drive.friction_coefficient, 0.6);
 }
 
+TEST(Sweep, OverAnInterfaceGoesFromSmoothToBonded) {
+  const std::string clad = "[[layer]]\nthickness = \"3 mm\"\nyoung_ratio = 2\n";
+  std::vector<SweepCase> cases =
+      plan_sweep(parse_case(clad, "clad.toml"),
+                 {{"layer.0.interface_shear_stiffness", {"0 MPa/mm", "1000 MPa/mm", "5e4 MPa/mm", "1e10 MPa/mm"}}});
+  run_sweep(cases, coarse());
+  double last = 0;
+  for (const SweepCase& swept : cases) {
+    EXPECT_GT(swept.summary.at("contact").at("p_max_Pa").get<double>(), last) << swept.fault;
+    last = swept.summary.at("contact").at("p_max_Pa").get<double>();
+  }
+  std::vector<SweepCase> bonded = plan_sweep(parse_case(clad, "clad.toml"), {{"layer.0.young_ratio", {"2"}}});
+  run_sweep(bonded, coarse());
+  EXPECT_NEAR(bonded.at(0).summary.at("contact").at("p_max_Pa").get<double>() / last, 1, 1e-5);
+}
+
 TEST(Sweep, LeavesOutWhatHasNotBegunWhenItIsStopped) {
   std::vector<SweepCase> cases = plan_sweep(base(), {{"drive.traction_coefficient", {"0.1", "0.2"}}});
   Control control;

@@ -58,9 +58,12 @@ const std::map<std::string, Overrides>& examples() {
       {"irregularity", {"irregularity=[{at=\"200 mm\", length=\"20 mm\", depth=\"0.2 mm\"}]"}},
       {"a dip or a step", {"irregularity=[{kind=\"dip\", at=\"2 m\", angle=\"10 mrad\"}]"}},
       {"layer", {"layer.0.young_ratio=2"}},
-      {"crack.top | crack.angle | crack.lateral | crack.place | crack.face_friction | crack.fluid | crack.aspect | "
-       "crack.law | crack.threshold | crack.detectable | crack.allowable",
+      {"crack.top | crack.angle | crack.place | crack.fluid | crack.aspect | crack.law | crack.threshold | "
+       "crack.detectable | crack.allowable",
        {"crack.top=2 mm"}},
+      {"crack.azimuth | crack.lateral | crack.face_friction", {"crack.azimuth=0 deg"}},
+      {"crack.layer", {"crack.layer=2"}},
+      {"crack.length", {"layer.0.young_ratio=2", "crack.length=4 mm"}},
       {"crack.depth", {"crack.depth=4 mm"}},
       {"crack.top", {"crack.top=2 mm"}},
       {"crack.place", {"crack.place=5 mm"}},

@@ -47,6 +47,30 @@ TEST(CrackCaseFile, ACrackInside) {
   EXPECT_EQ(parse_case("", "a.toml").resolved_toml.find("face_friction"), std::string::npos);
 }
 
+const std::string kTwoLayers =
+    "[[layer]]\nname = \"clad\"\nthickness = \"1 mm\"\nyoung_ratio = 2\n[[layer]]\nname = \"bed\"\nthickness = \"0.5 "
+    "mm\"\nyoung_ratio = 1\n";
+
+TEST(CrackCaseFile, ACrackAlongAnInterface) {
+  const LoadedCase loaded = parse_case(kTwoLayers + "[crack]\nlength = \"4 mm\"\nlayer = 2\n", "a.toml");
+  EXPECT_EQ(loaded.spec.life.crack.length, 4e-3);
+  EXPECT_EQ(loaded.spec.life.crack.layer, 2);
+  EXPECT_TRUE(loaded.spec.life.crack.there());
+  expect_written_again(loaded);
+  EXPECT_NE(loaded.resolved_toml.find("face_friction"), std::string::npos);
+}
+
+TEST(CrackCaseFile, ACrackAlongNoInterfaceIsRefused) {
+  const auto says = [](const std::string& text, const char* words) {
+    EXPECT_NE(refusal(text).find(words), std::string::npos) << text;
+  };
+  const std::string crack = "[crack]\nlength = \"4 mm\"\n";
+  says(crack, "below a layer, of which the rail has 0");
+  says(kTwoLayers + crack + "layer = 3\n", "of which the rail has 2");
+  says(kTwoLayers + "[crack]\nlength = \"21 mm\"\n", "at most 20 times the depth of the interface, 1 mm");
+  says(kTwoLayers + "interface_shear_stiffness = \"100 MPa/mm\"\n" + crack + "layer = 2\n", "a crack needs a bond");
+}
+
 TEST(CrackCaseFile, WhatIsNoCrackIsRefused) {
   EXPECT_NE(refusal("[crack]\ndepth = \"1 mm\"\ntop = \"2 mm\"\n").find("must lie above crack.depth = 1 mm"),
             std::string::npos);

@@ -25,9 +25,33 @@ void refuse(CaseSource& source, const std::string& key, const std::string& value
   source.complain(key, fmt::format("{} = {}: {}", key, value, rule), remedy);
 }
 
+void check_level_crack(const CaseSpec& spec, CaseSource& source) {
+  constexpr double kLongest = 20;  // depths: points and time grow with the length, G hardly does
+  const CrackSpec& crack = spec.life.crack;
+  double depth = 0;
+  int layers = 0;
+  for (const LayerSpec& layer : spec.layers) {
+    if (layer.on != BodyId::rail || ++layers > crack.layer) continue;
+    depth += layer.thickness;
+    if (layers == crack.layer && (layer.interface_normal_stiffness || layer.interface_shear_stiffness))
+      refuse(source, "crack.layer", fmt::format("{}", crack.layer), "the interface there gives: a crack needs a bond",
+             "take out its interface_normal_stiffness and interface_shear_stiffness");
+  }
+  if (layers < crack.layer)
+    return refuse(source, "crack.layer", fmt::format("{}", crack.layer),
+                  fmt::format("a crack with a length lies below a layer, of which the rail has {}", layers),
+                  "give a [[layer]], or the crack a depth");
+  if (crack.length > kLongest * depth)
+    refuse(source, "crack.length", length(crack.length),
+           fmt::format("must be at most {} times the depth of the interface, {}", kLongest, length(depth)),
+           "choose a smaller value");
+}
+
 void check_crack(const CaseSpec& spec, CaseSource& source) {
   const CrackSpec& crack = spec.life.crack;
-  const bool sound = source.sound({"crack.depth", "crack.top", "crack.detectable", "crack.allowable"});
+  const bool sound =
+      source.sound({"crack.depth", "crack.top", "crack.length", "crack.layer", "crack.detectable", "crack.allowable"});
+  if (sound && crack.level()) check_level_crack(spec, source);
   if (!sound || !(crack.depth > 0)) return;
   if (crack.top >= crack.depth)
     refuse(source, "crack.top", length(crack.top), fmt::format("must lie above crack.depth = {}", length(crack.depth)),

@@ -56,7 +56,8 @@ static_assert(kThinnestMeshedLayer == 0.05e-3 && kLargestMeshedPoisson == 0.495 
 
 // Features that several rows name.
 constexpr Feature kLine{"geometry.contact = \"line\""}, kShift{"transient.kind = \"shift\""},
-    kGpu{"run.device = \"gpu\""}, kWarmTables{"friction.temperature_table | third_body.temperature_table"};
+    kCrack{"crack.depth | crack.length"}, kGpu{"run.device = \"gpu\""},
+    kWarmTables{"friction.temperature_table | third_body.temperature_table"};
 constexpr Feature kOfWheel{"drive.creepage_of = \"wheel\""}, kForces{"drive.tractive_force | drive.lateral_force"},
     kPlastic{"run.plasticity = true"};
 
@@ -283,10 +284,16 @@ constexpr Clash kClashes[] = {
      "give both, e.g. every = \"15 Mt\" and depth = \"0.2 mm\", or none"},
     {"grinding.depth", needs, "grinding.every", "",
      "give both, e.g. every = \"15 Mt\" and depth = \"0.2 mm\", or none"},
-    {"crack.top | crack.angle | crack.lateral | crack.place | crack.face_friction | crack.fluid | crack.aspect | "
-     "crack.law | crack.threshold | crack.detectable | crack.allowable",
+    {"crack.top | crack.angle | crack.place | crack.fluid | crack.aspect | crack.law | crack.threshold | "
+     "crack.detectable | crack.allowable",
      needs, "crack.depth", "without a depth there is no crack", "give crack.depth = \"1 mm\""},
-    {"crack.depth", idle_with, uses::kFiniteElements, "stress intensities come from half-spaces, `railstrata bem`", ""},
+    {"crack.azimuth | crack.lateral | crack.face_friction", needs, kCrack, "there is no crack",
+     "give crack.depth = \"1 mm\""},
+    {"crack.layer", needs, "crack.length", "a crack along an interface has a length", "give crack.length = \"4 mm\""},
+    {"crack.length", excludes, "crack.depth", "a crack goes down, or lies along an interface", kOneOut},
+    {"crack.length", excludes, "life.until", "no law of growth along an interface is known",
+     "take out life.until; `railstrata bem` has the energy release rate"},
+    {kCrack, idle_with, uses::kFiniteElements, "stress intensities come from half-spaces, `railstrata bem`", ""},
     {"crack.place", excludes, "crack.top", "in a life the crack breaks the surface", kOneOut},
     {"crack.fluid", excludes, "crack.top", "a crack inside has no mouth", kOneOut},
 

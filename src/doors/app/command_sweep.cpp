@@ -73,7 +73,7 @@ ExitCode command_sweep(const SweepWords& own, const CommandOptions& options) {
   SweepOptions sweep;
   sweep.bem.cell = cell_size(options.cell);
   sweep.bem.cache = &cache;
-  sweep.stresses = own.stresses || base.spec.life.crack.depth > 0;  // a crack's numbers are some of them
+  sweep.stresses = own.stresses || base.spec.life.crack.there();  // a crack's numbers are some of them
   const std::vector<ResultColumn> columns = result_columns(sweep.stresses);
 
   const std::filesystem::path out = output_folder_of(options, base, "-sweep");

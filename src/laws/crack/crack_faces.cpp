@@ -3,17 +3,32 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "crack/dislocation.hpp"
 #include "crack/layered_dislocation.hpp"
+#include "crack/level_crack.hpp"
 
 namespace railstrata {
 
 CrackFaces::CrackFaces(const CrackLine& line, const LayeredHalfSpace& body, int points)
-    : line_(line), rule_(&crack_rule(line.kind, points)) {
-  const HalfSpaceMaterial material = material_at(body, line.z(line.length));
-  factor_ =
-      material.young / (1 - material.poisson * material.poisson) / 8 * std::sqrt(2 * std::numbers::pi * line.length);
+    : line_(line), rule_(&crack_rule(line.kind, line.level() ? level_points(line, points) : points)) {
+  if (line.level()) {
+    LevelCrack level = level_crack(body, line, *rule_);
+    modulus_ = level.modulus;
+    stiffness_ = std::move(level.stiffness);
+  } else {
+    const HalfSpaceMaterial material = material_at(body, line.z(line.length));
+    modulus_ = material.young / (1 - material.poisson * material.poisson);
+    resist(body, points);
+  }
+  const Eigen::Index n = rule_->point.size();
+  state_.assign(static_cast<std::size_t>(n), State::stuck);
+  before_ = Eigen::VectorXd::Zero(2 * n);
+}
+
+void CrackFaces::resist(const LayeredHalfSpace& body, int points) {
+  const CrackLine& line = line_;
   const Eigen::Index n = rule_->point.size();
   const std::complex<double> along = std::polar(1.0, line.angle), across = std::complex<double>(0, 1) * along;
   const auto place = [&](double share) {
@@ -47,8 +62,6 @@ CrackFaces::CrackFaces(const CrackLine& line, const LayeredHalfSpace& body, int 
     stiffness_.leftCols(n) -= layers.leftCols(nodes) * rule_->density;
     stiffness_.rightCols(n) -= layers.rightCols(nodes) * rule_->density;
   }
-  state_.assign(static_cast<std::size_t>(n), State::stuck);
-  before_ = Eigen::VectorXd::Zero(2 * n);
 }
 
 std::vector<double> CrackFaces::places() const {
@@ -134,8 +147,9 @@ CrackFaces::Faces CrackFaces::load(const std::vector<LineTraction>& given, doubl
   }
   before_ = jump;
   const Eigen::VectorXd share = jump / line_.length;
+  const double factor = modulus_ / 8 * std::sqrt(2 * std::numbers::pi * line_.length);
   const auto intensity = [&](const Eigen::RowVectorXd& tip) {
-    return StressIntensity{factor_ * tip.dot(share.head(n)), factor_ * tip.dot(share.tail(n))};
+    return StressIntensity{factor * tip.dot(share.head(n)), factor * tip.dot(share.tail(n))};
   };
   out.end = intensity(rule_->end);
   if (rule_->start.size() > 0) out.start = intensity(rule_->start);

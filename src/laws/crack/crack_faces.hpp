@@ -22,6 +22,8 @@ class CrackFaces {
 
   /// m from the start, of the collocation points.
   std::vector<double> places() const;
+  /// Pa: the energy release rate is (K_I² + K_II²) over it.
+  double modulus() const { return modulus_; }
 
   struct Faces {
     StressIntensity end;
@@ -35,13 +37,14 @@ class CrackFaces {
   Faces load(const std::vector<LineTraction>& applied, double friction, double fluid);
 
  private:
+  void resist(const LayeredHalfSpace& body, int points);
   enum class State { open, stuck, forward, backward };
   Eigen::VectorXd solve(const Eigen::VectorXd& applied, double friction, double fluid) const;
   bool review(const Eigen::VectorXd& jump, const Eigen::VectorXd& traction, double friction, double fluid, bool one);
 
   CrackLine line_;
   const CrackRule* rule_;
-  double factor_;              ///< K over φ at a tip
+  double modulus_ = 0;         ///< Pa, in plane strain; of a level crack Ē (level_crack.hpp)
   Eigen::MatrixXd stiffness_;  ///< S, Pa/m: normal components first, then those along
   std::vector<State> state_;
   Eigen::VectorXd before_;  ///< m, jumps at the last place of the load

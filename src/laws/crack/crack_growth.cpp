@@ -26,11 +26,9 @@ FrontFactors front_factors(double aspect, double poisson) {
   out.I = (1.13 - 0.09 * b) / (1.1215 * std::sqrt(1 + 1.464 * std::pow(b, 1.65)));
   // k²/[(k² + ν b²) E(k) - ν b² K(k)], of the circle its limit
   constexpr double kCircle = 1e-4;
-  const double shape =
-      k2 < kCircle ? 4 / (std::numbers::pi * (2 - poisson))
-                   : k2 / ((k2 + poisson * b * b) * std::comp_ellint_2(k) - poisson * b * b * std::comp_ellint_1(k));
-  out.II = shape;
-  out.III = shape * (1 - poisson) * std::sqrt(b);
+  out.II = k2 < kCircle
+               ? 4 / (std::numbers::pi * (2 - poisson))
+               : k2 / ((k2 + poisson * b * b) * std::comp_ellint_2(k) - poisson * b * b * std::comp_ellint_1(k));
   return out;
 }
 

@@ -18,9 +18,8 @@ double growth_rate(GrowthLaw law, const StressIntensity& range, double threshold
 /// Factors of a half-elliptical crack that is `aspect` times as long at the surface, from its middle, as it is deep
 /// along its plane, on what the straight front of a crack endless in y has.
 struct FrontFactors {
-  double I = 1;    ///< of K_I at the deepest point: M / (1.1215 sqrt Q), M = 1.13 - 0.09/aspect [NewmanRaju1981]
-  double II = 1;   ///< of K_II there: that of an ellipse inside under shear along its minor axis [KassirSih1966]
-  double III = 0;  ///< K_III at the ends at the surface over the straight front's K_II, by the same
+  double I = 1;   ///< of K_I at the deepest point: M / (1.1215 sqrt Q), M = 1.13 - 0.09/aspect [NewmanRaju1981]
+  double II = 1;  ///< of K_II there: that of an ellipse inside under shear along its minor axis [KassirSih1966]
 };
 /// aspect from 1 on; infinite: the straight front.
 FrontFactors front_factors(double aspect, double poisson);

@@ -23,6 +23,7 @@ struct CrackLine {
   double depth = 0;   ///< m, of its start; 0: the mouth
   double x(double r) const { return r * std::cos(angle); }
   double z(double r) const { return depth + r * std::sin(angle); }
+  bool level() const { return angle == 0; }  ///< crack/level_crack.hpp
 };
 
 /// Mode I opens; mode II moves the left side, seen along the crack from its start with x to the right and z down, i.e.

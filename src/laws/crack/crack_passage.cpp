@@ -50,6 +50,7 @@ CrackPassage pass_over(const CrackLine& line, const LayeredHalfSpace& body, cons
   for (bool repeats = false; !repeats && out.passes < options.most_passes;) {
     const int passes = out.passes + 1;
     out = {};
+    out.modulus = faces.modulus();
     out.passes = passes;
     double volume = 0;
     bool covered = false;
@@ -73,6 +74,17 @@ CrackPassage pass_over(const CrackLine& line, const LayeredHalfSpace& body, cons
     repeats = std::hypot(range.I - before.I, range.II - before.II) <= options.repeats * std::hypot(range.I, range.II);
     before = range;
     out.settled = out.settled && (repeats || passes < options.most_passes);
+  }
+  return out;
+}
+
+Release release_at(const CrackPassage& passage, std::size_t place) {
+  Release out;
+  for (const std::vector<StressIntensity>* tip : {&passage.end, &passage.start}) {
+    if (tip->empty()) continue;
+    const StressIntensity& k = (*tip)[place];
+    const double rate = (k.I * k.I + k.II * k.II) / passage.modulus;
+    if (rate > out.rate) out = {rate, std::atan2(k.II, k.I)};
   }
   return out;
 }

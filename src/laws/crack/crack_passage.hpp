@@ -27,11 +27,19 @@ struct CrackPassage {
   std::vector<StressIntensity> end, start;  ///< start: of a crack inside
   std::vector<double> open, slipping;       ///< shares of the length
   std::vector<double> fluid;                ///< Pa
+  double modulus = 0;                       ///< Pa, of CrackFaces
   int passes = 0;
   bool settled = true;  ///< the faces' conditions at all places, and the cycle repeats
 };
 CrackPassage pass_over(const CrackLine& line, const LayeredHalfSpace& body, const PlaneOfRolling& plane,
                        const PassageOptions& options);
+
+/// Energy release rate [J/m²] and phase angle [rad] atan2(K_II, K_I) at a place of the wheel: of the end, or of the
+/// start where it is larger.
+struct Release {
+  double rate = 0, phase = 0;
+};
+Release release_at(const CrackPassage& passage, std::size_t place);
 
 /// Largest less smallest over the passage, K_I never below 0.
 StressIntensity range_of(const std::vector<StressIntensity>& passage);

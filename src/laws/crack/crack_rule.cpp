@@ -1,12 +1,13 @@
 #include "crack/crack_rule.hpp"
 
 #include <Eigen/LU>
-#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
 #include <numbers>
 #include <vector>
+
+#include "crack/gauss.hpp"
 
 namespace railstrata {
 namespace {
@@ -38,40 +39,22 @@ double zero_between(double low, double high, const F& f) {
   return 0.5 * (low + high);
 }
 
-/// Gauss and Legendre's rule on 0 to 1.
-struct Panel {
-  static constexpr int kPoints = 10;
-  std::array<double, kPoints> node{}, weight{};
-  Panel() {
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      const double step = pi / (kPoints + 0.5);
-      const double x =
-          zero_between(std::cos((static_cast<double>(i) + 1) * step), std::cos((static_cast<double>(i) + 0.5) * step),
-                       [](double at) { return legendre(kPoints, at).p[kPoints]; });
-      const double slope = kPoints * legendre(kPoints, x).p[kPoints - 1] / (1 - x * x);
-      node[i] = 0.5 * (1 + x);
-      weight[i] = 1 / ((1 - x * x) * slope * slope);
-    }
-  }
-};
-
 /// r/c of 1 - r/c = w².
 constexpr auto share_of = [](double w) { return 1 - w * w; };
 
 /// Panels of 1 - w that halve towards the mouth, to its nearest point.
 template <class Values>
 void add_panels(const Values& values_at, const Eigen::MatrixXd& density, double nearest, CrackRule& rule) {
-  const Panel panel;
   const int panels = 2 + static_cast<int>(std::ceil(-std::log2(nearest)));
-  rule.image_node.resize(panels * Panel::kPoints);
-  rule.image_density.resize(panels * Panel::kPoints, density.cols());
+  rule.image_node.resize(panels * static_cast<int>(kGauss8.size()));
+  rule.image_density.resize(panels * static_cast<int>(kGauss8.size()), density.cols());
   double low = 0.5, high = 1;  // of 1 - w
   for (int i = 0, at = 0; i < panels; ++i) {
     if (i + 1 == panels) low = 0;
-    for (int k = 0; k < Panel::kPoints; ++k, ++at) {
-      const double place = 1 - (low + (high - low) * panel.node[k]);
+    for (const GaussPoint& g : kGauss8) {
+      const double place = 1 - (low + (high - low) * g.node);
       rule.image_node[at] = share_of(place);
-      rule.image_density.row(at) = (high - low) * panel.weight[k] * values_at(place) * density;
+      rule.image_density.row(at++) = (high - low) * g.weight * values_at(place) * density;
     }
     high = low;
     low *= 0.5;

@@ -1,113 +1,20 @@
 #include "crack/layered_dislocation.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "halfspace/layer_waves.hpp"
+#include "crack/gauss.hpp"
+#include "crack/jump_waves.hpp"
 
 namespace railstrata {
 namespace {
 
-/// A layer, or the part of one above or below the dislocation.
-struct Slab {
-  double top = 0, thickness = 0;  ///< m; 0: the substrate
-  HalfSpaceMaterial material;
-  double kappa() const { return 3 - 4 * material.poisson; }
-};
-
-/// Stresses per jump (U, W) of one metre: columns; rows xx, zz, xz (of sin and cos of k x as below).
-using JumpStress = Eigen::Matrix<double, 3, 2>;
-
-/// The waves of all slabs under a jump at the top of one of them.
-class JumpWaves {
- public:
-  JumpWaves(std::vector<Slab> slabs, std::size_t jump, double k) : slabs_(std::move(slabs)), k_(k) {
-    const auto n = static_cast<Eigen::Index>(slabs_.size()), size = 4 * n - 2;
-    const double G = slabs_.front().material.shear();
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-    Eigen::MatrixXd jumps = Eigen::MatrixXd::Zero(size, 2);
-    matrix.block(0, 0, 2, 4) = basis(0, slabs_[0].top).bottomRows(2) / G;
-    for (Eigen::Index s = 1; s < n; ++s) {
-      const Eigen::Index row = 4 * s - 2, width = s + 1 < n ? 4 : 2;
-      const auto slab = static_cast<std::size_t>(s);
-      matrix.block(row, 4 * s, 4, width) = basis(slab, slabs_[slab].top).leftCols(width);
-      matrix.block(row, 4 * s - 4, 4, 4) = -basis(slab - 1, slabs_[slab].top);
-      matrix.block(row + 2, 4 * s - 4, 2, 4 + width) /= G;
-      if (slab == jump) jumps.block(row, 0, 2, 2).setIdentity();
-    }
-    amplitude_ = matrix.partialPivLu().solve(jumps);
-  }
-
-  /// slab: of the point; amplitudes of S, of T and of xx.
-  JumpStress stress(std::size_t slab, double depth) const {
-    const Eigen::Index width = slab + 1 < slabs_.size() ? 4 : 2;
-    const Eigen::Matrix<double, 4, 2> state =
-        basis(slab, depth).leftCols(width) * amplitude_.middleRows(4 * static_cast<Eigen::Index>(slab), width);
-    const HalfSpaceMaterial& m = slabs_[slab].material;
-    const double nu = m.poisson, plane = m.young / (1 - nu * nu);
-    JumpStress out;  // xx = -E/(1 - ν²) k U + ν/(1 - ν) S
-    out.row(0) = k_ * (-plane * state.row(0) + nu / (1 - nu) * state.row(3));
-    out.row(1) = k_ * state.row(3);
-    out.row(2) = k_ * state.row(2);
-    return out;
-  }
-
- private:
-  Eigen::Matrix4d basis(std::size_t slab, double depth) const {
-    const Slab& s = slabs_[slab];
-    const double kz = k_ * (depth - s.top), k_eta = k_ * s.thickness - kz;
-    Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
-    out.leftCols<2>() = std::exp(-kz) * layer_wave::decaying(s.material.shear(), s.kappa(), kz);
-    if (s.thickness > 0)
-      out.rightCols<2>() = std::exp(-k_eta) * layer_wave::growing(s.material.shear(), s.kappa(), k_eta);
-    return out;
-  }
-  std::vector<Slab> slabs_;
-  double k_;
-  Eigen::MatrixXd amplitude_;
-};
-
-/// The slabs of a body, cut at a depth; jump: the one that begins there.
-struct CutBody {
-  std::vector<Slab> slabs;
-  std::size_t jump = 0;
-  std::size_t slab_at(double depth) const {
-    std::size_t s = slabs.size() - 1;
-    while (s > 0 && depth <= slabs[s].top) --s;
-    return s;
-  }
-};
-CutBody cut_at(const LayeredHalfSpace& body, double depth) {
-  CutBody out;
-  double top = 0;
-  const auto add = [&](double thickness, const HalfSpaceMaterial& material, bool last) {
-    const double bottom = top + thickness;
-    if (depth >= top && (last || depth < bottom) && out.jump == 0 && depth > 0) {
-      if (depth > top) out.slabs.push_back({top, depth - top, material});
-      out.jump = out.slabs.size();
-      out.slabs.push_back({depth, last ? 0 : bottom - depth, material});
-    } else {
-      out.slabs.push_back({top, last ? 0 : thickness, material});
-    }
-    top = bottom;
-  };
-  for (const HalfSpaceLayer& layer : body.layers) add(layer.thickness, layer.material, false);
-  add(0, body.substrate, true);
-  return out;
-}
-
 bool one_material(const LayeredHalfSpace& body) {
-  return std::all_of(body.layers.begin(), body.layers.end(),
-                     [&](const HalfSpaceLayer& layer) { return layer.material == body.substrate; });
+  return std::all_of(body.layers.begin(), body.layers.end(), [&](const HalfSpaceLayer& layer) {
+    return layer.material == body.substrate && !layer.bond.gives();
+  });
 }
-
-/// Gauss and Legendre's rule of eight points on 0 to 1.
-constexpr double kNodes[] = {0.01985507175123188, 0.10166676129318664, 0.2372337950418355, 0.4082826787521751,
-                             0.5917173212478249,  0.7627662049581645,  0.8983332387068134, 0.9801449282487681},
-                 kWeights[] = {0.05061426814518813, 0.11119051722668724, 0.15685332293894363, 0.18134189168918100,
-                               0.18134189168918100, 0.15685332293894363, 0.11119051722668724, 0.05061426814518813};
 
 }  // namespace
 
@@ -137,11 +44,11 @@ Eigen::MatrixXd layers_traction(const LayeredHalfSpace& body, double angle, cons
     for (const HalfSpaceMaterial& metal : metals) alone.push_back(cut_at({{}, metal}, source.z));
     std::vector<PlaneStress> of_x(at.size()), of_z(at.size());
     for (double low = 0, high = 0.25 / reach; low < last; low = high, high *= 2)
-      for (int g = 0; g < 8; ++g) {
-        const double k = low + (high - low) * kNodes[g], weight = (high - low) * kWeights[g] / std::numbers::pi;
-        const JumpWaves waves(layered.slabs, layered.jump, k);
+      for (const GaussPoint& g : kGauss8) {
+        const double k = low + (high - low) * g.node, weight = (high - low) * g.weight / std::numbers::pi;
+        const JumpWaves waves(layered, k);
         std::vector<JumpWaves> of_metals;
-        for (const CutBody& metal : alone) of_metals.emplace_back(metal.slabs, metal.jump, k);
+        for (const CutBody& metal : alone) of_metals.emplace_back(metal, k);
         for (std::size_t i = 0; i < at.size(); ++i) {
           const JumpStress s = waves.stress(layered.slab_at(at[i].z), at[i].z) -
                                of_metals[metal_of[i]].stress(alone[metal_of[i]].slab_at(at[i].z), at[i].z);

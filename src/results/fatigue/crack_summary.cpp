@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "crack/crack_growth.hpp"
+#include "crack/level_crack.hpp"
 #include "fatigue/row_strength.hpp"
 #include "result/patch.hpp"
 #include "result/stress_cycles.hpp"
@@ -25,19 +26,35 @@ double loaded_line(const BemPatch& patch) {
   return patch.grid.y(patch.grid.line ? 0 : most % patch.field.columns);
 }
 
-/// What the numbers do not say.
-std::vector<std::string> notes_of(const CrackSpec& crack, const CrackResult& found, const LayeredHalfSpace& body) {
+/// Of a crack along an interface: what its phase is of, and what the layer's tension would add.
+std::vector<std::string> level_notes(const CaseSpec& spec, const CrackResult& found, const LayeredHalfSpace& body) {
   std::vector<std::string> out;
+  const CrackSpec& crack = spec.life.crack;
+  const double depth = found.state.depth;
+  if (!(material_at(body, depth) == material_at(body, depth * (1 + 1e-9))))
+    out.push_back(fmt::format("crack: K_I, K_II and the phase angle are those at {:.2g} um from the end",
+                              1e6 * reference_length(crack_line(crack, 0, body))));
+  const auto top = std::find_if(spec.layers.begin(), spec.layers.end(),
+                                [](const LayerSpec& layer) { return layer.on == BodyId::rail; });
+  const double c = std::cos(found.azimuth), s = std::sin(found.azimuth);
+  const std::vector<double>& process = top->material.strength.initial_stress;
+  const double tension = process.empty() ? 0 : c * c * process[0] + s * s * process[1];
+  if (tension > 0 && crack.layer == 1)
+    out.push_back(
+        fmt::format("crack: where the layer is cut through, its tension of {:.0f} MPa alone releases {:.3g} "
+                    "J/m2 along a long crack; below an uncut layer it releases nothing",
+                    1e-6 * tension, strip_release(body.layers.front().material, depth, tension)));
+  return out;
+}
+
+/// What the numbers do not say.
+std::vector<std::string> notes_of(const CaseSpec& spec, const CrackResult& found, const LayeredHalfSpace& body) {
+  const CrackSpec& crack = spec.life.crack;
+  std::vector<std::string> out;
+  if (crack.level()) out = level_notes(spec, found, body);
   if (!found.state.settled)
     out.push_back("crack: the faces do not come to the same cycle in each passage; K is that of the last one");
-  const HalfSpaceMaterial tip = material_at(body, crack.depth);
-  for (const HalfSpaceLayer& layer : body.layers)
-    if (std::abs(layer.material.young / tip.young - 1) > 0.01) {
-      out.push_back(
-          "crack: stresses are those of the layers, the resistance of the cracked body is that of the material at the "
-          "crack's end everywhere");
-      break;
-    }
+  if (crack.level()) return out;
   const double down = found.state.kink.angle + crack.angle;
   const double kinked = growth_rate(crack.law, {found.state.kink.range, 0}, crack.threshold);
   if (kinked > found.state.growth) {
@@ -65,7 +82,11 @@ double wheels_between(const CrackSpec& crack, const CrackResult& result, double 
 
 }  // namespace
 
-CrackLine crack_line(const CrackSpec& crack, double depth) {
+CrackLine crack_line(const CrackSpec& crack, double depth, const LayeredHalfSpace& body) {
+  if (crack.level())
+    return {.kind = CrackKind::inside,
+            .length = crack.length,
+            .depth = layer_extents(body)[static_cast<std::size_t>(crack.layer) - 1].bottom};
   return {.kind = crack.top > 0 ? CrackKind::inside : CrackKind::mouth,
           .angle = crack.angle,
           .length = (depth - crack.top) / std::sin(crack.angle),
@@ -74,14 +95,25 @@ CrackLine crack_line(const CrackSpec& crack, double depth) {
 
 CrackState crack_state(const CrackSpec& crack, double depth, const LayeredHalfSpace& body, const PlaneOfRolling& plane,
                        CrackPassage* passage) {
-  CrackPassage now =
-      pass_over(crack_line(crack, depth), body, plane, {.friction = crack.face_friction, .fluid = crack.fluid});
-  const FrontFactors front = front_factors(crack.aspect, material_at(body, depth).poisson);
+  const CrackLine line = crack_line(crack, depth, body);
+  CrackPassage now = pass_over(line, body, plane, {.friction = crack.face_friction, .fluid = crack.fluid});
+  const FrontFactors front =
+      line.level() ? FrontFactors{} : front_factors(crack.aspect, material_at(body, depth).poisson);
   for (std::vector<StressIntensity>* end : {&now.end, &now.start})
     for (StressIntensity& k : *end) k = {front.I * k.I, front.II * k.II};
-  CrackState out{.depth = depth, .range = range_of(now.end), .kink = worst_kink(now.end), .settled = now.settled};
+  CrackState out{.depth = line.z(line.length),
+                 .range = range_of(now.end),
+                 .kink = worst_kink(now.end),
+                 .release = {},
+                 .settled = now.settled};
   out.equivalent = equivalent_range(crack.law, out.range);
   out.growth = growth_rate(crack.law, out.range, crack.threshold);
+  for (std::size_t i = 0; i < now.place.size(); ++i)
+    if (const Release at = release_at(now, i); at.rate > out.release.rate) out.release = at;
+  if (line.level()) {
+    out.equivalent = out.growth = kNotApplicable;
+    out.kink = {kNotApplicable, kNotApplicable};
+  }
   if (passage) *passage = std::move(now);
   return out;
 }
@@ -97,7 +129,8 @@ PlaneOfRolling crack_plane(const CaseSpec& spec, const BemResult& result, const 
     if (last) break;
   }
   // as far across as a crack in any direction reaches, or in the given one
-  const double reach = at.deepest / std::tan(spec.life.crack.angle);
+  const CrackSpec& crack = spec.life.crack;
+  const double reach = crack.level() ? crack.length : at.deepest / std::tan(crack.angle);
   const double across = at.azimuth ? reach * std::sin(*at.azimuth) : reach;
   StressHistory history =
       half_space_cycles(result, BodyId::rail, patch, rows,
@@ -132,31 +165,35 @@ CrackResult half_space_crack(const CaseSpec& spec, const BemResult& result) {
   const BemPatch& patch = **std::max_element(patches.begin(), patches.end(), [](const BemPatch* a, const BemPatch* b) {
     return measure_patch(a->field).p_max < measure_patch(b->field).p_max;
   });
-  const bool inside = crack.top > 0;
-  const double deepest = inside ? crack.depth : std::max(crack.allowable, crack.depth);
+  const bool inside = crack.top > 0 || crack.level();
+  const double end = crack.level() ? crack_line(crack, 0, result.rail).depth : crack.depth;
+  const double deepest = inside ? end : std::max(crack.allowable, end);
   CrackResult out;
   out.y = loaded_line(patch) + crack.lateral;
   PlaneOfRolling plane = crack_plane(spec, result, patch, {.y = out.y, .deepest = deepest});
   const auto in_direction = [&](double azimuth) {
     plane.turn(azimuth);
-    return crack_state(crack, crack.depth, result.rail, plane).growth;
+    const CrackState state = crack_state(crack, end, result.rail, plane);
+    return crack.level() ? state.release.rate : state.growth;
   };
   out.azimuth = crack.azimuth ? *crack.azimuth : fastest_azimuth(in_direction);
   plane.turn(out.azimuth);
-  out.state = crack_state(crack, crack.depth, result.rail, plane, &out.passage);
+  out.state = crack_state(crack, end, result.rail, plane, &out.passage);
   for (int i = 0; i < kDepths && !inside; ++i)
     out.depths.push_back(crack_state(crack, kTop * std::pow(deepest / kTop, i / (kDepths - 1.0)), result.rail, plane));
-  out.notes = notes_of(crack, out, result.rail);
+  out.notes = notes_of(spec, out, result.rail);
   return out;
 }
 
 CrackSummary crack_summary(const CrackSpec& crack, const CrackResult& result, double wheel_force) {
   CrackSummary out;
-  out.depth = crack.depth;
+  out.depth = result.state.depth;
   out.K_I_range = result.state.range.I;
   out.K_II_range = result.state.range.II;
   out.equivalent_range = result.state.equivalent;
   out.growth = result.state.growth;
+  out.release = result.state.release.rate;
+  out.phase = result.state.release.phase;
   out.kink_range = result.state.kink.range;
   out.kink_angle = crack.angle + result.state.kink.angle;
   out.azimuth = result.azimuth;

@@ -14,16 +14,17 @@ namespace railstrata {
 
 struct CrackSpec;  // spec/crack_spec.hpp
 
-/// A crack of a case that reaches so deep [m]; one inside keeps its start.
-CrackLine crack_line(const CrackSpec& crack, double depth);
+/// A crack of a case that reaches so deep [m]; one inside keeps its start, one along an interface its place.
+CrackLine crack_line(const CrackSpec& crack, double depth, const LayeredHalfSpace& body);
 
 /// What a passage does at the crack's end, with the factors of a half-elliptical front.
 struct CrackState {
   double depth = 0;       ///< m
   StressIntensity range;  ///< Pa √m
   double equivalent = 0;  ///< Pa √m
-  double growth = 0;      ///< m a wheel, along the crack
+  double growth = 0;      ///< m a wheel, along the crack; NaN: along an interface, which has no law
   Kink kink;              ///< angle from the crack's direction
+  Release release;        ///< the largest of the passage
   bool settled = true;
 };
 

@@ -229,7 +229,9 @@ void write_crack(const std::filesystem::path& folder, const std::vector<std::str
   if (!p.start.empty())
     append(columns, {{"K_I_top", unit::kRootMetres, [&p](Place i) { return p.start[i].I; }},
                      {"K_II_top", unit::kRootMetres, [&p](Place i) { return p.start[i].II; }}});
-  append(columns, {{"open", unit::kNone, [&p](Place i) { return p.open[i]; }},
+  append(columns, {{"energy_release", unit::kJoulesPerSquareMetre, [&p](Place i) { return release_at(p, i).rate; }},
+                   {"phase", unit::kDegrees, [&p](Place i) { return release_at(p, i).phase; }},
+                   {"open", unit::kNone, [&p](Place i) { return p.open[i]; }},
                    {"slipping", unit::kNone, [&p](Place i) { return p.slipping[i]; }},
                    {"fluid", unit::kMPa, [&p](Place i) { return p.fluid[i]; }}});
   write_csv(folder / "crack.csv", provenance, places, columns);

@@ -396,22 +396,23 @@ constexpr auto crack = &at<&Summary::crack, Member>;
 std::vector<ResultNumber> crack_numbers() {
   using K = CrackSummary;
   return {
-      row("depth", kMillimetres, crack<&K::depth>, "crack", "Crack, depth", "Depth of the crack's lower end", kShown),
+      row("depth", kMillimetres, crack<&K::depth>, "crack", "Crack, depth", "Depth of its lower end", kShown),
       row("K_I_range", kRootMetres, crack<&K::K_I_range>, "ΔK_I", "Crack, range of K_I",
           "Range of K_I over a passage, closed faces counted as 0", kMain),
       row("K_II_range", kRootMetres, crack<&K::K_II_range>, "ΔK_II", "Crack, range of K_II",
           "Range of the stress intensity of shear over a passage", kMain),
       row("equivalent_range", kRootMetres, crack<&K::equivalent_range>, "ΔK_eq", "Crack, equivalent range",
-          "Range that crack.law counts with", kMain),
+          "Range that crack.law counts with; null: along an interface", kMain),
+      row("energy_release", kJoulesPerSquareMetre, crack<&K::release>, "G", "Crack, energy release rate",
+          "Largest energy release rate of a passage, of a crack inside at either end", kMain),
+      row("phase", kDegrees, crack<&K::phase>, "phase", "Crack, phase angle",
+          "atan2(K_II, K_I) there; 90 degrees or -90: shear of closed faces", kShown),
       row("growth", kNanometres, crack<&K::growth>, "growth", "Crack growth a wheel",
-          "Growth of the crack along its direction in one passage, by crack.law", kMain),
+          "Along its direction in one passage, by crack.law; null: along an interface", kMain),
       row("life", kMGT, crack<&K::life>, "to allowable", "Crack, traffic to crack.allowable",
-          "Gross traffic of such wheels in which the crack grows from its depth to crack.allowable in its direction, "
-          "without wear; inf: it does not get there; null: it is inside, or deeper already",
-          kMain),
+          "Gross traffic of such wheels without wear; inf: never; null: the crack is inside, or deeper already", kMain),
       row("azimuth", kDegrees, crack<&K::azimuth>, "azimuth", "Crack, direction",
-          "Direction in which the crack goes down, from that of rolling to the field side: crack.azimuth, or the one "
-          "in which it grows fastest",
+          "Direction in which the crack goes, as of crack.azimuth; not given: the one in which it grows fastest",
           kShown),
       row("kink_range", kRootMetres, crack<&K::kink_range>, "Δk_I of a kink", "Crack, opening of a kink",
           "Largest range of the opening stress intensity of a small kink at the crack's end", kShown),

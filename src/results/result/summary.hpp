@@ -270,6 +270,8 @@ struct CrackSummary {
   double K_I_range = kNotApplicable, K_II_range = kNotApplicable;  ///< Pa √m
   double equivalent_range = kNotApplicable;                        ///< Pa √m, of the growth law
   double growth = kNotApplicable;                                  ///< m a wheel, along the crack
+  double release = kNotApplicable;                                 ///< J/m², largest energy release rate
+  double phase = kNotApplicable;                                   ///< rad, atan2(K_II, K_I) there
   double life = kNotApplicable;        ///< kg of gross traffic to crack.allowable; infinite: it does not get there
   double kink_angle = kNotApplicable;  ///< rad from the surface, where a kink would open most
   double kink_range = kNotApplicable;  ///< Pa √m

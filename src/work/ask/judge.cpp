@@ -57,7 +57,7 @@ void judge(const CaseSpec& given, const Wanted& wanted, Answer& out, const AskOp
     if (wanted.single_track) add_single_track(spec, out.result, out.shakedown);
     if (wanted.maps) out.sliding = sliding_maps(out.result, out.shakedown);
     judge_sections(spec, out.shakedown, s);
-    if (wanted.crack && spec.life.crack.depth > 0 && !out.crack) {
+    if (wanted.crack && spec.life.crack.there() && !out.crack) {
       out.crack = half_space_crack(spec, out.result);
       s.crack = crack_summary(spec.life.crack, *out.crack, s.contact.F_z);
       out.result.notes.insert(out.result.notes.end(), out.crack->notes.begin(), out.crack->notes.end());

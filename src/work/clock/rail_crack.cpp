@@ -11,21 +11,12 @@
 #include "bem/contact_places.hpp"
 #include "clock/clock.hpp"
 #include "core/parallel.hpp"
+#include "crack/interval.hpp"
 #include "record/unit.hpp"
 #include "spec/case_spec.hpp"
 
 namespace railstrata {
 namespace {
-
-/// Of values at ascending depths.
-Sym3 value_at_depth(const std::vector<double>& depths, const std::vector<Sym3>& values, double depth) {
-  const auto below = std::upper_bound(depths.begin(), depths.end(), depth);
-  if (below == depths.begin()) return values.front();
-  if (below == depths.end()) return values.back();
-  const auto k = static_cast<std::size_t>(below - depths.begin());
-  const double share = (depth - depths[k - 1]) / (depths[k] - depths[k - 1]);
-  return (1 - share) * values[k - 1] + share * values[k];
-}
 
 /// Whether a patch is near enough to a place across to matter.
 bool near_crack(const BemPatch& patch, double y) {
@@ -68,7 +59,11 @@ std::vector<CrackLoad> crack_loads(const CrackSpec& crack, const std::vector<Col
         .y = near[k].y,
         .deepest = crack.allowable,
         .azimuth = std::isfinite(rail.crack.azimuth) ? std::optional(rail.crack.azimuth) : crack.azimuth,
-        .further = [&](double depth) { return value_at_depth(depths, residual, depth); }};
+        .further = [&](double depth) {
+          const Interval around = interval_of(depths, depth);
+          return around.of(residual[static_cast<std::size_t>(around.low)],
+                           residual[static_cast<std::size_t>(around.high)]);
+        }};
     made[k] = {row.passages / wheels, row.result->rail, crack_plane(row.spec, *row.result, *near[k].patch, place)};
   });
   std::vector<CrackLoad> out;
