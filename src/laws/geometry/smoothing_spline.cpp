@@ -5,7 +5,10 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
+
+#include "geometry/point_scatter.hpp"
 
 namespace railstrata {
 namespace {
@@ -13,6 +16,9 @@ namespace {
 constexpr double kClosestKnots = 0.5e-3, kWidestKnots = 4e-3;  // m
 constexpr double kCurvatureNoise = 0.05;                       // 1/m
 constexpr double kSmallestTolerance = 1e-9;                    // m
+constexpr double kScatteredNoise = 0.08e-6;                    // m: from here on the knots above are too close
+constexpr double kLeftCurvature = 0.3;                         // 1/m, of knots that scatter widens further
+constexpr double kWidestOfAll = 10e-3;                         // m
 constexpr double kEndWeight = 1e-3;
 
 std::vector<double> chord_lengths(const std::vector<Vec2>& points) {
@@ -125,15 +131,22 @@ std::vector<char> spaced_knots(const std::vector<double>& t, double spacing) {
   return chosen;
 }
 
-/// Makes knots of the middle points of intervals that miss a point. Returns whether it found any.
-bool refine(std::vector<char>& chosen, const std::vector<double>& error, double tolerance) {
+/// Whether an interval misses a point by more than the tolerance, or scattered points by more squares than chance does.
+bool misses_points(const double* error, std::size_t count, double tolerance, double noise) {
+  if (*std::max_element(error, error + count) > tolerance) return true;
+  if (noise < kScatteredNoise) return false;
+  const auto n = static_cast<double>(count);
+  return std::inner_product(error, error + count, error, 0.0) > noise * noise * (1.3 * n + 4 * std::sqrt(2 * n));
+}
+
+/// Makes knots of the middle points of intervals that miss points. Returns whether it found any.
+bool refine(std::vector<char>& chosen, const std::vector<double>& error, double tolerance, double noise) {
   assert(chosen.size() == error.size());
   bool changed = false;
   std::size_t begin = 0;
   for (std::size_t end = 1; end < chosen.size(); ++end) {
     if (!chosen[end]) continue;
-    const double worst = *std::max_element(error.begin() + begin, error.begin() + end + 1);
-    if (worst > tolerance && end - begin > 1) {
+    if (end - begin > 1 && misses_points(&error[begin], end - begin + 1, tolerance, noise)) {
       chosen[(begin + end) / 2] = 1;
       changed = true;
     }
@@ -167,35 +180,21 @@ SmoothingSpline at_knots(const Basis& basis, const Coefficients& c) {
   return out;
 }
 
-}  // namespace
-
-double estimated_noise(const std::vector<Vec2>& points) {
-  const std::vector<double> t = chord_lengths(points);
-  std::vector<double> distance;
-  for (std::size_t i = 2; i + 2 < t.size(); ++i) {
-    Vec2 guess;
-    double variance = 1;
-    for (const std::size_t j : {i - 2, i - 1, i + 1, i + 2}) {
-      double weight = 1;
-      for (const std::size_t k : {i - 2, i - 1, i + 1, i + 2})
-        if (k != j) weight *= (t[i] - t[k]) / (t[j] - t[k]);
-      guess = guess + weight * points[j];
-      variance += weight * weight;
-    }
-    const Vec2 along = points[i + 1] - points[i - 1];
-    distance.push_back(std::abs(cross(along, points[i] - guess)) / (norm(along) * std::sqrt(variance)));
-  }
-  std::nth_element(distance.begin(), distance.begin() + distance.size() / 2, distance.end());
-  return distance[distance.size() / 2] / 0.6745;  // median of |N(0,1)|
+/// Second derivatives of a least-squares spline scatter by noise sqrt(500 spacing / knots^5).
+double widest_knots(const PointScatter& s) {
+  return std::clamp(std::pow(s.noise * std::sqrt(500 * s.spacing) / kLeftCurvature, 0.4), kWidestKnots, kWidestOfAll);
 }
 
-SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points) {
+}  // namespace
+
+SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points, double rounding) {
   std::vector<double> t = chord_lengths(points);
-  const bool dense = t.back() / static_cast<double>(t.size() - 1) <
-                     kClosestKnots;  // else the shape between points would be taken for noise
-  const double noise = dense ? estimated_noise(points) : 0.0, tolerance = std::max(4 * noise, kSmallestTolerance);
-  const double wanted = std::clamp(std::sqrt(10 * noise / kCurvatureNoise), kClosestKnots, kWidestKnots);
-  const double spacing = dense ? std::min(wanted, t.back() / 5) : 0.0;
+  const PointScatter scatter = scatter_of(points, rounding);
+  const double tolerance = std::max(4 * scatter.noise, kSmallestTolerance),
+               wanted = std::sqrt(10 * scatter.noise / kCurvatureNoise);
+  const bool interpolate = !scatter.dense && wanted <= scatter.spacing;
+  const double spacing =
+      interpolate ? 0.0 : std::min(std::clamp(wanted, kClosestKnots, widest_knots(scatter)), t.back() / 5);
   std::vector<char> chosen = spaced_knots(t, spacing);
   for (int round = 0;; ++round) {
     const Basis basis(knots_of(t, chosen));
@@ -205,7 +204,7 @@ SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points) {
       const int k = basis.interval(t[i]);
       error.push_back(norm(combine(c, k, basis.values(k, t[i])) - points[i]));
     }
-    const bool refined = refine(chosen, error, tolerance);
+    const bool refined = refine(chosen, error, tolerance, scatter.noise);
     if (!refined && round >= 2) {
       SmoothingSpline out = at_knots(basis, c);
       out.miss = std::move(error);
