@@ -156,9 +156,18 @@ class Reading {
     note("The heading gives inches; the numbers were read as inches.");
   }
 
+  /// How many points lie so far from the lowest, or from the highest if these are fewer.
+  std::ptrdiff_t far_below(double height) const {
+    const Extent z = extent(points_, &Vec2::z);
+    const auto count = [&](auto&& far) { return std::count_if(points_.begin(), points_.end(), far); };
+    return std::min(count([&](Vec2 p) { return p.z > z.lo + height; }),
+                    count([&](Vec2 p) { return p.z < z.hi - height; }));
+  }
+
   /// Faults of a list that would show as a curve of a strange length.
   void refuse_other_lists(double y, double z, double length) const {
     constexpr double kInOrder = 3;  // length over extents: a curve goes down at both ends
+    constexpr std::ptrdiff_t kSomeStray = 4;
     bool counts = table_.columns > 2 && (points_.front().y == 0 || points_.front().y == 1);
     for (std::size_t i = 1; i < points_.size() && counts; ++i) counts = points_[i].y == points_[i - 1].y + 1;
     if (counts) fail("the first column counts the points", "give y and z as the first two columns");
@@ -169,7 +178,7 @@ class Reading {
            "list the points from one end of the curve to the other; a head or tread without steep ends can be sorted "
            "by y");
     const double unit = y < 1 ? 1 : 1e-3;  // m
-    if (kind_ == ProfileKind::rail && z * unit > kHighestHead && z * unit < kLongestCurve)
+    if (kind_ == ProfileKind::rail && z * unit < kLongestCurve && far_below(kHighestHead / unit) > kSomeStray)
       fail(fmt::format("the points span {:.0f} mm of height: this is an outline of the whole rail", 1e3 * z * unit),
            "give the points of the head alone, from one face over the running surface to the other");
   }

@@ -71,10 +71,10 @@ void withhold_at_edges(const Profile& profile, double s, ContactSummary& c, std:
   for (const ProfileEdge& edge : edges_of(profile)) {
     if (!(std::abs(edge.s - s) < c.patch.width)) continue;
     c.error.p_max = c.error.q_max = kNotApplicable;
-    notes.push_back(fmt::format(
-        "{} has an edge of {:.0f} mrad at y = {:.1f} mm, in the patch: the pressure there grows without limit on finer "
-        "cells, and has no error bar; give the curve that the metal takes under the first wheels",
-        profile.name(), 1e3 * edge.turn, 1e3 * profile.at(edge.s).position.y));
+    notes.push_back(
+        fmt::format("{} has an edge of {:.0f} mrad at y = {:.1f} mm, in the patch: the pressure there grows with finer "
+                    "cells and has no error bar; give the curve that the metal takes under the first wheels",
+                    profile.name(), 1e3 * edge.turn, 1e3 * profile.at(edge.s).position.y));
   }
 }
 
