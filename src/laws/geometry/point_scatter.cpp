@@ -3,15 +3,16 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace railstrata {
 namespace {
 
 constexpr double kDense = 0.5e-3;           // m
 constexpr double kSmallestRounding = 1e-6;  // m: a finer digit is below what profiles are measured to
-constexpr double kStraySigmas = 7, kNeighbourSigmas = 3;
+constexpr double kStraySigmas = 7, kNeighbourSigmas = 2, kNearSigmas = 5;
 constexpr double kSmallestStray = 2e-6;  // m
-constexpr std::size_t kLongestRun = 3, kBeside = 4;
+constexpr std::size_t kLongestRun = 3, kBeside = 4, kNear = 2;
 
 std::vector<double> chords(const std::vector<Vec2>& points) {
   std::vector<double> t = {0.0};
@@ -46,30 +47,30 @@ double quantile(std::vector<double> values, std::size_t place) {
   return values[place];
 }
 
-double noise_of(const std::vector<Vec2>& points, bool dense) {
+double noise_of(const std::vector<Vec2>& points, bool dense, double spacing) {
   const std::vector<double> five = distances_from_neighbours(points, 2);
   if (dense) return quantile(five, five.size() / 2) / 0.6745;  // median of |N(0,1)|
   constexpr double kLowerQuartile = 0.3186;                    // of |N(0,1)|
   const double of_five = quantile(five, five.size() / 4) / kLowerQuartile;
-  if (points.size() < 9) return 0;  // shape and scatter cannot be told apart
+  if (points.size() < 9 || spacing > kFarApart) return 0;  // shape and scatter cannot be told apart
   const std::vector<double> seven = distances_from_neighbours(points, 3);
   return std::min(of_five, quantile(seven, seven.size() / 4) / kLowerQuartile);
 }
 
-/// Distances of points [begin, end) from the cubic that fits `kBeside` points on either side of [begin + kBeside,
-/// end - kBeside), along the normal of the chord; empty if the fit is singular.
-std::vector<double> off_cubic(const std::vector<Vec2>& points, std::size_t begin, std::size_t end) {
+/// Distances of points [begin, end) from the cubic that fits `beside` of them at either end, along the normal of the
+/// chord.
+std::vector<double> off_cubic(const std::vector<Vec2>& points, std::size_t begin, std::size_t end, std::size_t beside) {
   const Vec2 along = points[end - 1] - points[begin];
   const double length = norm(along);
-  const std::size_t beside = 2 * kBeside;
-  Eigen::Matrix<double, 2 * kBeside, 4> a;
-  Eigen::Matrix<double, 2 * kBeside, 1> height;
+  const auto rows = static_cast<Eigen::Index>(2 * beside);
+  Eigen::MatrixX4d a(rows, 4);
+  Eigen::VectorXd height(rows);
   const auto place = [&](std::size_t i) {
     const Vec2 p = points[i] - points[begin];
     return Vec2{2 * dot(along, p) / (length * length) - 1, cross(along, p) / length};
   };
-  for (std::size_t k = 0; k < beside; ++k) {
-    const Vec2 p = place(k < kBeside ? begin + k : end - beside + k);
+  for (std::size_t k = 0; k < 2 * beside; ++k) {
+    const Vec2 p = place(k < beside ? begin + k : end - 2 * beside + k);
     a.row(static_cast<Eigen::Index>(k)) << 1, p.y, p.y * p.y, p.y * p.y * p.y;
     height(static_cast<Eigen::Index>(k)) = p.z;
   }
@@ -82,14 +83,20 @@ std::vector<double> off_cubic(const std::vector<Vec2>& points, std::size_t begin
   return out;
 }
 
-/// Whether the run of points from `first` lies off the curve of its neighbours; their distances.
+/// Whether the run of points from `first` lies off the curve of its neighbours, and at once; their distances.
 std::vector<double> stray_run(const std::vector<Vec2>& points, std::size_t first, std::size_t count, double noise) {
-  std::vector<double> off = off_cubic(points, first - kBeside, first + count + kBeside);
-  std::vector<double> run(off.begin() + kBeside, off.begin() + static_cast<std::ptrdiff_t>(kBeside + count));
-  off.erase(off.begin() + kBeside, off.begin() + static_cast<std::ptrdiff_t>(kBeside + count));
-  const bool neighbours_fit = *std::max_element(off.begin(), off.end()) <= kNeighbourSigmas * noise;
-  const bool all_off = *std::min_element(run.begin(), run.end()) > std::max(kStraySigmas * noise, kSmallestStray);
-  return neighbours_fit && all_off ? run : std::vector<double>{};
+  const auto of_run = [&](const std::vector<double>& off, std::size_t beside) {
+    const auto begin = off.begin() + static_cast<std::ptrdiff_t>(beside);
+    return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(count));
+  };
+  std::vector<double> off = off_cubic(points, first - kBeside, first + count + kBeside, kBeside);
+  const std::vector<double> run = of_run(off, kBeside);
+  if (*std::min_element(run.begin(), run.end()) < std::max(kStraySigmas * noise, kSmallestStray)) return {};
+  for (std::size_t k = 0; k < count; ++k) off[kBeside + k] = 0;
+  const double squares = std::inner_product(off.begin(), off.end(), off.begin(), 0.0);
+  if (squares > 2 * kBeside * std::pow(kNeighbourSigmas * noise, 2)) return {};
+  const std::vector<double> near = of_run(off_cubic(points, first - kNear, first + count + kNear, kNear), kNear);
+  return *std::min_element(near.begin(), near.end()) < kNearSigmas * noise ? std::vector<double>{} : run;
 }
 
 }  // namespace
@@ -122,7 +129,7 @@ PointScatter scatter_of(const std::vector<Vec2>& points, double rounding) {
   out.spacing = quantile(apart, apart.size() / 2);
   out.rounding = rounding < kSmallestRounding * (1 - 1e-6) ? 0 : rounding;
   out.dense = mean < kDense;
-  out.noise = std::max(noise_of(points, out.dense), out.rounding / std::sqrt(12.0));
+  out.noise = std::max(noise_of(points, out.dense, out.spacing), out.rounding / std::sqrt(12.0));
   return out;
 }
 

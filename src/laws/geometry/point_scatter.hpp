@@ -8,6 +8,8 @@
 
 namespace railstrata {
 
+inline constexpr double kFarApart = 2e-3;  ///< m, of neighbours: too far for the curvature of a running surface
+
 struct PointScatter {
   double spacing = 0;   ///< m, median distance between neighbours
   double rounding = 0;  ///< m, last digit of the heights; 0: below a micrometre, or none
@@ -24,7 +26,8 @@ double last_digit(const std::vector<double>& numbers);
 /// Points closer than half a millimetre in the mean: the noise is the median over all runs of five neighbours of the
 /// middle one's distance from the cubic through the other four, scaled so that independent errors give their own
 /// deviation. Farther apart the shape between points adds to these distances where curvature changes: the smaller of
-/// the lower quartiles over runs of five and seven.
+/// the lower quartiles over runs of five and seven; farther apart than kFarApart it hides them, and only the rounding
+/// counts.
 PointScatter scatter_of(const std::vector<Vec2>& points, double rounding = 0);
 
 struct StrayPoint {
@@ -32,9 +35,9 @@ struct StrayPoint {
   double off = 0;  ///< m, from the curve of its neighbours
 };
 
-/// Runs of up to three points that lie more than seven scatters and 2 micrometres off the cubic through the four points
-/// on either side, which themselves keep within three scatters of it. A bend or a kink is no stray point: its
-/// neighbours miss the cubic too.
+/// Runs of up to three points that lie more than seven scatters and 2 micrometres off the cubic of the four points on
+/// either side, which themselves miss it by no more than two in the mean, and five off that of the two nearest on
+/// either side. A bend or a kink is no stray point.
 std::vector<StrayPoint> stray_points(const std::vector<Vec2>& points, const PointScatter& scatter);
 
 }  // namespace railstrata

@@ -4,7 +4,6 @@
 
 namespace railstrata {
 
-inline constexpr double kFarApart = 2e-3;  ///< m, of neighbours: too far for the curvature of a running surface
 /// Fits of a list: of points that are moved, then by another smoothing.
 inline constexpr int kMovedFits = 6, kOtherFits = kMovedFits + 2;
 

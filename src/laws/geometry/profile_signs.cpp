@@ -47,6 +47,7 @@ std::vector<ProfileEdge> edges_of(const Profile& p) {
   constexpr double kWithin = 0.3e-3, kBeside = 2e-3, kLeastTurn = 5e-3, kTimes = 4;  // m, m, rad
   std::vector<ProfileEdge> out;
   if (!p.listed()) return out;
+  const double least = std::max(kLeastTurn, 6 * p.listed()->scatter.noise / (2 * kWithin));
   const auto turn = [&](double from, double to) {
     const Vec2 a = p.at(from).tangent, b = p.at(to).tangent;
     return std::abs(std::atan2(cross(a, b), dot(a, b)));
@@ -55,7 +56,7 @@ std::vector<ProfileEdge> edges_of(const Profile& p) {
   for (double s = p.s_min() + reach; s <= p.s_max() - reach; s += kStep) {
     const double here = turn(s - kWithin, s + kWithin),
                  beside = std::max(turn(s - reach, s - kWithin), turn(s + kWithin, s + reach)) * 2 * kWithin / kBeside;
-    if (here < kLeastTurn || here < kTimes * beside) continue;
+    if (here < least || here < kTimes * beside) continue;
     if (out.empty() || s - out.back().s > reach)
       out.push_back({s, here});
     else if (here > out.back().turn)

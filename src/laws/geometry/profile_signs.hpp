@@ -26,7 +26,8 @@ struct ProfileEdge {
   double turn = 0;  ///< rad, within 0.6 mm
 };
 
-/// Edges of more than 5 mrad, more than four times what the curve turns in as much of the 2 mm on either side.
+/// Edges of more than 5 mrad, and of more than six scatters of the points over 0.6 mm, that turn more than four times
+/// what the curve turns in as much of the 2 mm on either side.
 std::vector<ProfileEdge> edges_of(const Profile& profile);
 
 }  // namespace railstrata

@@ -5,7 +5,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "geometry/point_scatter.hpp"
@@ -131,22 +130,26 @@ std::vector<char> spaced_knots(const std::vector<double>& t, double spacing) {
   return chosen;
 }
 
-/// Whether an interval misses a point by more than the tolerance, or scattered points by more squares than chance does.
-bool misses_points(const double* error, std::size_t count, double tolerance, double noise) {
-  if (*std::max_element(error, error + count) > tolerance) return true;
-  if (noise < kScatteredNoise) return false;
-  const auto n = static_cast<double>(count);
-  return std::inner_product(error, error + count, error, 0.0) > noise * noise * (1.3 * n + 4 * std::sqrt(2 * n));
+/// Whether an interval misses a point by more than the tolerance. Of scattered points whether neighbours lie on one
+/// side of the curve by more than chance does it: products of neighbouring distances, none counted as more than three
+/// scatters, with a sum above four of its deviations.
+bool misses_points(const double* off, std::size_t count, double tolerance, double noise) {
+  if (noise < kScatteredNoise)
+    return std::any_of(off, off + count, [&](double miss) { return std::abs(miss) > tolerance; });
+  const auto in_scatters = [&](std::size_t i) { return std::clamp(off[i] / noise, -3.0, 3.0); };
+  double products = 0;
+  for (std::size_t i = 1; i < count; ++i) products += in_scatters(i - 1) * in_scatters(i);
+  return products > 4 * std::sqrt(static_cast<double>(count));
 }
 
 /// Makes knots of the middle points of intervals that miss points. Returns whether it found any.
-bool refine(std::vector<char>& chosen, const std::vector<double>& error, double tolerance, double noise) {
-  assert(chosen.size() == error.size());
+bool refine(std::vector<char>& chosen, const std::vector<double>& off, double tolerance, double noise) {
+  assert(chosen.size() == off.size());
   bool changed = false;
   std::size_t begin = 0;
   for (std::size_t end = 1; end < chosen.size(); ++end) {
     if (!chosen[end]) continue;
-    if (end - begin > 1 && misses_points(&error[begin], end - begin + 1, tolerance, noise)) {
+    if (end - begin > 1 && misses_points(&off[begin], end - begin + 1, tolerance, noise)) {
       chosen[(begin + end) / 2] = 1;
       changed = true;
     }
@@ -199,12 +202,14 @@ SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points, double rou
   for (int round = 0;; ++round) {
     const Basis basis(knots_of(t, chosen));
     const Coefficients c = least_squares(basis, t, points);
-    std::vector<double> error;
+    std::vector<double> error, off;  // the latter with the sign of the side
     for (std::size_t i = 0; i < t.size(); ++i) {
       const int k = basis.interval(t[i]);
-      error.push_back(norm(combine(c, k, basis.values(k, t[i])) - points[i]));
+      const Vec2 miss = combine(c, k, basis.values(k, t[i])) - points[i];
+      error.push_back(norm(miss));
+      off.push_back(std::copysign(error.back(), cross(combine(c, k, basis.values(k, t[i], 1)), miss)));
     }
-    const bool refined = refine(chosen, error, tolerance, scatter.noise);
+    const bool refined = refine(chosen, off, tolerance, scatter.noise);
     if (!refined && round >= 2) {
       SmoothingSpline out = at_knots(basis, c);
       out.miss = std::move(error);
