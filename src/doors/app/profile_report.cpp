@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/shipped_files.hpp"
 #include "geometry/profile_names.hpp"
 #include "geometry/profile_scatter.hpp"
 #include "geometry/profile_signs.hpp"
@@ -181,7 +182,7 @@ bool names_profile_file(const std::filesystem::path& file) {
 }
 
 ExitCode check_profile(const CommandOptions& options, const std::string& kind) {
-  const ReadFile read = read_by_shape(options.case_file, kind);
+  const ReadFile read = read_by_shape(shipped_unless_there(options.case_file), kind);
   const Profile& p = read.profile;
   GeometrySpec geometry;
   (p.kind() == ProfileKind::rail ? geometry.rail_profile : geometry.wheel_profile) = options.case_file.string();
