@@ -10,8 +10,8 @@
 
 #include "core/faults.hpp"
 #include "geometry/builtin_profiles.hpp"
+#include "geometry/point_scatter.hpp"
 #include "geometry/profile_names.hpp"
-#include "geometry/smoothing_spline.hpp"
 #include "tests/places.hpp"
 
 namespace railstrata {
@@ -265,7 +265,7 @@ TEST(ProfileFromPoints, points_scattered_by_3_micrometres_give_a_closer_curve) {
   std::mt19937 random(1);
   std::vector<Vec2> points = crown(0.3, 0.03, 0.2 * mm);
   for (Vec2& p : points) p.z += 3e-6 * scatter(random);
-  EXPECT_NEAR(estimated_noise(points), 3e-6, 1e-6);
+  EXPECT_NEAR(scatter_of(points).noise, 3e-6, 1e-6);
   const Profile p = Profile::from_points(ProfileKind::rail, "measured", points);
   for (double y = -0.025; y <= 0.025; y += 1e-4) {
     EXPECT_NEAR(p.height(y), std::sqrt(0.09 - y * y) - 0.3, 3e-6);

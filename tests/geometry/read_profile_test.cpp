@@ -66,7 +66,7 @@ std::string formatted(const char* format, double a, double b) {
 /// A parabolic crown of 81 points, one a line, from `first_line` text on.
 std::string crown(const std::string& heading = "", double scale = 1.0) {
   std::string text = heading;
-  for (int i = -40; i <= 40; ++i) text += formatted("%.6f %.6f\n", scale * 0.8 * i, -scale * 0.64 * i * i / 100);
+  for (int i = -40; i <= 40; ++i) text += formatted("%.9f %.9f\n", scale * 0.8 * i, -scale * 0.64 * i * i / 100);
   return text;
 }
 

@@ -123,7 +123,7 @@ class InProfiles(Refusal):
         self.profile([(1e3 * y, 1e3 * z) for y, z in CROWN],
                      "the curve is 6.813e+04 long, which fits a profile neither in millimetres (20 to 500) nor in "
                      "metres (0.02 to 0.5)",
-                     "give y and z in millimetres or metres")
+                     "give y and z in millimetres or metres; these seem to be micrometres")
 
     def test_a_loop(self):
         loop = [(-30, 5), (-20, 2), (-10, 0.5), (0, 0), (10, 0.5), (12, 3), (5, 4), (3, -2), (20, 2), (30, 5)]

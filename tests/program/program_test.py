@@ -99,6 +99,26 @@ class Program(FromOutside):
         self.assertLess(report["step_s"], report["stable_step_s"])
         self.assertGreaterEqual(report["stable_step_s"], report["element_step_bound_s"])
 
+    def test_check_of_a_profile_alone_tells_draws_and_converts_it(self):
+        rail = SOURCE / "data" / "profiles" / "cn60_head.csv"
+        rows = [line.split(",") for line in rail.read_text().splitlines() if line[0] != "#"]
+        turned = self.folder / "turned.csv"
+        turned.write_text("".join(f"{float(y) + float(z) / 40:.4f},{float(z) - float(y) / 40:.4f}\n" for y, z in rows))
+        rc, out, err = railstrata("check", turned, "--json", "--out", self.folder / "read")
+        self.assertEqual(rc, 0, err)
+        read = json.loads(out)
+        self.assertEqual(read["kind"], "rail")
+        self.assertAlmostEqual(read["inclination"], 1 / 40, delta=5e-4)
+        self.assertIn("set cant = 0", read["warnings"][0])
+        self.assertEqual({file.suffix for file in (self.folder / "read").glob("profile.*")},
+                         {".svg", ".csv", ".prr", ".ban"})
+        for name in "profile.csv", "profile.prr", "profile.ban":
+            again = json.loads(railstrata("check", self.folder / "read" / name, "--json")[1])
+            self.assertAlmostEqual(again["inclination"], read["inclination"], places=9)
+        wheel = json.loads(railstrata("check", SOURCE / "data" / "profiles" / "lma_wheel.csv", "--json")[1])
+        self.assertEqual((wheel["kind"], wheel["warnings"]), ("wheel", []))
+        self.assertAlmostEqual(wheel["flange_back_m"], 0.07, places=6)
+
     def test_without_friction_the_force_of_both_engines_stands_on_the_contact_plane(self):
         case = self.case(TINY.replace("cant = 0.0", 'cant = "1:40"'))
         for engine, words in [("run", ["--threads", "1", "--set", "mesh.element_size=8 mm", "--set",

@@ -15,6 +15,7 @@
 #include "halfspace/line_contact.hpp"
 #include "mesh/quality.hpp"
 #include "model/drive_at_contact.hpp"
+#include "model/profile_doubts.hpp"
 #include "model/rolling_start.hpp"
 #include "model/stretches.hpp"
 
@@ -174,7 +175,8 @@ Placement place(const CaseSpec& spec, const std::filesystem::path& folder, const
                       g.wheel_radius, g.yaw,
                       g.roll,         g.rail_radius.value_or(TrackGeometry::kStraight)};
   const RigidContact contact = place_wheel(wheel, rail, track);
-  return {std::move(wheel), std::move(rail), track, contact, std::move(notes)};
+  std::vector<std::string> doubts = profile_doubts(g, wheel, rail);
+  return {std::move(wheel), std::move(rail), track, contact, std::move(notes), std::move(doubts)};
 }
 
 FallingFriction falling_friction(const CaseSpec& spec) {

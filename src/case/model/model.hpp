@@ -18,7 +18,8 @@ struct Placement {
   Profile wheel, rail;
   TrackGeometry track;
   RigidContact contact;
-  std::vector<std::string> notes;  ///< what the profile readers detected and flipped
+  std::vector<std::string> notes;        ///< what the profile readers detected and flipped
+  std::vector<std::string> doubts = {};  ///< profile_doubts
 };
 
 /// Built-in names are tried first, then files relative to `folder`. rail: instead of the case's, if not null. Throws

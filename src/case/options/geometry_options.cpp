@@ -45,10 +45,13 @@ std::vector<Option> track_options() {
   return {
       choice_at<&C::geometry, &G::track>(
           "track",
-          "Track standard that supplies the defaults of gauge, gauge_depth, back_to_back, cant and wheel_radius. "
+          "Track standard that supplies the defaults of gauge, gauge_depth, back_to_back, cant, wheel_radius and "
+          "flange_back_to_tape. "
           "by_profile: chosen by the wheel profile (S1002: EN, LMA: CN); for a wheel profile from a file by the rail "
           "profile (UIC60, UIC54: EN, CN60: CN); otherwise CN. EN: 14 mm, 1360 mm, 460 mm; CN: 16 mm, 1353 mm, 430 mm; "
-          "AAR: 15.875 mm, 1349.375 mm, 457.2 mm (gauge_depth, back_to_back, wheel_radius); cant 1:40 in all",
+          "AAR: 15.875 mm, 1349.375 mm, 457.2 mm (gauge_depth, back_to_back, wheel_radius); flange_back_to_tape 70 mm, "
+          "AAR "
+          "72.23 mm; cant 1:40 in all",
           {{"by_profile", TrackKind::by_profile},
            {"EN", TrackKind::EN},
            {"CN", TrackKind::CN},

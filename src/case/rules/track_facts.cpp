@@ -69,6 +69,7 @@ std::vector<TrackFact> track_facts(const GeometrySpec& g) {
   };
   if (!on_no_track(g)) {
     fact("between the backs of the wheels", g.back_to_back, p.back_to_back, millimetres);
+    fact("flange back to tape circle", g.flange_back_to_tape, p.flange_back_to_tape, millimetres);
     fact("gauge", g.gauge, p.gauge, millimetres);
     fact("gauge measured below the top by", g.gauge_depth, p.gauge_depth, millimetres);
   }

@@ -25,7 +25,6 @@ struct GeometrySpec : TrackNumbers {
   ContactShape contact = ContactShape::point;
   std::optional<double> line_length;  ///< m, of a line contact: what bears the load
   TrackKind track = TrackKind::by_profile;
-  double flange_back_to_tape = 0.070;
   double lateral_shift = 0.0;
   double yaw = 0.0;                    ///< tangent of the angle of attack, positive towards the field side
   double roll = 0.0;                   ///< tangent of the wheelset's roll, positive with the field side up

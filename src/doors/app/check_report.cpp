@@ -10,9 +10,11 @@
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "fem/memory_need.hpp"
+#include "geometry/profile_signs.hpp"
 #include "io/geometry_json.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/unstructured.hpp"
+#include "model/profile_doubts.hpp"
 #include "model/rolling_start.hpp"
 #include "record/vtk.hpp"
 #include "rules/track_facts.hpp"
@@ -88,6 +90,8 @@ void print_geometry(const CaseSpec& spec, const Placement& placement) {
   fmt::print("contact point  y = {:.3f} mm, z = {:.3f} mm; on the wheel at y = {:.3f} mm\n", 1e3 * c.point.y,
              1e3 * c.point.z, 1e3 * wheel_y(placement));
   fmt::print("contact angle  {:.2f} mrad; rolling radius {:.3f} mm\n", 1e3 * c.angle, 1e3 * c.rolling_radius);
+  if (const auto slope = head_inclination(placement.rail))
+    fmt::print("rail's profile {} at the head's middle, before cant\n", inclination_text(*slope));
   const char* name = "track";
   for (const TrackFact& f : track_facts(spec.geometry)) {
     fmt::print("{:<14} {}: {} ({})\n", name, f.label, f.value, f.from);

@@ -71,7 +71,7 @@ std::string track_text(const CaseSpec& spec) {
 Answer solve_steady(const HalfSpaceJob& job, const BemWords& own) {
   answer_interrupt_with("\nstopped: nothing was written\n");
   const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)));
-  const Wanted wanted{.single_track = own.single_track, .maps = own.maps};
+  const Wanted wanted{.single_track = own.single_track, .maps = own.maps, .other_fits = true};
   const Control* control = job.loaded.spec.life.until > 0 ? &control_by_signals() : nullptr;
   return ask(job.loaded.spec, job.placement, wanted,
              {.bem = job.bem, .control = control, .life_of = life_of_wheels(job.loaded.folder(), control)});
@@ -121,6 +121,7 @@ ExitCode command_bem(const BemWords& own, const CommandOptions& options) {
     throw;
   }
   if (const std::string track = track_text(job.loaded.spec); !track.empty()) spdlog::info("{}", track);
+  for (const std::string& doubt : job.placement.doubts) spdlog::warn("{}", doubt);
   for (const auto& notes : {job.placement.notes, answer.result.notes})
     for (const std::string& note : notes) spdlog::info("{}", note);
   print_summary(answer.summary, options.json);

@@ -10,6 +10,7 @@
 #include "app/case_of.hpp"
 #include "app/check_report.hpp"
 #include "app/common_options.hpp"
+#include "app/profile_report.hpp"
 #include "app/progress.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
@@ -28,6 +29,7 @@ struct CheckOptions {
   double largest = 3000;       ///< --largest frequency of a receptance, Hz
   std::string time = "0.1 s";  ///< --time: how long a blow is followed
   bool beam = false;           ///< --beam: without finite elements
+  std::string as;              ///< --as: what a profile file is of
 };
 
 /// Every tenth row from the first: at rest, 100 Hz, 200 Hz, …
@@ -96,10 +98,15 @@ std::string lacking_here(const LoadedCase& loaded) {
   return {};
 }
 
+void tell_profiles(const Placement& placement) {
+  for (const std::string& note : placement.notes) spdlog::info("{}", note);
+  for (const std::string& doubt : placement.doubts) spdlog::warn("{}", doubt);
+}
+
 /// For a case of the half-space engine alone: reports where the bodies touch, and why `run` refuses it.
 ExitCode check_without_mesh(const LoadedCase& loaded, const std::vector<Diagnostic>& refused, bool json) {
   const Placement placement = place(loaded.spec, loaded.folder());
-  for (const std::string& note : placement.notes) spdlog::info("{}", note);
+  tell_profiles(placement);
   if (json) {
     nlohmann::ordered_json out = placement_json(loaded.spec, placement);
     out["not_in_fem"] = nlohmann::ordered_json::array();
@@ -146,6 +153,7 @@ void require_nothing_to_write(const CommandOptions& options) {
 }
 
 ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
+  if (names_profile_file(options.case_file)) return check_profile(options, own.as);
   if (own.receptance) return check_receptance(own, options);
   if (!own.mesh) require_nothing_to_write(options);
   const LoadedCase loaded = load_case_of(options, uses::kAny);
@@ -153,7 +161,7 @@ ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
   if (const std::vector<Diagnostic> refused = refused_by(uses::kFiniteElements, loaded); !refused.empty())
     return check_without_mesh(loaded, refused, options.json);
   const Model model = model_for_run(loaded);
-  for (const std::string& note : model.placement.notes) spdlog::info("{}", note);
+  tell_profiles(model.placement);
   if (own.mesh) write_meshes(options, loaded, model);
   require_memory(model);
   const RunEstimate estimate = estimate_run(model);
@@ -187,6 +195,8 @@ CommandWork declare_check(CLI::App& sub, CommandOptions& options) {
       ->needs(receptance);
   sub.add_option("--time", own->time, "With --receptance: how long a blow is followed (default: \"0.1 s\")")
       ->needs(receptance);
+  sub.add_option("--as", own->as, "With a profile file: rail or wheel (default: by its ending or shape)")
+      ->check(CLI::IsMember({"rail", "wheel"}));
   sub.add_flag("--beam", own->beam, "With --receptance: the beam alone, at once, without finite elements")
       ->needs(receptance);
   add_no_report(sub, options);
@@ -196,10 +206,13 @@ CommandWork declare_check(CLI::App& sub, CommandOptions& options) {
 }  // namespace
 
 extern const Command kCheckCommand{
-    "check", "Read a case and report what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
+    "check",
+    "Read a case and report what a run would be: contact point, mesh, stable step, memory, time. Runs nothing. Of a "
+    "profile file: what was read",
     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 "
     "mm\"\n  railstrata check cases/paper/base.toml --json\n  railstrata check cases/quick --mesh --out "
-    "/tmp/mesh\n  railstrata check cases/along/receptance.toml --receptance --beam --set track.preset=medium\n",
+    "/tmp/mesh\n  railstrata check cases/along/receptance.toml --receptance --beam --set track.preset=medium\n  "
+    "railstrata check data/profiles/cn60_head.csv --out /tmp/profile\n",
     declare_check};
 
 }  // namespace railstrata

@@ -30,6 +30,7 @@ struct HalfSpaceRun {
 void answer_half_space(Call& call) {
   const auto loaded = call.made<LoadedCase>("case");
   Wanted wanted = call.flag("stresses") ? Wanted{} : kContactAlone;
+  wanted.other_fits = call.flag("stresses");
   wanted.maps = call.flag("maps");
   wanted.single_track = wanted.maps || call.flag("single_track");
   const auto run = std::make_shared<HalfSpaceRun>(HalfSpaceRun{*loaded, place(loaded->spec, loaded->folder()), {}});
@@ -42,7 +43,8 @@ void answer_half_space(Call& call) {
   run->answer = with_places(*loaded, [&] { return ask(loaded->spec, run->placement, wanted, how); });
   if (run->answer.stopped) throw Interrupted("stopped");
   call.answer["summary"] = summary_json(run->answer.summary);
-  std::vector<std::string> notes = run->placement.notes;
+  std::vector<std::string> notes = run->placement.doubts;
+  notes.insert(notes.end(), run->placement.notes.begin(), run->placement.notes.end());
   notes.insert(notes.end(), run->answer.result.notes.begin(), run->answer.result.notes.end());
   call.answer["notes"] = notes;
   call.answer["patches"] = Json::array({patch_of(run->patch(0).field)});

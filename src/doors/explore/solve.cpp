@@ -253,7 +253,7 @@ struct Explorer::State {
     out["doubts"] = doubts_json(asked.summary);
     out["excluded"] = excluded_keys(uses::kExplorer, loaded.spec);
     out["notes"] = notes_for(uses::kExplorer, loaded);
-    for (const auto& further : {placement.notes, asked.result.notes})
+    for (const auto& further : {placement.doubts, placement.notes, asked.result.notes})
       for (const std::string& note : further) out["notes"].push_back(note);
     if (request.wants("case")) out["case"] = loaded.resolved_toml;
     if (request.wants("patch")) out["patch"] = patch_json(asked.result, numbers);

@@ -19,6 +19,7 @@ struct Line {
 };
 
 constexpr const char* kBlank = " \t\r\f\v";
+constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212, of a word processor
 
 bool looks_numeric(const std::string& text) {
   return !text.empty() && std::string("0123456789+-.").find(text.front()) != std::string::npos;
@@ -30,8 +31,10 @@ std::vector<Line> split_lines(std::string_view all, std::string& comments) {
   bool rows_begun = false;
   for (int number = 1; !all.empty(); ++number) {
     const std::size_t length = std::min(all.find('\n'), all.size());
-    const std::string text(all.substr(0, length));
+    std::string text(all.substr(0, length));
     all.remove_prefix(std::min(length + 1, all.size()));
+    for (std::size_t at = text.find(kMinusSign); at != std::string::npos; at = text.find(kMinusSign, at))
+      text.replace(at, kMinusSign.size(), "-");
     const std::size_t comment = text.find_first_of("#%!\"");
     if (comment != std::string::npos && !rows_begun) comments += text.substr(comment) + '\n';
     const std::string content(trimmed(text.substr(0, comment)));
@@ -64,6 +67,13 @@ bool two_with_blanks(std::string_view text) {
   return take(kDigits);
 }
 
+/// A row of points that a stray letter spoils, not a heading: digits in every word, and one that is a number.
+bool is_spoiled_row(const std::vector<std::string>& words) {
+  const auto has_digit = [](const std::string& word) { return word.find_first_of("0123456789") != std::string::npos; };
+  return words.size() > 1 && std::all_of(words.begin(), words.end(), has_digit) &&
+         std::any_of(words.begin(), words.end(), [](const std::string& word) { return number_of(word).has_value(); });
+}
+
 /// Commas are decimal when something else separates the columns and no point occurs.
 bool commas_are_decimal(const std::vector<Line>& lines) {
   for (const Line& line : lines) {
@@ -89,6 +99,12 @@ std::vector<std::string> split_words(std::string_view line) {
 
 std::optional<double> number_of(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
+  std::string fortran;
+  if (const std::size_t d = word.find_first_of("dD"); d != std::string_view::npos && d > 0) {
+    fortran = word;
+    fortran[d] = 'e';
+    word = fortran;
+  }
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
@@ -121,8 +137,9 @@ NumberTable parse_number_table(std::string_view all, const std::string& name) {
       table.rows.push_back({y, z});
       table.lines.push_back(line.number);
       table.columns = words.size();
-    } else if (table.rows.empty() && (!looks_numeric(line.text) || words.size() == 1)) {
+    } else if (table.rows.empty() && !is_spoiled_row(words) && (!looks_numeric(line.text) || words.size() == 1)) {
       table.heading += line.text + '\n';
+      ++table.skipped;
     } else {
       throw CaseError("'" + line.text + "' is not two numbers", "give two columns, y and z; mark comments with #",
                       where);

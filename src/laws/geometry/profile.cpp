@@ -73,13 +73,14 @@ Profile Profile::from_segments(ProfileKind kind, std::string name, std::vector<P
   return out;
 }
 
-Profile Profile::from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points) {
+Profile Profile::from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points, double rounding) {
   if (const auto defect = find_defect(points)) throw CaseError(name + ": " + defect->message, defect->remedy);
-  SmoothingSpline spline = fit_smoothing_spline(points);
+  SmoothingSpline spline = fit_smoothing_spline(points, rounding);
   require_following(name, spline, points);
   Profile out;
   out.kind_ = kind;
   out.name_ = std::move(name);
+  out.listed_ = std::make_shared<const ListedPoints>(ListedPoints{points, scatter_of(points, rounding)});
   out.s_ = std::move(spline.s);
   out.p_ = std::move(spline.p);
   out.d2_ = std::move(spline.d2);
@@ -89,6 +90,7 @@ Profile Profile::from_points(ProfileKind kind, std::string name, const std::vect
 
 Profile Profile::upturned() const {
   Profile out = *this;
+  out.listed_.reset();
   out.kind_ = kind_ == ProfileKind::rail ? ProfileKind::wheel : ProfileKind::rail;
   for (ProfileSegment& g : out.segments_)
     for (Vec2* p : {&g.p0, &g.p1, &g.centre}) p->z = -p->z;

@@ -7,10 +7,12 @@
 //   wheel: origin on the tread at the tape circle; z points to the axle; the material lies above the curve; the flange
 //   has z < 0.
 // A curve is walked with y increasing over the running surface; s is the arc length, s = 0 at y = 0.
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/vec.hpp"
+#include "geometry/point_scatter.hpp"
 
 namespace railstrata {
 
@@ -20,6 +22,12 @@ enum class ProfileKind { rail, wheel };
 struct ProfileSegment {
   Vec2 p0, p1, centre;
   double radius = 0;
+};
+
+/// The points of a curve and what they are worth.
+struct ListedPoints {
+  std::vector<Vec2> points;  ///< m, in the frame above
+  PointScatter scatter;
 };
 
 /// Data at one point of the curve.
@@ -36,13 +44,14 @@ class Profile {
   /// join.
   static Profile from_segments(ProfileKind kind, std::string name, std::vector<ProfileSegment> segments);
   /// Curve through measured or listed points (metres, in the frame above), made C2 in arc length.
-  /// Rounding noise is estimated from the points and smoothed away (knots half a millimetre apart, wider for noisier
-  /// points, down to the points' own spacing where the curve bends sharply); points half a millimetre or more apart are
-  /// interpolated. The curve leaves the points by no more than four times the noise or 1 nanometre; single stray points
-  /// among dense ones it may leave further. Throws CaseError: fewer than 5 points, total chord length outside 5–500 mm
-  /// (metre/millimetre mix-up), loops, y = 0 not covered, a curve that between its points swings out to more than 1.25
-  /// times the length of their chords, or that misses neighbours by more than they lie apart.
-  static Profile from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points);
+  /// The scatter of the points is estimated, at least that of `rounding` (m, the last digit of the heights; 0: none),
+  /// and smoothed away: knots stand as far apart as its curvature needs, half a millimetre to 4 mm, and down to the
+  /// points' own spacing where the curve bends sharply. Points that are farther apart than that are interpolated. The
+  /// curve leaves the points by no more than four times the scatter or 1 nanometre. Throws CaseError: fewer than 5
+  /// points, total chord length outside 5–500 mm (metre/millimetre mix-up), loops, y = 0 not covered, a curve that
+  /// between its points swings out to more than 1.25 times the length of their chords, or that misses neighbours by
+  /// more than they lie apart.
+  static Profile from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points, double rounding = 0);
 
   /// The same curve upside down, z reversed: a rail's as that of a wheel, with the material above it, and back.
   Profile upturned() const;
@@ -65,6 +74,8 @@ class Profile {
   const std::vector<double>& knots() const { return s_; }
   /// Index of the knot that the piece with the arc length s begins at.
   std::size_t piece_of(double s) const;
+  /// What the curve was fitted to; null for an exact curve.
+  const ListedPoints* listed() const { return listed_.get(); }
   /// The exact curve; empty for a point profile.
   const std::vector<ProfileSegment>& segments() const { return segments_; }
   /// True for a plane or a single arc (circular_profile): it has no flange or gauge face, and place_wheel centres the
@@ -88,6 +99,7 @@ class Profile {
   std::string name_;
   bool primitive_ = false;
   std::vector<ProfileSegment> segments_;
+  std::shared_ptr<const ListedPoints> listed_;
   std::vector<double> s_;                   // knots (segment ends, or spline knots)
   std::vector<Vec2> p_, d2_;                // point profiles: positions and second derivatives of the cubic spline in s
   std::vector<double> knot_y_;              // lateral coordinates of the knots

@@ -18,6 +18,8 @@
 #include "geometry/exchange_profiles.hpp"
 #include "geometry/number_table.hpp"
 #include "geometry/point_defects.hpp"
+#include "geometry/point_scatter.hpp"
+#include "geometry/profile_signs.hpp"
 #include "geometry/smoothing_spline.hpp"
 
 namespace railstrata {
@@ -32,6 +34,8 @@ constexpr double kAxisTolerance = 0.015;                   // m, of the middle o
 constexpr double kSameHeight = 1e-7;                       // m
 constexpr double kHole = 2e-3;                             // m, between neighbours that stand closer elsewhere
 constexpr double kSymmetry = 0.02e-3;                      // m
+constexpr double kOffAxis = 1e-3;                          // m, of a head's middle: worn faces move it by less
+constexpr double kHighestHead = 0.09;                      // m: a rail's foot is farther below its crown
 
 struct Extent {
   double lo = 0, hi = 0;
@@ -79,8 +83,13 @@ class Reading {
     if (table_.decimal_commas) note("Commas were read as decimal commas.");
     if (table_.columns > 2) note(fmt::format("Only the first two of {} columns were used.", table_.columns));
     drop_repeated_points();
+    if (table_.skipped > 1) note(fmt::format("{} lines before the first point were not read.", table_.skipped));
+    std::vector<double> heights;
+    for (const Vec2& p : points_) heights.push_back(p.z);
+    rounding_ = last_digit(heights);
     to_metres();
     to_frame();
+    drop_stray_points();
     if (const auto defect = find_defect(points_)) fail(defect->message, defect->remedy, table_.lines[defect->index]);
     kind_ == ProfileKind::wheel ? orient_wheel() : orient_rail();
     if (points_.front().y > points_.back().y) {
@@ -115,12 +124,77 @@ class Reading {
     for (Vec2& p : points_) p.y = (frame_.mirror ? -p.y : p.y) + frame_.offset;
   }
 
+  /// Leaves out points off the curve of their neighbours, and names them.
+  void drop_stray_points() {
+    constexpr std::size_t kTold = 5;
+    scatter_ = scatter_of(points_, rounding_);
+    const std::vector<StrayPoint> strays = stray_points(points_, scatter_);
+    for (std::size_t i = 0; i < std::min(strays.size(), kTold); ++i) {
+      const StrayPoint& p = strays[i];
+      note(
+          fmt::format("Line {} (y = {:.2f} mm) lies {:.1f} um off the curve of its neighbours, which scatter by {:.2g} "
+                      "um: it was left out.",
+                      table_.lines[p.index], 1e3 * points_[p.index].y, 1e6 * p.off, 1e6 * scatter_.noise));
+    }
+    if (strays.size() > kTold) note(fmt::format("{} more such points were left out.", strays.size() - kTold));
+    for (std::size_t i = strays.size(); i-- > 0;) {
+      points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(strays[i].index));
+      table_.lines.erase(table_.lines.begin() + static_cast<std::ptrdiff_t>(strays[i].index));
+    }
+  }
+
+  void scale(double factor) {
+    for (Vec2& p : points_) p = factor * p;
+    rounding_ *= factor;
+  }
+
   /// "y [in]", "inch", "inches".
   void from_inches() {
     static const std::regex says_inch(R"([\[\(]in[\]\)]|\binch(es)?\b)", std::regex::icase);
     if (!std::regex_search(table_.heading, says_inch)) return;
-    for (Vec2& p : points_) p = 25.4 * p;
+    scale(25.4);
     note("The heading gives inches; the numbers were read as inches.");
+  }
+
+  /// How many points lie so far from the lowest, or from the highest if these are fewer.
+  std::ptrdiff_t far_below(double height) const {
+    const Extent z = extent(points_, &Vec2::z);
+    const auto count = [&](auto&& far) { return std::count_if(points_.begin(), points_.end(), far); };
+    return std::min(count([&](Vec2 p) { return p.z > z.lo + height; }),
+                    count([&](Vec2 p) { return p.z < z.hi - height; }));
+  }
+
+  /// Faults of a list that would show as a curve of a strange length.
+  void refuse_other_lists(double y, double z, double length) const {
+    constexpr double kInOrder = 3;  // length over extents: a curve goes down at both ends
+    constexpr std::ptrdiff_t kSomeStray = 4;
+    bool counts = table_.columns > 2 && (points_.front().y == 0 || points_.front().y == 1);
+    for (std::size_t i = 1; i < points_.size() && counts; ++i) counts = points_[i].y == points_[i - 1].y + 1;
+    if (counts) fail("the first column counts the points", "give y and z as the first two columns");
+    if (length > kInOrder * (y + z))
+      fail(fmt::format("the points are not in order along the curve: joined as listed they make {:.4g} of way within "
+                       "{:.4g} by {:.4g}",
+                       length, y, z),
+           "list the points from one end of the curve to the other; a head or tread without steep ends can be sorted "
+           "by y");
+    const double unit = y < 1 ? 1 : 1e-3;  // m
+    if (kind_ == ProfileKind::rail && z * unit < kLongestCurve && far_below(kHighestHead / unit) > kSomeStray)
+      fail(fmt::format("the points span {:.0f} mm of height: this is an outline of the whole rail", 1e3 * z * unit),
+           "give the points of the head alone, from one face over the running surface to the other");
+  }
+
+  [[noreturn]] void refuse_unit(double length) const {
+    constexpr double kInch = 25.4, kMicrometresInMillimetre = 1e3;
+    const auto of_a_profile = [](double mm) { return mm >= 1e3 * kShortestCurve && mm <= 1e3 * kLongestCurve; };
+    std::string remedy = "give y and z in millimetres or metres";
+    if (of_a_profile(kInch * length))
+      remedy += "; if these are inches, say so in a heading: y [in], z [in]";
+    else if (of_a_profile(length / kMicrometresInMillimetre))
+      remedy += "; these seem to be micrometres";
+    fail(fmt::format("the curve is {:.4g} long, which fits a profile neither in millimetres (20 to 500) nor in "
+                     "metres (0.02 to 0.5)",
+                     length),
+         remedy);
   }
 
   void to_metres() {
@@ -131,13 +205,10 @@ class Reading {
            "give both columns in millimetres or both in metres");
     double length = 0;
     for (std::size_t i = 1; i < points_.size(); ++i) length += norm(points_[i] - points_[i - 1]);
+    refuse_other_lists(y, z, length);
     const bool metres = length >= kShortestCurve && length <= kLongestCurve,
                millimetres = length >= 1e3 * kShortestCurve && length <= 1e3 * kLongestCurve;
-    if (!metres && !millimetres)
-      fail(fmt::format("the curve is {:.4g} long, which fits a profile neither in millimetres (20 to 500) nor in "
-                       "metres (0.02 to 0.5)",
-                       length),
-           "give y and z in millimetres or metres");
+    if (!metres && !millimetres) refuse_unit(length);
     static const std::regex says_mm(R"((^|[^A-Za-z])mm([^A-Za-z]|$))"),
         says_m(R"([\[\(_]m([\]\)\s,;]|$)|\bmet(re|er)s?\b)");
     const bool claims_mm = std::regex_search(table_.heading, says_mm),
@@ -147,7 +218,7 @@ class Reading {
                        claims_mm ? "millimetres" : "metres", claims_mm ? 1e-3 * length : length),
            "correct the heading or the numbers");
     if (metres) note("The numbers were taken as metres.");
-    for (Vec2& p : points_) p = (metres ? 1.0 : 1e-3) * p;
+    scale(metres ? 1.0 : 1e-3);
   }
 
   void flip_z(const char* reason) {
@@ -195,7 +266,7 @@ class Reading {
 
   Profile curve() const {
     try {
-      return Profile::from_points(kind_, file_.stem().string(), points_);
+      return Profile::from_points(kind_, file_.stem().string(), points_, scatter_.rounding);
     } catch (const CaseError& e) {
       fail(e.diagnostics.front().message, e.diagnostics.front().remedy);
     }
@@ -218,6 +289,12 @@ class Reading {
           std::abs(height) < 1e-3 ? fmt::format("{:.1f} um", -1e6 * height) : fmt::format("{:.3f} mm", -1e3 * height)));
     if (kind_ == ProfileKind::rail && asymmetric(out))
       note("The head is not symmetric; its gauge side was taken at y < 0.");
+    if (kind_ == ProfileKind::rail)
+      if (const double middle = head_middle(out).value_or(0); std::abs(middle) > kOffAxis)
+        note(
+            fmt::format("The middle between the head's faces stands at y = {:.2f} mm, y = 0 was taken as the rail's "
+                        "axis: geometry.rail_offset moves it.",
+                        1e3 * middle));
     tell_smoothing();
     return out;
   }
@@ -225,7 +302,10 @@ class Reading {
   /// What the fit did to the points.
   void tell_smoothing() {
     constexpr double kSmallestMovement = 1e-6;  // m, of a measured profile; the digits of a listed one move less
-    const SmoothingSpline fit = fit_smoothing_spline(points_);
+    if (scatter_.rounding > 0)
+      note(fmt::format("Heights are rounded to {:.3g} mm: points {:.2g} mm apart scatter by {:.1f} um.",
+                       1e3 * scatter_.rounding, 1e3 * scatter_.spacing, 1e6 * scatter_.noise));
+    const SmoothingSpline fit = fit_smoothing_spline(points_, scatter_.rounding);
     double squares = 0, largest = 0, hole = 0, steps = 0;
     std::vector<double> apart;
     for (const double m : fit.miss) {
@@ -261,6 +341,8 @@ class Reading {
   ProfileFrame frame_;
   NumberTable table_;
   std::vector<Vec2> points_;
+  double rounding_ = 0;  ///< last digit of the heights, in the unit of the points
+  PointScatter scatter_;
   std::vector<std::string> notes_;
 };
 

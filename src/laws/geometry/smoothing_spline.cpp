@@ -7,12 +7,17 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/point_scatter.hpp"
+
 namespace railstrata {
 namespace {
 
 constexpr double kClosestKnots = 0.5e-3, kWidestKnots = 4e-3;  // m
 constexpr double kCurvatureNoise = 0.05;                       // 1/m
 constexpr double kSmallestTolerance = 1e-9;                    // m
+constexpr double kScatteredNoise = 0.08e-6;                    // m: from here on the knots above are too close
+constexpr double kLeftCurvature = 0.3;                         // 1/m, of knots that scatter widens further
+constexpr double kWidestOfAll = 10e-3;                         // m
 constexpr double kEndWeight = 1e-3;
 
 std::vector<double> chord_lengths(const std::vector<Vec2>& points) {
@@ -125,15 +130,26 @@ std::vector<char> spaced_knots(const std::vector<double>& t, double spacing) {
   return chosen;
 }
 
-/// Makes knots of the middle points of intervals that miss a point. Returns whether it found any.
-bool refine(std::vector<char>& chosen, const std::vector<double>& error, double tolerance) {
-  assert(chosen.size() == error.size());
+/// Whether an interval misses a point by more than the tolerance. Of scattered points whether neighbours lie on one
+/// side of the curve by more than chance does it: products of neighbouring distances, none counted as more than three
+/// scatters, with a sum above four of its deviations.
+bool misses_points(const double* off, std::size_t count, double tolerance, double noise) {
+  if (noise < kScatteredNoise)
+    return std::any_of(off, off + count, [&](double miss) { return std::abs(miss) > tolerance; });
+  const auto in_scatters = [&](std::size_t i) { return std::clamp(off[i] / noise, -3.0, 3.0); };
+  double products = 0;
+  for (std::size_t i = 1; i < count; ++i) products += in_scatters(i - 1) * in_scatters(i);
+  return products > 4 * std::sqrt(static_cast<double>(count));
+}
+
+/// Makes knots of the middle points of intervals that miss points. Returns whether it found any.
+bool refine(std::vector<char>& chosen, const std::vector<double>& off, double tolerance, double noise) {
+  assert(chosen.size() == off.size());
   bool changed = false;
   std::size_t begin = 0;
   for (std::size_t end = 1; end < chosen.size(); ++end) {
     if (!chosen[end]) continue;
-    const double worst = *std::max_element(error.begin() + begin, error.begin() + end + 1);
-    if (worst > tolerance && end - begin > 1) {
+    if (end - begin > 1 && misses_points(&off[begin], end - begin + 1, tolerance, noise)) {
       chosen[(begin + end) / 2] = 1;
       changed = true;
     }
@@ -167,45 +183,33 @@ SmoothingSpline at_knots(const Basis& basis, const Coefficients& c) {
   return out;
 }
 
-}  // namespace
-
-double estimated_noise(const std::vector<Vec2>& points) {
-  const std::vector<double> t = chord_lengths(points);
-  std::vector<double> distance;
-  for (std::size_t i = 2; i + 2 < t.size(); ++i) {
-    Vec2 guess;
-    double variance = 1;
-    for (const std::size_t j : {i - 2, i - 1, i + 1, i + 2}) {
-      double weight = 1;
-      for (const std::size_t k : {i - 2, i - 1, i + 1, i + 2})
-        if (k != j) weight *= (t[i] - t[k]) / (t[j] - t[k]);
-      guess = guess + weight * points[j];
-      variance += weight * weight;
-    }
-    const Vec2 along = points[i + 1] - points[i - 1];
-    distance.push_back(std::abs(cross(along, points[i] - guess)) / (norm(along) * std::sqrt(variance)));
-  }
-  std::nth_element(distance.begin(), distance.begin() + distance.size() / 2, distance.end());
-  return distance[distance.size() / 2] / 0.6745;  // median of |N(0,1)|
+/// Second derivatives of a least-squares spline scatter by noise sqrt(500 spacing / knots^5).
+double widest_knots(const PointScatter& s) {
+  return std::clamp(std::pow(s.noise * std::sqrt(500 * s.spacing) / kLeftCurvature, 0.4), kWidestKnots, kWidestOfAll);
 }
 
-SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points) {
+}  // namespace
+
+SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points, double rounding) {
   std::vector<double> t = chord_lengths(points);
-  const bool dense = t.back() / static_cast<double>(t.size() - 1) <
-                     kClosestKnots;  // else the shape between points would be taken for noise
-  const double noise = dense ? estimated_noise(points) : 0.0, tolerance = std::max(4 * noise, kSmallestTolerance);
-  const double wanted = std::clamp(std::sqrt(10 * noise / kCurvatureNoise), kClosestKnots, kWidestKnots);
-  const double spacing = dense ? std::min(wanted, t.back() / 5) : 0.0;
+  const PointScatter scatter = scatter_of(points, rounding);
+  const double tolerance = std::max(4 * scatter.noise, kSmallestTolerance),
+               wanted = std::sqrt(10 * scatter.noise / kCurvatureNoise);
+  const bool interpolate = !scatter.dense && wanted <= scatter.spacing;
+  const double spacing =
+      interpolate ? 0.0 : std::min(std::clamp(wanted, kClosestKnots, widest_knots(scatter)), t.back() / 5);
   std::vector<char> chosen = spaced_knots(t, spacing);
   for (int round = 0;; ++round) {
     const Basis basis(knots_of(t, chosen));
     const Coefficients c = least_squares(basis, t, points);
-    std::vector<double> error;
+    std::vector<double> error, off;  // the latter with the sign of the side
     for (std::size_t i = 0; i < t.size(); ++i) {
       const int k = basis.interval(t[i]);
-      error.push_back(norm(combine(c, k, basis.values(k, t[i])) - points[i]));
+      const Vec2 miss = combine(c, k, basis.values(k, t[i])) - points[i];
+      error.push_back(norm(miss));
+      off.push_back(std::copysign(error.back(), cross(combine(c, k, basis.values(k, t[i], 1)), miss)));
     }
-    const bool refined = refine(chosen, error, tolerance);
+    const bool refined = refine(chosen, off, tolerance, scatter.noise);
     if (!refined && round >= 2) {
       SmoothingSpline out = at_knots(basis, c);
       out.miss = std::move(error);

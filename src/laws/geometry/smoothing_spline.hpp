@@ -21,12 +21,7 @@ struct SmoothingSpline {
   double tolerance = 0;      ///< what the points' scatter allows [m]
 };
 
-/// Needs at least 5 points, neighbours distinct. Lengths in metres.
-SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points);
-
-/// Standard deviation of the points' scatter about a smooth curve [m]: the median over all runs of five neighbouring
-/// points of the middle one's distance from the cubic through the other four, scaled so that independent errors give
-/// their own deviation.
-double estimated_noise(const std::vector<Vec2>& points);
+/// Needs at least 5 points, neighbours distinct. Lengths in metres; `rounding`: the last digit of the heights, 0: none.
+SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points, double rounding = 0);
 
 }  // namespace railstrata

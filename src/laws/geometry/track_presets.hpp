@@ -15,6 +15,7 @@ enum class TrackKind {
 /// m; cant: tangent of the rail's inclination. The defaults are those of CN.
 struct TrackNumbers {
   double gauge = 1.435, gauge_depth = 0.016, back_to_back = 1.353, cant = 0.025, wheel_radius = 0.430;
+  double flange_back_to_tape = 0.070;
 };
 
 /// New wheels on straight track.

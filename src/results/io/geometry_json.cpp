@@ -95,7 +95,8 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement, const std::
   out["rail_profile"] = placement.rail.name();
   out["wheel_profile"] = placement.wheel.name();
   out["track"] = track_json(spec.geometry);
-  out["profile_notes"] = placement.notes;
+  out["profile_notes"] = placement.doubts;
+  for (const std::string& note : placement.notes) out["profile_notes"].push_back(note);
   out["load_N"] = hertz.load;
   out["contact"] = contact_json(c, placement);
   out["hertz"] = hertz_json(hertz);

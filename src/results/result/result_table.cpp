@@ -143,7 +143,8 @@ std::vector<ResultNumber> error_numbers() {
       row("p_max_error", kMPa, error_of<&E::p_max>, "± p_max", "Error bar of the largest pressure",
           "Half-space: half width of the error due to the cell size; 95 % of cases lie within. Like all error bars, "
           "null for transients, line contacts, several patches, a given approach and whole cells at the leading edge. "
-          "Finite elements without run.positions: change from the measuring window before",
+          "Of `bem` with what the points of profiles from files leave open, of several patches that alone; null at an "
+          "edge. Finite elements without run.positions: change from the measuring window before",
           kColumn),
       row("q_max_error", kMPa, error_of<&E::q_max>, "± q_max", "Error bar of the largest shear", "As for p_max",
           kColumn),

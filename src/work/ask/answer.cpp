@@ -5,6 +5,7 @@
 
 #include "ask/half_space_need.hpp"
 #include "ask/judge.hpp"
+#include "ask/profile_errors.hpp"
 #include "ask/solve_settings.hpp"
 #include "core/stop_request.hpp"
 #include "judge/bem_summary.hpp"
@@ -77,6 +78,8 @@ Answer solve_contact(const CaseSpec& spec, const Placement& placement, const Ask
 Answer ask(const CaseSpec& spec, const Placement& placement, const Wanted& wanted, const AskOptions& how) {
   const ThreadsOfCaller threads(how.threads);
   Answer out = solve_contact(spec, placement, how);
+  if (wanted.other_fits && spec.transient.kind == TransientKind::none)
+    add_profile_errors(half_space_case(spec), placement, how, out.result.notes, out.summary.contact);
   judge(spec, wanted, out, how);
   sign(out.summary);
   return out;

@@ -27,6 +27,7 @@ struct Wanted {
   bool single_track = false;  ///< with shakedown: the limit for traffic on one line, in some seconds
   bool planes = true;         ///< with shakedown: the critical planes of fatigue
   bool maps = false;          ///< with shakedown: the limits over traction
+  bool other_fits = false;    ///< error bars contain what profiles from files leave open (ask/profile_errors.hpp)
   bool crack = true;          ///< of the case, if it has one
   bool life = true;           ///< of the rail through life.until if all wheels are this one; not of a case with loads
 };

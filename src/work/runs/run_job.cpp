@@ -52,6 +52,7 @@ void RunJob::mesh() {
     throw in_case_file(loaded_, e);
   }
   for (const std::string& note : system_->model.placement.notes) control_.info("{}", note);
+  for (const std::string& doubt : system_->model.placement.doubts) control_.warn("{}", doubt);
   const CaseSpec& spec = system_->model.spec;
   if (const std::string why = why_from_rest(spec); !why.empty() && spec.run.rolling && spec.run.start != RunStart::rest)
     control_.info("the rolling starts from rest: {}", why);
