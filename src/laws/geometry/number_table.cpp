@@ -19,7 +19,6 @@ struct Line {
 };
 
 constexpr const char* kBlank = " \t\r\f\v";
-constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212, of a word processor
 
 bool looks_numeric(const std::string& text) {
   return !text.empty() && std::string("0123456789+-.").find(text.front()) != std::string::npos;
@@ -31,10 +30,8 @@ std::vector<Line> split_lines(std::string_view all, std::string& comments) {
   bool rows_begun = false;
   for (int number = 1; !all.empty(); ++number) {
     const std::size_t length = std::min(all.find('\n'), all.size());
-    std::string text(all.substr(0, length));
+    const std::string text = plain_signs(all.substr(0, length));
     all.remove_prefix(std::min(length + 1, all.size()));
-    for (std::size_t at = text.find(kMinusSign); at != std::string::npos; at = text.find(kMinusSign, at))
-      text.replace(at, kMinusSign.size(), "-");
     const std::size_t comment = text.find_first_of("#%!\"");
     if (comment != std::string::npos && !rows_begun) comments += text.substr(comment) + '\n';
     const std::string content(trimmed(text.substr(0, comment)));
