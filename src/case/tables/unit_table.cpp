@@ -267,6 +267,9 @@ class TableReader {
     }
     for (const Column& c : columns_)
       if (c.option) table_.columns.push_back(c.option);
+    if (table_.columns.empty() && !form_.as_written)
+      at.refuse(fmt::format("no column of {} among {}", form_.what, fmt::join(table_.ignored, ", ")),
+                fmt::format("name the columns as in \"{}\"", form_.example));
   }
 
   const UnitTableForm& form_;
