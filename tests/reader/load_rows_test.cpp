@@ -229,9 +229,7 @@ TEST(LoadRows, ASeriesWithoutAStateIsRefused) {
     read_load_table("time [s];Last {kN};Vitesse [km/h]\n0;80;100\n", "s.csv", spec, nullptr);
     FAIL() << "taken";
   } catch (const CaseError& e) {
-    expect_says(
-        e.what(),
-        "s.csv:1: a series without a load, a lateral shift and a yaw; not read: time [s], Last {kN}");
+    expect_says(e.what(), "s.csv:1: a series without a load, a lateral shift and a yaw; not read: time [s], Last {kN}");
   }
 }
 

@@ -141,10 +141,11 @@ std::vector<ResultNumber> error_numbers() {
   using E = ContactErrors;
   return {
       row("p_max_error", kMPa, error_of<&E::p_max>, "± p_max", "Error bar of the largest pressure",
-          "Half-space: half width of the error due to the cell size; 95 % of cases lie within. Like all error bars, "
-          "null for transients, line contacts, several patches, a given approach and whole cells at the leading edge. "
-          "Of `bem` with what the points of profiles from files leave open, of several patches that alone; null at an "
-          "edge. Finite elements without run.positions: change from the measuring window before",
+          "Half-space: half width of the error due to the cell size; 95 % of cases lie within. Null, as all error "
+          "bars, "
+          "for transients, line contacts, several patches, a given approach and whole cells at the leading edge. Of "
+          "`bem` with what points of profiles leave open, of several patches that alone; null at an edge. Finite "
+          "elements without run.positions: change from the measuring window before",
           kColumn),
       row("q_max_error", kMPa, error_of<&E::q_max>, "± q_max", "Error bar of the largest shear", "As for p_max",
           kColumn),
@@ -413,8 +414,7 @@ std::vector<ResultNumber> crack_numbers() {
       row("life", kMGT, crack<&K::life>, "to allowable", "Crack, traffic to crack.allowable",
           "Gross traffic of such wheels without wear; inf: never; null: the crack is inside, or deeper already", kMain),
       row("azimuth", kDegrees, crack<&K::azimuth>, "azimuth", "Crack, direction",
-          "Direction in which the crack goes, as of crack.azimuth; not given: the one in which it grows fastest",
-          kShown),
+          "As of crack.azimuth; not given: the direction in which it grows fastest", kShown),
       row("kink_range", kRootMetres, crack<&K::kink_range>, "Δk_I of a kink", "Crack, opening of a kink",
           "Largest range of the opening stress intensity of a small kink at the crack's end", kShown),
       row("kink_angle", kDegrees, crack<&K::kink_angle>, "kink", "Crack, direction of the kink",
