@@ -141,11 +141,10 @@ std::vector<ResultNumber> error_numbers() {
   using E = ContactErrors;
   return {
       row("p_max_error", kMPa, error_of<&E::p_max>, "± p_max", "Error bar of the largest pressure",
-          "Half-space: half width of the error due to the cell size; 95 % of cases lie within. Null, as all error "
-          "bars, "
-          "for transients, line contacts, several patches, a given approach and whole cells at the leading edge. Of "
-          "`bem` with what points of profiles leave open, of several patches that alone; null at an edge. Finite "
-          "elements without run.positions: change from the measuring window before",
+          "Half-space: half width of the error due to the cell size, and in `bem` to the points of profiles; 95 % of "
+          "cases lie within. Null, as all error bars, for transients, line contacts, several patches (`bem`: of points "
+          "alone), a given approach, whole cells at the leading edge, an edge in the patch. Finite elements without "
+          "run.positions: change from the measuring window before",
           kColumn),
       row("q_max_error", kMPa, error_of<&E::q_max>, "± q_max", "Error bar of the largest shear", "As for p_max",
           kColumn),
