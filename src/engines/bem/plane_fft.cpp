@@ -32,12 +32,13 @@ struct PlaneFft::Pack {
 };
 
 /// Tables that share a transform have values of the same size, else the round-off of large ones drowns small ones.
-void PlaneFft::KernelTable::take_unit() {
+bool PlaneFft::KernelTable::take_unit() {
   double largest = 0;
   for (const double v : values) largest = std::max(largest, std::abs(v));
-  if (!(largest > 0)) return;
+  if (!(largest > 0)) return false;
   unit = std::exp2(std::ilogb(largest));
   for (double& v : values) v /= unit;
+  return true;
 }
 
 Plane PlaneFft::spectrum(const Plane& table, int parity_x, int parity_y) const {
@@ -47,7 +48,7 @@ Plane PlaneFft::spectrum(const Plane& table, int parity_x, int parity_y) const {
 std::vector<Plane> PlaneFft::spectra(std::vector<KernelTable> tables) const {
   std::vector<Pack> packs;
   for (std::size_t t = 0; t < tables.size(); ++t) {
-    tables[t].take_unit();
+    if (!tables[t].take_unit()) continue;  // round-off would be left of nothing
     const std::size_t place = (tables[t].parity_x < 0) + 2 * (tables[t].parity_y < 0);
     auto pack = std::find_if(packs.begin(), packs.end(), [&](const Pack& p) { return p.table[place] < 0; });
     if (pack == packs.end()) pack = packs.emplace(packs.end());

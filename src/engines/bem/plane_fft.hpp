@@ -36,8 +36,8 @@ class PlaneFft {
   struct KernelTable {
     Plane values;
     int parity_x, parity_y;
-    double unit = 1;  ///< a power of two
-    void take_unit();
+    double unit = 1;   ///< a power of two
+    bool take_unit();  ///< false: all are zero
   };
   /// The spectra of several: up to four of unlike parities share a transform, and differ from those of `spectrum` by
   /// round-off.
