@@ -147,7 +147,7 @@ class Material(FromOutside):
                 (["--strain", good, "--of", "layer.0"], "the card has no such material"),
                 (["--strain", good, "--out", self.folder / "x.txt"], "must end in .csv"),
                 (["--strain", good, "--increments", "0"], "--increments"),
-                (["--calibrate", good], "path.csv:1: error: the table has no column of stress"),
+                (["--calibrate", good], "path.csv:1: error: no column of a curve among e_xx, e_yy"),
                 (["--calibrate", self.write("g.csv", "strain,stress_MPa\n0,0\n0.001,200\n")],
                  "a loop needs ten points"),
                 (["--shear-yield", self.write("h.csv", "pss,sys_MPa\n0,240\n0.1,-3\n")],
