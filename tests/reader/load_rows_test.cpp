@@ -223,6 +223,12 @@ TEST(LoadRows, ASeriesMayHaveUnitsInParenthesesAndWheelsThatLift) {
   expect_says(note, "2 samples of a wheel became 1 loads; 1 of a lifted wheel were left out");
 }
 
+TEST(LoadRows, TGammaIsNoTimeInGammas) {
+  CaseSpec spec;
+  EXPECT_EQ(read_load_table("wheel_load_kN,t_gamma_N\n80,20\n80,20\n", "l.csv", spec, nullptr), "");
+  EXPECT_EQ(spec.loads.size(), 2u) << "a table of loads, not a series";
+}
+
 TEST(LoadRows, ASeriesWithoutAStateIsRefused) {
   CaseSpec spec;
   try {

@@ -27,8 +27,8 @@ const std::vector<std::string_view>& words_of(std::string_view key) {
       {"friction_coefficient",
        {"Reibwert", "Reibbeiwert", "Coefficient de frottement", "Friktionskoefficient", "摩擦系数"}},
       {"traction_coefficient", {"Kraftschluss", "Coefficient d'adhérence", "Adhesionskoefficient", "牵引系数"}},
-      {"time", {"t", "Zeit", "Temps", "Tid", "时间"}},
-      {"distance", {"s", "Weg", "Distance", "Sträcka", "里程", "Kilometrierung", "Chainage"}},
+      {"time", {"Zeit", "Temps", "Tid", "时间"}},
+      {"distance", {"Weg", "Distance", "Sträcka", "里程", "Kilometrierung", "Chainage"}},
       {"x", {"Weg", "Distance", "Sträcka", "Chainage", "里程"}},
       {"z", {"Höhe", "Hauteur", "Höjd", "height", "高度"}}};
   const auto found = words.find(key);
