@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "core/counted_random.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -15,10 +17,9 @@ class Chance {
  public:
   explicit Chance(std::uint64_t seed) : state_(seed) {}
   double even() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    const std::uint64_t bits = mixed(state_);
+    state_ += 0x9e3779b97f4a7c15u;
+    return static_cast<double>(bits >> 11) * 0x1p-53;
   }
   double normal() { return std::sqrt(-2 * std::log(1 - even())) * std::cos(2 * std::numbers::pi * even()); }
 
