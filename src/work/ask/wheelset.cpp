@@ -288,9 +288,10 @@ std::optional<double> lean_by_descents(Wheelset& set, const WheelsetState& state
 
 /// Height and roll: of all rolls, under each of which the wheelset sinks until it bears its load, the one whose moment
 /// is that wanted. The moment falls as the roll grows, where a wheel is lifted only while the other one changes its
-/// place on the flange. Throws NoAnswer where it jumps.
+/// place on the flange; on the flange it may stand still for some mrad, so that the search goes on until the lifted
+/// wheel is as high as a flange. Throws NoAnswer where the moment jumps.
 std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, double from) {
-  constexpr double kSame = 1e-10, kRoundOff = 10, kFalls = 0.97;  // rad; of what is close; of the moment before
+  constexpr double kSame = 1e-10, kRoundOff = 10, kHighest = 0.03;  // rad; of what is close; m
   double z = 0, last = 0;
   bool hold = false;
   const auto excess = [&](double roll) {
@@ -303,7 +304,6 @@ std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, 
   if (std::abs(at_a) <= close) return z;
   double step = 1.2 * at_a / (arm * arm * (set.stiffening[0].slope() + set.stiffening[1].slope()));
   for (;;) {
-    const bool lifted = !(set.wheels[at_a > 0 ? 0 : 1].force.z > 0);
     const double b = a + step, at_b = excess(b);
     if (std::abs(at_b) <= close) return z;
     hold = at_a * at_b < 0;
@@ -312,7 +312,8 @@ std::optional<double> lean_by_moment(Wheelset& set, const WheelsetState& state, 
       if (std::abs(last) > kRoundOff * close) refuse_jump(set, std::abs(last));
       return z;
     }
-    if (lifted && !(std::abs(at_b) < kFalls * std::abs(at_a))) return {};
+    const bool lifted = !(set.wheels[at_b > 0 ? 0 : 1].force.z > 0);
+    if (lifted && 2 * arm * std::abs(b - from) > kHighest) return {};
     a = b;
     at_a = at_b;
     step *= 2;
