@@ -127,12 +127,16 @@ struct SunkWheelset {
   bool several = false;  ///< places of a wheel
 };
 
+/// How height and roll follow what a wheelset bears too much, row by row (wheelset_lean.cpp).
+using Leaning = std::array<double, 4>;
+
 /// Where the next solution starts from.
 struct WheelsetStart {
   double roll = 0;          ///< rad
   double tilting = 0;       ///< m, change of the wheels' difference in height with the roll; 0: of none
   double left_share = 0.5;  ///< of the load, on the left wheel
   std::array<Stiffening, 2> stiffening;
+  std::optional<Leaning> leaning;                   ///< of a wheel on tread and flange
   std::array<std::optional<SunkWheelset>, 2> sunk;  ///< the last one and that before
   std::array<NextStart, 2> contacts;
 };
@@ -151,6 +155,7 @@ struct Wheelset {
   std::array<Stiffening, 2> stiffening;
   double roll = 0;                       ///< rad, of the last solution
   double tilting = 0, left_share = 0.5;  ///< as WheelsetStart
+  std::optional<Leaning> leaning;
   std::array<std::optional<SunkWheelset>, 2> sunk;
   int solutions = 0;
   WheelsetStart kept;
