@@ -2,9 +2,9 @@
 #
 #   librailstrata.so            every room and extra but those of the program. Exported are the functions that the
 #                               public headers declare, in C++ and in C.
-#   librailstrata-commands.so   the rooms `many`, `collective`, `creep`, `study`, `validate`, `wear`, `clock`, `traffic`,
-#                               `explore` and `app`, the extras `batch`, `usetab` and `export`: the command line of the
-#                               program, and nothing for others.
+#   librailstrata-commands.so   the rooms `many`, `curving`, `collective`, `creep`, `study`, `validate`, `wear`, `clock`,
+#                               `traffic`, `explore` and `app`, the extras `batch`, `usetab` and `export`: the command
+#                               line of the program, and nothing for others.
 #   railstrata                  main() alone.
 #   librailstrata-bridge.so     the rooms `many` and `bridge`: what the Python package calls.
 #   librailstrata-hdf5.so       the room `hdf5`, loaded by librailstrata.so when a checkpoint or a table is first asked
@@ -26,8 +26,8 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 # The headers that a user of the library includes; those that they include are public too. C++ API, unstable until 1.0.
 set(PUBLIC_HEADERS core/faults.hpp reader/case_file.hpp io/provenance.hpp ask/library.hpp)
 set(C_HEADER capi/railstrata.h)
-set(ROOMS_OF_THE_PROGRAM many collective creep study validate wear clock traffic explore app batch usetab export)
-set(ROOMS_OF_PYTHON many collective clock bridge)
+set(ROOMS_OF_THE_PROGRAM many curving collective creep study validate wear clock traffic explore app batch usetab export)
+set(ROOMS_OF_PYTHON many curving collective clock bridge)
 set(ROOM_OF_CONTACT cntc)
 set(ROOM_OF_HDF5 hdf5)
 # The mark by which the loader refuses a processor that is too old, in words instead of an illegal instruction.

@@ -53,7 +53,7 @@ endfunction()
 # source with compile options of its own stays alone. Rooms that compute nothing are compiled with -O1.
 set(SOURCES_AT_ONCE 24)
 set(ROOMS_THAT_COMPUTE_NOTHING record text spec options tables rules reader hdf5 io passes report jobs ask runs many
-  laboratory collective creep study validate wear clock traffic explore app bridge batch usetab export)
+  laboratory curving collective creep study validate wear clock traffic explore app bridge batch usetab export)
 
 # railstrata_light(TARGET NAME): these rules for the sources of a room or of its tests.
 function(railstrata_light target name)
@@ -94,6 +94,7 @@ set(ROOM_LIBS_element Eigen3::Eigen)
 set(ROOM_LIBS_halfspace Eigen3::Eigen)
 set(ROOM_LIBS_steady Eigen3::Eigen)
 set(ROOM_LIBS_track Eigen3::Eigen)
+set(ROOM_LIBS_curving Eigen3::Eigen)
 if(RAILSTRATA_FFT STREQUAL "fftw")
   set(ROOM_LIBS_fft fftw3)
 else()
@@ -118,7 +119,7 @@ else()
 endif()
 
 # The live contact computes in every time step of a vehicle, in a room that else asks others.
-foreach(source next_start patch_forces wheelset)
+foreach(source next_start patch_forces wheelset wheelset_height wheelset_lean)
   set_source_files_properties(${CMAKE_SOURCE_DIR}/src/work/ask/${source}.cpp PROPERTIES
     COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 endforeach()

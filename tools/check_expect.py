@@ -4,9 +4,9 @@
 usage: check_expect.py CASE RESULTS            CASE: a case file, or a folder with case.toml; RESULTS: the run's folder
        check_expect.py CASE --run BINARY       runs the case first, in a folder of its own, and wants exit code 0; one
                                                of the folder contact, with a [transient] table, a line contact or a
-                                               yawed wheel on a roller by half-spaces, one with [[load]] as a
-                                               collective, whose numbers stand in collective.json, one with
-                                               [collective] too, on coarse cells and without passes for its lives,
+                                               yawed wheel on a roller by half-spaces, one with [[load]] or
+                                               [[bogie]] as a collective, whose numbers stand in collective.json, one
+                                               with [collective] too, on coarse cells and without passes for its lives,
                                                one with [passes] as a few passes on coarse cells: passes.json
 
 The expectations of NAME.toml stand beside it in NAME.expect.toml, those of case.toml in expect.toml; one table a
@@ -68,6 +68,9 @@ def look_up(summary, path):
     """The number at a dotted path; None where the summary has null or nothing."""
     found = {**summary, "checks": {check["name"]: check["value"] for check in summary.get("checks", [])}}
     for key in path.strip().split("."):
+        if isinstance(found, list) and key.isdigit() and int(key) < len(found):
+            found = found[int(key)]
+            continue
         if not isinstance(found, dict) or key not in found:
             return None
         found = found[key]
@@ -103,6 +106,8 @@ def command_for(case):
                       geometry.get("contact") == "line")
     if "collective" in tables:
         return ["collective", "--set", "life.until=0 Mt", "--cell", "1 mm"]
+    if "bogie" in tables:
+        return ["collective", "--cell", "0.5 mm"]
     if "passes" in tables:
         return ["passes", "--passes", "8", "--cell", "1 mm"]
     return ["collective" if "load" in tables else "bem" if by_half_spaces else "run"]

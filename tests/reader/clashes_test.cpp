@@ -58,6 +58,8 @@ const std::map<std::string, Overrides>& examples() {
       {"irregularity", {"irregularity=[{at=\"200 mm\", length=\"20 mm\", depth=\"0.2 mm\"}]"}},
       {"a dip or a step", {"irregularity=[{kind=\"dip\", at=\"2 m\", angle=\"10 mrad\"}]"}},
       {"layer", {"layer.0.young_ratio=2"}},
+      {"bogie", {"bogie=[{type=\"coach\", mgt=10}]"}},
+      {"curve.radius | curve.superelevation | curve.rail", {"curve.radius=800 m"}},
       {"crack.top | crack.angle | crack.place | crack.fluid | crack.aspect | crack.law | crack.threshold | "
        "crack.detectable | crack.allowable",
        {"crack.top=2 mm"}},

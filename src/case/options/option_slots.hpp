@@ -107,6 +107,8 @@ OptionTable mesh_table();
 OptionTable run_table();
 OptionTable bem_table();
 OptionTable transient_table();
+OptionTable curve_table();
+OptionTable bogie_table();
 OptionTable load_table();
 OptionTable collective_table();
 OptionTable crack_table();

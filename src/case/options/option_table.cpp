@@ -49,6 +49,8 @@ const std::vector<OptionTable>& case_tables() {
       run_table(),
       bem_table(),
       transient_table(),
+      curve_table(),
+      bogie_table(),
       load_table(),
       collective_table(),
       life_table(),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -171,59 +172,86 @@ void read_load_rows(LoadedCase& loaded, CaseSource& source) {
       });
 }
 
-/// The wheels of every load that names profiles: built-in ones and files stay one, folders and lists become many.
-std::vector<std::vector<WheelShare>> find_load_wheels(LoadedCase& loaded, CaseSource& source) {
-  std::vector<std::vector<WheelShare>> out(loaded.spec.loads.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    std::string& name = loaded.spec.loads[i].wheel_profile;
-    if (name.empty() || is_builtin(ProfileKind::wheel, name)) continue;
-    const std::string key = fmt::format("load.{}.wheel_profile", i);
-    std::error_code error;
-    const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
-    const bool nameable = name.find('\0') == std::string::npos;
-    const auto refuse = [&](const std::string& what, const std::string& remedy) {
-      source.complain(key, fmt::format("{} = {}: {}", key, toml_quoted(name), what), remedy);
-    };
-    try {
-      if (nameable && std::filesystem::is_directory(file, error))
-        out[i] = measured_wheels(file);
-      else if (nameable && std::filesystem::is_regular_file(file, error))
-        out[i] = file.extension() == ".csv" && lists_wheels(file_text(file)) ? measured_wheels(file)
-                                                                             : std::vector<WheelShare>{{file, 1}};
-      else
-        refuse(fmt::format("neither a built-in profile nor a file nor a folder{}",
-                           nameable ? fmt::format(" (looked for {})", file.string()) : ""),
-               fmt::format("name a file relative to the folder of the case, or one of {}",
-                           fmt::join(builtin_profile_names(ProfileKind::wheel), ", ")));
-    } catch (const CaseError& e) {
-      for (const Diagnostic& d : e.diagnostics)
-        refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
-    }
+/// The wheels of a row that names a profile: a built-in one or none stays none, a file is one, folders and lists are
+/// many.
+std::vector<WheelShare> find_wheels(const std::string& name, const std::string& key, const LoadedCase& loaded,
+                                    CaseSource& source) {
+  if (name.empty() || is_builtin(ProfileKind::wheel, name)) return {};
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
+  const bool nameable = name.find('\0') == std::string::npos;
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    source.complain(key, fmt::format("{} = {}: {}", key, toml_quoted(name), what), remedy);
+  };
+  try {
+    if (nameable && std::filesystem::is_directory(file, error)) return measured_wheels(file);
+    if (nameable && std::filesystem::is_regular_file(file, error))
+      return file.extension() == ".csv" && lists_wheels(file_text(file)) ? measured_wheels(file)
+                                                                         : std::vector<WheelShare>{{file, 1}};
+    refuse(fmt::format("neither a built-in profile nor a file nor a folder{}",
+                       nameable ? fmt::format(" (looked for {})", file.string()) : ""),
+           fmt::format("name a file relative to the folder of the case, or one of {}",
+                       fmt::join(builtin_profile_names(ProfileKind::wheel), ", ")));
+  } catch (const CaseError& e) {
+    for (const Diagnostic& d : e.diagnostics)
+      refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
   }
+  return {};
+}
+
+using RowWheels = std::vector<std::vector<WheelShare>>;
+
+template <class Row>
+RowWheels find_wheels(const std::vector<Row>& rows, const char* list, const LoadedCase& loaded, CaseSource& source) {
+  RowWheels out;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    out.push_back(find_wheels(rows[i].wheel_profile, fmt::format("{}.{}.wheel_profile", list, i), loaded, source));
   return out;
 }
 
-/// A row for each of a load's wheels, with its share of the passages.
-void spread_over_wheels(const std::vector<std::vector<WheelShare>>& wheels, LoadedCase& loaded) {
+/// A row for each of a row's wheels; `take` gives it its share.
+template <class Row, class NameOf, class Take>
+void spread_over_wheels(const RowWheels& wheels, std::vector<Row>& rows, const char* made, LoadedCase& loaded,
+                        const NameOf& name_of, const Take& take) {
   const bool many = std::any_of(wheels.begin(), wheels.end(), [](const auto& w) { return w.size() > 1; });
-  std::vector<LoadSpec> all;
+  std::vector<Row> all;
   for (std::size_t i = 0; i < wheels.size(); ++i) {
-    LoadSpec load = loaded.spec.loads[i];
-    if (many) load.name = load_name(loaded.spec, i);
-    if (wheels[i].empty()) all.push_back(load);
+    Row row = rows[i];
+    if (many) row.name = name_of(i);
+    if (wheels[i].empty()) all.push_back(row);
     for (const WheelShare& wheel : wheels[i]) {
-      LoadSpec& row = all.emplace_back(load);
-      row.wheel_profile = wheel.file.string();
-      row.passages *= wheel.share;
-      if (wheels[i].size() > 1) row.name = fmt::format("{}, {}", load_name(loaded.spec, i), wheel.file.stem().string());
+      Row& one = all.emplace_back(row);
+      one.wheel_profile = wheel.file.string();
+      take(one, wheel.share);
+      if (wheels[i].size() > 1) one.name = fmt::format("{}, {}", name_of(i), wheel.file.stem().string());
       if (std::find(loaded.inputs.begin(), loaded.inputs.end(), wheel.file) == loaded.inputs.end())
         loaded.inputs.push_back(wheel.file);
     }
     if (wheels[i].size() > 1)
-      loaded.notes.push_back(
-          fmt::format("{}: {} wheel profiles make as many loads", load_name(loaded.spec, i), wheels[i].size()));
+      loaded.notes.push_back(fmt::format("{}: {} wheel profiles make as many {}", name_of(i), wheels[i].size(), made));
   }
-  loaded.spec.loads = std::move(all);
+  rows = std::move(all);
+}
+
+void spread_over_wheels(const RowWheels& of_loads, const RowWheels& of_bogies, LoadedCase& loaded) {
+  spread_over_wheels(
+      of_loads, loaded.spec.loads, "loads", loaded, [&](std::size_t i) { return load_name(loaded.spec, i); },
+      [](LoadSpec& load, double share) { load.passages *= share; });
+  std::vector<BogieSpec>& bogies = loaded.spec.collective.curve.bogies;
+  spread_over_wheels(
+      of_bogies, bogies, "bogies", loaded, [&](std::size_t i) { return bogies[i].title(); },
+      [](BogieSpec& bogie, double share) { bogie.mgt = share * bogie.mgt.value_or(0); });
+}
+
+/// Where the numbers of kinds of vehicles come from.
+void note_types(LoadedCase& loaded) {
+  std::set<int> named;
+  for (const BogieSpec& bogie : loaded.spec.collective.curve.bogies) {
+    if (!named.insert(bogie.type).second) continue;
+    const BogieType& type = bogie_types().at(static_cast<std::size_t>(bogie.type));
+    loaded.notes.push_back(fmt::format("numbers of bogies of type \"{}\" that are not given: {} ({})", type.name,
+                                       certainty_text(type.certainty), type.source));
+  }
 }
 
 /// The message with its key, if it does not name it itself.
@@ -255,10 +283,12 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   read_history(loaded, source);
   read_loads(loaded, source);
   read_height_files(loaded, source);
-  const std::vector<std::vector<WheelShare>> wheels = find_load_wheels(loaded, source);
+  const RowWheels of_loads = find_wheels(loaded.spec.loads, "load", loaded, source),
+                  of_bogies = find_wheels(loaded.spec.collective.curve.bogies, "bogie", loaded, source);
   check_case_rules(loaded.spec, source);
   source.finish();
-  spread_over_wheels(wheels, loaded);
+  note_types(loaded);
+  spread_over_wheels(of_loads, of_bogies, loaded);
   loaded.resolved_toml = resolved_case(loaded.spec);
   if (says_nothing(text))
     loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),

@@ -76,6 +76,14 @@ class TreeReader {
     if (named) spec_.track.support = *named;
   }
 
+  /// The numbers of a kind of vehicle likewise.
+  void take_types(const toml::array& bogies) {
+    for (std::size_t i = 0; i < bogies.size(); ++i)
+      for (const BogieType& type : bogie_types())
+        if ((*bogies[i].as_table())["type"].value<std::string>() == type.name)
+          static_cast<BogieNumbers&>(spec_.collective.curve.bogies[i]) = type.numbers;
+  }
+
   struct Derived {
     const OptionTable* table;
     const Option* option;
@@ -118,6 +126,7 @@ class TreeReader {
                               fmt::format("write [[{}]] with two brackets", table.name));
     const bool layers = table.name == "layer";
     table.repeated.resize(spec_, list->size());
+    if (table.name == "bogie") take_types(*list);
     for (std::size_t i = 0; i < list->size(); ++i) {
       const std::string name = fmt::format("{}.{}", table.name, i);
       remember_place(source_, name, (*list)[i]);

@@ -205,6 +205,23 @@ void check_passes(const CaseSpec& spec, CaseSource& source) {
                              "the wheel would slide: lower the traction or raise the friction");
 }
 
+void check_bogies(const CaseSpec& spec, CaseSource& source) {
+  const std::vector<BogieSpec>& bogies = spec.collective.curve.bogies;
+  for (std::size_t i = 0; i < bogies.size(); ++i) {
+    const std::string name = fmt::format("bogie.{}", i);
+    if (!bogies[i].mgt)
+      source.complain(name + ".mgt", fmt::format("{}: its traffic is not given", name),
+                      "give mgt, in million gross tonnes: a year's, or 100 for wear per 100 MGT");
+    const double radius = bogies[i].wheel_radius.value_or(spec.geometry.wheel_radius);
+    if (bogies[i].centre_of_gravity <= radius)
+      refuse(source, name + ".centre_of_gravity", length(bogies[i].centre_of_gravity),
+             fmt::format("must lie above the axle, {}", length(radius)), "give its height above the top of rail");
+    if (bogies[i].wheelset_mass * kGravity >= 0.5 * bogies[i].axle_load)
+      refuse(source, name + ".wheelset_mass", format_quantity(bogies[i].wheelset_mass, dimension::kMass),
+             "must weigh less than half of the axle load", "check both");
+  }
+}
+
 }  // namespace
 
 void check_case_rules(const CaseSpec& spec, CaseSource& source) {
@@ -225,6 +242,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_passes(spec, source);
   check_irregularities(spec, source);
   check_loads(spec, source);
+  check_bogies(spec, source);
 }
 
 }  // namespace railstrata

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spec/crack_spec.hpp"
+#include "spec/curve_spec.hpp"
 #include "spec/drive_spec.hpp"
 
 namespace railstrata {
@@ -63,6 +64,7 @@ struct LoadSpec {
 
 struct CollectiveSpec {
   std::string file;  ///< empty once it is read into the rows
+  CurveSpec curve;   ///< with bogies: the rows follow from it
   WearLaw wear_law = WearLaw::usfd;
   double lateral_deviation = 0;      ///< m across, of the wheels of each row about their place
   double wear_factor = 1;            ///< of wear over that of the laws

@@ -81,6 +81,7 @@ void put(const UnitTable::Cell& cell, const Option& option, CaseSpec& spec, std:
 CaseSpec with_load(const CaseSpec& spec, const LoadSpec& load) {
   CaseSpec out = spec;
   out.loads.clear();
+  out.collective.curve = {};
   if (load.wheel_load) out.vehicle.set_load(*load.wheel_load);
   if (!load.wheel_profile.empty()) out.geometry.wheel_profile = load.wheel_profile;
   take(load.wheel_radius, out.geometry.wheel_radius);

@@ -23,6 +23,7 @@
 #include "collective/measured_wear.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
+#include "curving/curve_files.hpp"
 #include "fatigue/row_strength.hpp"
 #include "io/output_folder.hpp"
 #include "record/json.hpp"
@@ -205,10 +206,20 @@ LoadedCase case_until(CommandOptions options, const std::string& until) {
   return load_case_of(options, uses::kCollective);
 }
 
+/// Of a case with a curve: finds its loads, and lists where its wheelsets stand.
+std::vector<BogieInCurve> take_curve(LoadedCase& loaded) {
+  if (loaded.spec.collective.curve.bogies.empty()) return {};
+  const std::vector<BogieInCurve> out = solve_curve(loaded, &control());
+  for (const std::string& line : curving_lines(out)) spdlog::info("{}", line);
+  loaded = with_curve_loads(loaded, out);
+  return out;
+}
+
 ExitCode command_collective(const CommandOptions& options, const TrafficOptions& followed,
                             const MeasuredOptions& wanted) {
   const double tonnes = wanted.before.empty() ? 0 : 1e-3 * mass_of("--tonnes", wanted.tonnes);
-  const LoadedCase loaded = case_until(options, followed.until);
+  LoadedCase loaded = case_until(options, followed.until);
+  const std::vector<BogieInCurve> bogies = take_curve(loaded);
   const double horizon = tonnes > 0 ? 0 : loaded.spec.life.until;
   if ((followed.range || followed.resume) && !(horizon > 0))
     throw CaseError(fmt::format("{}: the rail is not followed", followed.range ? "--range" : "--resume"),
@@ -222,6 +233,7 @@ ExitCode command_collective(const CommandOptions& options, const TrafficOptions&
   std::optional<Traffic> traffic;
   if (horizon > 0) traffic.emplace(loaded, out, cell, followed.resume);
   write_origin(out, loaded, options.command_line, options.threads);
+  if (!bogies.empty()) write_curving(out / "curving.csv", table_origin(loaded), bogies);
   spdlog::info("{}: {} loads; results go to {}", loaded.spec.title, rows.size(), out.string());
   solve(loaded, cell, rows);
   write_collective_table(out / "collective.csv", table_origin(loaded), rows);
@@ -243,6 +255,7 @@ ExitCode command_collective(const CommandOptions& options, const TrafficOptions&
   write_wheel_damage(out / "wheel_damage.csv", table_origin(loaded), damage.wheel);
   write_lives(out / "life.csv", table_origin(loaded), damage.lives);
   nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
+  if (!bogies.empty()) json["curve"] = curving_json(bogies);
   if (followed_to) json["traffic"] = traffic_json(*followed_to);
   std::optional<MeasuredWear> measured;
   if (tonnes > 0) measured = measured_wear(rows, damage.rail, wanted.before, wanted.after, tonnes);
@@ -252,6 +265,7 @@ ExitCode command_collective(const CommandOptions& options, const TrafficOptions&
     fmt::print("{}\n", json_text(json, 2));
   else
     print_collective(rows, traffic ? front.answers : collective_answers(rows, damage), measured);
+  if (!bogies.empty()) front.tables.push_back(curving_table(bogies));
   const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage, front);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
@@ -274,6 +288,7 @@ double depth_option(const std::string& text) {
 
 ExitCode collective_wear(const WearOptions& wanted, bool resume, const CommandOptions& options) {
   LoadedCase loaded = load_case_of(options, uses::kWearLoop);
+  take_curve(loaded);
   const WearLoopOrder order{job_order_of(options, output_folder_of(options, loaded, "-wear-loop"), resume),
                             wanted.steps, wanted.passages, depth_option(wanted.max_wear), cell_size(options.cell)};
   return code_of(carry_out_wear_loop(std::move(loaded), order, control_by_signals(), [&](const WornRail& rail) {
