@@ -523,6 +523,20 @@ young_ratio = 2.0
             self.assertTrue((out / name).exists(), name)
         self.refused(2, ["collective", BASE, "--out", self.folder / "none"], "`railstrata collective` needs load")
 
+    def test_a_curve_has_a_collective_of_either_rail(self):
+        curve = self.case("[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\n[curve]\n"
+                          "radius = \"1500 m\"\nrail = \"both\"\n[[bogie]]\ntype = \"wagon\"\nmgt = 10\n")
+        err = railstrata("collective", curve, "--cell", "1 mm", "--out", self.folder / "both", "--no-report")[2]
+        self.assertIn("estimated", err)
+        for rail in "outer", "inner":
+            wheels = table(self.folder / "both" / rail / "curving.csv")
+            self.assertEqual([w["rail"] for w in wheels], 2 * ["outer", "inner"])
+            loads = table(self.folder / "both" / rail / "collective.csv")
+            for load, wheel in zip(loads, [w for w in wheels if w["rail"] == rail]):
+                self.assertAlmostEqual(float(load["F_z_kN"]) / float(wheel["Q_kN"]), 1, delta=1e-3)
+        loop = ["collective", curve, "--steps", 1, "--out", self.folder / "loop"]
+        self.refused(2, loop, "a collective is of one rail")
+
     @slow
     def test_a_wear_loop_goes_on_where_it_stopped_to_the_same_profile(self):
         loop = ["collective", LOADS, *COARSE, "--max-wear", "4 um"]

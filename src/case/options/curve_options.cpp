@@ -45,7 +45,8 @@ OptionTable curve_table() {
               kLength, {0, 0.2})
            .where(curved),
        choice<&C::rail>("rail", at<&CaseSpec::collective, &CollectiveSpec::curve, &C::rail>,
-                        "Rail that the collective is of", {{"outer", CurveRail::outer}, {"inner", CurveRail::inner}})
+                        "Rail that the collective is of; both: one after the other, in folders outer and inner",
+                        {{"outer", CurveRail::outer}, {"inner", CurveRail::inner}, {"both", CurveRail::both}})
            .where(curved)}};
 }
 

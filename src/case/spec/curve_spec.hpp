@@ -42,7 +42,7 @@ struct BogieSpec : BogieNumbers {
   }
 };
 
-enum class CurveRail { outer, inner };
+enum class CurveRail { outer, inner, both };
 
 struct CurveSpec {
   std::optional<double> radius;  ///< m

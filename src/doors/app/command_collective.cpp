@@ -206,20 +206,18 @@ LoadedCase case_until(CommandOptions options, const std::string& until) {
   return load_case_of(options, uses::kCollective);
 }
 
-/// Of a case with a curve: finds its loads, and lists where its wheelsets stand.
-std::vector<BogieInCurve> take_curve(LoadedCase& loaded) {
+/// Of a case with a curve: where its wheelsets stand, listed too.
+std::vector<BogieInCurve> solve_curve_of(const LoadedCase& loaded) {
   if (loaded.spec.collective.curve.bogies.empty()) return {};
-  const std::vector<BogieInCurve> out = solve_curve(loaded, &control());
+  std::vector<BogieInCurve> out = solve_curve(loaded, &control());
   for (const std::string& line : curving_lines(out)) spdlog::info("{}", line);
-  loaded = with_curve_loads(loaded, out);
   return out;
 }
 
-ExitCode command_collective(const CommandOptions& options, const TrafficOptions& followed,
-                            const MeasuredOptions& wanted) {
+/// bogies: that the loads of the case are of, for the tables.
+ExitCode collective_of(const CommandOptions& options, const LoadedCase& loaded, const std::vector<BogieInCurve>& bogies,
+                       const TrafficOptions& followed, const MeasuredOptions& wanted) {
   const double tonnes = wanted.before.empty() ? 0 : 1e-3 * mass_of("--tonnes", wanted.tonnes);
-  LoadedCase loaded = case_until(options, followed.until);
-  const std::vector<BogieInCurve> bogies = take_curve(loaded);
   const double horizon = tonnes > 0 ? 0 : loaded.spec.life.until;
   if ((followed.range || followed.resume) && !(horizon > 0))
     throw CaseError(fmt::format("{}: the rail is not followed", followed.range ? "--range" : "--resume"),
@@ -273,6 +271,30 @@ ExitCode command_collective(const CommandOptions& options, const TrafficOptions&
   return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;
 }
 
+/// One collective, or of both rails of a curve one after the other, each in a folder of its own.
+ExitCode command_collective(const CommandOptions& options, const TrafficOptions& followed,
+                            const MeasuredOptions& wanted) {
+  const LoadedCase loaded = case_until(options, followed.until);
+  const std::vector<BogieInCurve> bogies = solve_curve_of(loaded);
+  if (bogies.empty()) return collective_of(options, loaded, bogies, followed, wanted);
+  if (loaded.spec.collective.curve.rail != CurveRail::both)
+    return collective_of(options, with_curve_loads(loaded, bogies), bogies, followed, wanted);
+  if (options.json)
+    throw CaseError("--json has one result, and curve.rail = \"both\" asks for two",
+                    "ask for one rail after the other");
+  ExitCode worst = ExitCode::ok;
+  for (const std::string rail : {"outer", "inner"}) {
+    LoadedCase one = with_overrides(loaded, {fmt::format("curve.rail=\"{}\"", rail)});
+    one.spec.title += fmt::format(", {} rail", rail);
+    CommandOptions there = options;
+    there.out = output_folder_of(options, loaded, "-collective") / rail;
+    const ExitCode code = collective_of(there, with_curve_loads(one, bogies), bogies, followed, wanted);
+    if (code == ExitCode::interrupted) return code;
+    worst = std::max(worst, code);
+  }
+  return worst;
+}
+
 /// `collective --steps`: the wear taken off the rail's profile, step by step.
 struct WearOptions {
   int steps = 0;                      ///< --steps; 0: no limit
@@ -288,7 +310,8 @@ double depth_option(const std::string& text) {
 
 ExitCode collective_wear(const WearOptions& wanted, bool resume, const CommandOptions& options) {
   LoadedCase loaded = load_case_of(options, uses::kWearLoop);
-  take_curve(loaded);
+  if (const std::vector<BogieInCurve> bogies = solve_curve_of(loaded); !bogies.empty())
+    loaded = with_curve_loads(loaded, bogies);
   const WearLoopOrder order{job_order_of(options, output_folder_of(options, loaded, "-wear-loop"), resume),
                             wanted.steps, wanted.passages, depth_option(wanted.max_wear), cell_size(options.cell)};
   return code_of(carry_out_wear_loop(std::move(loaded), order, control_by_signals(), [&](const WornRail& rail) {

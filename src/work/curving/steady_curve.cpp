@@ -221,6 +221,8 @@ std::vector<BogieInCurve> solve_curve(const LoadedCase& loaded, const Control* c
 }
 
 LoadedCase with_curve_loads(const LoadedCase& loaded, const std::vector<BogieInCurve>& found) {
+  if (loaded.spec.collective.curve.rail == CurveRail::both)
+    throw CaseError("curve.rail = \"both\": a collective is of one rail", "give curve.rail = \"outer\" or \"inner\"");
   LoadedCase out = loaded;
   out.spec.loads.clear();
   for (std::size_t i = 0; i < found.size(); ++i) {
