@@ -75,7 +75,12 @@ class CurvingBogie {
   static constexpr double kClose = 1e-4, kOnTheWay = 0.01;  // of the load
 
   double bend() const { return into_ / *curve_.radius; }
-  double outwards() const { return speed_ * speed_ * bend() - kGravity * into_ * curve_.superelevation / base_; }
+  double tilt() const { return std::asin(into_ * curve_.superelevation / base_); }
+  double outwards() const { return speed_ * speed_ * bend() * std::cos(tilt()) - kGravity * std::sin(tilt()); }
+  /// Across the plane of the track, N.
+  double load() const {
+    return bogie_.axle_load * (std::cos(tilt()) + speed_ * speed_ * bend() / kGravity * std::sin(tilt()));
+  }
   double place(std::size_t i) const { return (i == 0 ? 0.5 : -0.5) * bogie_.wheelbase; }
 
   WheelsetState state_of(std::size_t i, const Posture& at) const {
@@ -86,7 +91,7 @@ class CurvingBogie {
     s.pitch_rate = at[row + 2];
     s.speed = speed_;
     s.yaw_rate = -speed_ * bend();
-    s.load = bogie_.axle_load;
+    s.load = load();
     s.roll_moment =
         -(bogie_.axle_load / kGravity - bogie_.wheelset_mass) * outwards() * (bogie_.centre_of_gravity - radius_);
     return s;

@@ -3,14 +3,15 @@
 //
 // In plan view, x along the track, y outwards (the curve is a right-hand one of radius R): two wheelsets at x_i = +-a
 // with the shift y_i, the yaw psi_i and the rotation V/r0 + omega_i, a frame with y_f and psi_f that carries the car
-// body. Cant deficiency is the acceleration outwards b = V^2/R - g h/(2 e), h the superelevation, 2 e the distance of
-// the tape circles. With the primary springs of two boxes k_y and of the yaw k_psi, contacts' forces F and moments M
-// [Wickens2003]
+// body. Cant deficiency is the acceleration outwards b = V^2/R cos(phi) - g sin(phi), sin(phi) = h/(2 e) of the
+// superelevation h and the distance 2 e of the tape circles. With the primary springs of two boxes k_y and of the yaw
+// k_psi, contacts' forces F and moments M [Wickens2003]
 //   F_y - S_i + m_w b = 0,   S_i = k_y (y_i - x_i^2/(2 R) - y_f - x_i psi_f)
 //   M_z - T_i = 0,           T_i = k_psi (psi_i - x_i/R - psi_f)
 //   M_y + mu Q r0 = 0        mu: traction over load
 //   sum S_i + (2 Q/g - 2 m_w) b = 0,   sum (T_i + x_i S_i) = 0
-// The axle load Q is borne under the roll moment -(Q/g - m_w) b h_g of all above, h_g its height over the axle.
+// The contacts bear Q (cos(phi) + V^2/(R g) sin(phi)), Q the axle load, under the roll moment -(Q/g - m_w) b h_g of all
+// above, h_g its height over the axle.
 #include <array>
 #include <string>
 #include <vector>
