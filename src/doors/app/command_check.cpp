@@ -10,10 +10,12 @@
 #include "app/case_of.hpp"
 #include "app/check_report.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/profile_report.hpp"
 #include "app/progress.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
+#include "curving/curve_files.hpp"
 #include "fem/memory_need.hpp"
 #include "io/output_folder.hpp"
 #include "rules/support.hpp"
@@ -120,6 +122,22 @@ ExitCode check_without_mesh(const LoadedCase& loaded, const std::vector<Diagnost
   return ExitCode::ok;
 }
 
+/// For a curve: where its wheelsets stand. Throws CaseError as `collective` does.
+ExitCode check_curve(const LoadedCase& loaded, bool json) {
+  const Placement placement = place(loaded.spec, loaded.folder());
+  tell_profiles(placement);
+  const std::vector<BogieInCurve> bogies = solve_curve(loaded, &control());
+  if (json)
+    fmt::print("{}\n", curving_json(bogies).dump(2));
+  else {
+    print_case(loaded, placement);
+    fmt::print("\n");
+    for (const std::string& line : curving_lines(bogies)) fmt::print("{}\n", printable(line));
+  }
+  require_equilibrium(bogies);
+  return ExitCode::ok;
+}
+
 /// Where the bodies touch but cannot be meshed there (a contact on the flange), `run` alone refuses the case.
 Model model_for_run(const LoadedCase& loaded) {
   try {
@@ -158,6 +176,7 @@ ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
   if (!own.mesh) require_nothing_to_write(options);
   const LoadedCase loaded = load_case_of(options, uses::kAny);
   if (own.mesh) require_support(uses::kFiniteElements, loaded);
+  if (!own.mesh && !loaded.spec.collective.curve.bogies.empty()) return check_curve(loaded, options.json);
   if (const std::vector<Diagnostic> refused = refused_by(uses::kFiniteElements, loaded); !refused.empty())
     return check_without_mesh(loaded, refused, options.json);
   const Model model = model_for_run(loaded);

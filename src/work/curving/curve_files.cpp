@@ -82,7 +82,8 @@ ReportTable curving_table(const std::vector<BogieInCurve>& bogies) {
 }
 
 std::vector<std::string> curving_lines(const std::vector<BogieInCurve>& bogies) {
-  std::vector<std::string> out;
+  std::vector<std::string> out{fmt::format("{:26} {:>7} {:>9}  {:>29}  {:>29}", "wheelset", "y mm", "yaw mrad",
+                                           "outer: Q kN   Y kN  friction N", "inner: Q kN   Y kN  friction N")};
   for (const BogieInCurve& b : bogies) {
     if (!b.fault.empty()) {
       out.push_back(fmt::format("{}: {}", b.name, b.fault));
@@ -90,13 +91,12 @@ std::vector<std::string> curving_lines(const std::vector<BogieInCurve>& bogies) 
     }
     for (std::size_t axle : {0, 1}) {
       const WheelsetInCurve& set = b.wheelsets[axle];
-      const auto wheel = [&](std::size_t side) {
-        const WheelForces& w = set.forces.wheels[side];
-        return fmt::format("Q {:.1f} kN, Y {:.1f} kN, {:.1f} N of friction", 1e-3 * w.force.z, 1e-3 * guiding(w),
-                           w.dissipation / set.state.speed);
-      };
-      out.push_back(fmt::format("{}, {}: y {:.2f} mm, yaw {:.2f} mrad; outer wheel {}; inner wheel {}", b.name,
-                                axle_word(axle), 1e3 * set.state.y, 1e3 * set.state.yaw, wheel(kLeft), wheel(kRight)));
+      std::string line = fmt::format("{:26} {:7.2f} {:9.2f}", fmt::format("{}, {}", b.name, axle_word(axle)),
+                                     1e3 * set.state.y, 1e3 * set.state.yaw);
+      for (const WheelForces& w : set.forces.wheels)
+        line += fmt::format("  {:11.1f} {:6.1f} {:11.1f}", 1e-3 * w.force.z, 1e-3 * guiding(w),
+                            w.dissipation / set.state.speed);
+      out.push_back(line);
     }
   }
   return out;

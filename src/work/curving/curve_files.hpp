@@ -15,7 +15,7 @@ void write_curving(const std::filesystem::path& file, const std::vector<std::str
                    const std::vector<BogieInCurve>& bogies);
 nlohmann::ordered_json curving_json(const std::vector<BogieInCurve>& bogies);
 ReportTable curving_table(const std::vector<BogieInCurve>& bogies);
-/// A line a wheelset.
+/// A heading, and a line a wheelset.
 std::vector<std::string> curving_lines(const std::vector<BogieInCurve>& bogies);
 
 }  // namespace railstrata

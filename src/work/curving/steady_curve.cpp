@@ -225,9 +225,16 @@ std::vector<BogieInCurve> solve_curve(const LoadedCase& loaded, const Control* c
   return out;
 }
 
+void require_equilibrium(const std::vector<BogieInCurve>& found) {
+  if (std::all_of(found.begin(), found.end(), [](const BogieInCurve& b) { return !b.fault.empty(); }))
+    throw CaseError(fmt::format("no bogie has an equilibrium in the curve: {}", found.empty() ? "" : found[0].fault),
+                    "check curve.radius, curve.superelevation and the speed");
+}
+
 LoadedCase with_curve_loads(const LoadedCase& loaded, const std::vector<BogieInCurve>& found) {
   if (loaded.spec.collective.curve.rail == CurveRail::both)
     throw CaseError("curve.rail = \"both\": a collective is of one rail", "give curve.rail = \"outer\" or \"inner\"");
+  require_equilibrium(found);
   LoadedCase out = loaded;
   out.spec.loads.clear();
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -238,9 +245,6 @@ LoadedCase with_curve_loads(const LoadedCase& loaded, const std::vector<BogieInC
     for (std::size_t which : {0, 1})
       out.spec.loads.push_back(load_of(loaded.spec, loaded.spec.collective.curve.bogies[i], found[i], which));
   }
-  if (out.spec.loads.empty())
-    throw CaseError(fmt::format("no bogie has an equilibrium in the curve: {}", found.empty() ? "" : found[0].fault),
-                    "check curve.radius, curve.superelevation and the speed");
   out.spec.drive.creepage_of = CreepageOf::wheel;
   return out;
 }

@@ -40,8 +40,11 @@ struct BogieInCurve {
 /// Every bogie of the case's curve, side by side. Throws CaseError where the case has none.
 std::vector<BogieInCurve> solve_curve(const LoadedCase& loaded, const Control* control);
 
+/// Throws CaseError where no bogie has an equilibrium.
+void require_equilibrium(const std::vector<BogieInCurve>& bogies);
+
 /// The case with the wheels on the rail of the curve as its loads, and their creepages those of wheels. Bogies without
-/// an equilibrium are left out, with a note. Throws CaseError where none has one.
+/// an equilibrium are left out, with a note. Throws CaseError as require_equilibrium.
 LoadedCase with_curve_loads(const LoadedCase& loaded, const std::vector<BogieInCurve>& bogies);
 
 }  // namespace railstrata
