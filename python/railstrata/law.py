@@ -79,7 +79,8 @@ class DrivenPath:
 
     strain, plastic_strain: (n, 6) [-], tensor shears; stress: (n, 6) [Pa]; components xx, yy, zz, xy, yz, xz.
     p: (n,) accumulated plastic strain. dissipated: (n,) J/m³ since the beginning. `on_the_way` has the same of the
-    states between the points.
+    states between the points, without extrapolation. increments: steps a row of the finest run; strain_error,
+    stress_error [Pa]: largest ± of the states.
     """
 
     def __init__(self, driven: _bridge.Answer, on_the_way: bool = False) -> None:
@@ -90,6 +91,9 @@ class DrivenPath:
         self.plastic_strain: Array = states["plastic_strain"]
         self.p: Array = states["p"]
         self.dissipated: Array = states["dissipated"]
+        self.increments: int = driven["increments"]
+        self.strain_error: float = driven["strain_error"]
+        self.stress_error: float = driven["stress_error"]
 
     @property
     def on_the_way(self) -> "DrivenPath":
@@ -147,9 +151,10 @@ def material(
     strain: every component's strain, tensor shears, -0.5 to 0.5: an array (points, 6), or a dict or DataFrame of
     "e_xx" ... "e_xz"; what it leaves out is zero. stress: the same in Pa with "s_xx" ... "s_xz"; what it leaves out is
     free of stress; "e_xx" instead of "s_xx" prescribes the strain of a direction, e_xx alone is the tensile test. Or a
-    path of a CSV file as the command reads it. The path begins unloaded and goes straight from point to point in
-    `increments` steps of backward Euler each, `cycles` times through the rows; prescribed stresses are met to 1e-9 of
-    the yield stress. Strains are small: a CheckWarning from 5 % plastic strain on, no claim above 10 %.
+    path of a CSV file as the command reads it. The path begins unloaded and goes straight from point to point in steps
+    of backward Euler, at first `increments` each, doubled and extrapolated to none, `cycles` times through the rows;
+    prescribed stresses are met to 1e-9 of the yield stress.
+    Strains are small: a CheckWarning from 5 % plastic strain on, no claim above 10 %.
 
     Raises CaseError (the card gives no strength; a stress that the material does not bear, with its row, the first one
     0), NumericalError (increments too large), ValueError (shapes). Ctrl-C stops it.

@@ -65,7 +65,7 @@ class Material(FromOutside):
                           'kinematic_hardening = [{ modulus = "40 GPa", recall = 200 }]\n')
         path = self.write("path.csv", "s_xx [MPa]\n550\n-450\n")
         out = self.folder / "out.csv"
-        text, _ = self.drive(card, "--stress", path, "--increments", "4000", "--cycles", "7", "--out", out)
+        text, _ = self.drive(card, "--stress", path, "--cycles", "7", "--out", out)
         cycles = rows(out.with_suffix(".cycles.csv"))
         self.assertEqual(len(cycles), 7)
         for c in cycles[1:]:
@@ -176,12 +176,17 @@ class Material(FromOutside):
         self.assertIn("the points go up only: give both branches", err)
         self.assertFalse(out.exists())
 
-    def test_few_increments_of_cycles_are_told(self):
-        args = [SHIPPED / "r260.toml", "--stress", SHIPPED / "ratchetting.csv", "--out", self.folder / "r.csv"]
-        _, err = self.drive(*args, "--cycles", "2", "--force")
-        self.assertIn("100 increments a row overestimate ratchetting", err)
-        _, err = self.drive(*args, "--cycles", "2", "--increments", "400", "--force")
-        self.assertNotIn("overestimate", err)
+    def test_near_the_limit_the_increments_are_doubled_until_the_strain_is_known(self):
+        """Armstrong and Frederick in tension: e^p = -ln(1 - (s - 300)/200)/150."""
+        card = self.write("card.toml", '[material.rail]\nyield_strength = "300 MPa"\n'
+                          'kinematic_hardening = [{ modulus = "30 GPa", recall = 150 }]\n')
+        for stress in (450, 495, 499):
+            path = self.write("path.csv", f"s_xx_MPa\n{stress}\n")
+            text, _ = self.drive(card, "--stress", path, "--out", self.folder / "out.csv", "--json", "--force")
+            found = json.loads(text)
+            exact = -math.log(1 - (stress - 300) / 200) / 150
+            self.assertLess(abs(found["points"]["p"][0] - exact), found["strain_error"])
+            self.assertLess(found["strain_error"], 1e-3 * exact)
 
     def test_only_its_own_tables_are_made_anew(self):
         card, path = self.write("card.toml", AF_VOCE), self.write("path.csv", "e_xx\n0.003\n")

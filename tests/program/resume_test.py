@@ -96,6 +96,17 @@ class Resume(FromOutside):
             self.assertGreater(abs(held["state/u_rail"][:]).max(), 1e-6)
             held.close()
 
+    def test_the_signals_of_batch_systems_end_a_run_with_a_checkpoint(self):
+        for number in (signal.SIGUSR2, signal.SIGXCPU):
+            self.out = self.folder / number.name
+            process = self.begin()
+            wait_for(lambda: rows(self.out) >= self.rows // 4, process)
+            for _ in range(3):
+                process.send_signal(number)
+            process.communicate()
+            self.assertEqual(process.returncode, 130)
+            self.assertTrue((self.out / "checkpoint.h5").exists())
+
     @slow
     def test_killed_at_random_moments(self):
         dice = random.Random(20)

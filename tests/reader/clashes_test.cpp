@@ -83,6 +83,7 @@ const std::map<std::string, Overrides>& examples() {
       {"material.rail.initial_stress",
        {"material.rail.initial_stress=[\"-100 MPa\", \"0 MPa\"]", "material.rail.hardening=R260",
         "run.plasticity=true"}},
+      {"vehicle.sprung_mass", {"vehicle.wheel_load=1 N"}},
       {"vehicle.approach", {"vehicle.approach=0.1 mm"}},
       {"drive.tractive_force", {"drive.tractive_force=5 kN"}},
       {"drive.creepage_of", {"drive.creepage_of=wheel"}},

@@ -19,8 +19,8 @@ double sprung_mass_under_axle(const CaseSpec& spec, std::size_t index, double ax
   return sprung_mass_under(spec, index, 0.5 * axle_load);
 }
 double over_static_load(const CaseSpec& spec, std::size_t, double force) { return force / spec.vehicle.load(); }
-constexpr std::string_view kMoreLoad = "give more load, or less vehicle.wheel_mass",
-                           kLessForce = "give less force, or more load";
+constexpr std::string_view kLessForce = "give less force, or more load",
+                           kLessLoad = "give less load, or another vehicle.wheel_mass";
 
 /// Speeds of spindles give the rail's surface speed V and the creepage 1 - omega r / V.
 double surface_speed(const CaseSpec& spec, std::size_t, double rotation) {
@@ -95,19 +95,22 @@ OptionTable vehicle_table() {
           "Masses and primary suspension of one wheel",
           {option("wheel_mass", at<&C::vehicle, &V::wheel_mass>, "Mass of the wheel with its share of the axle", kMass,
                   above(0, 1e5)),
-           option("sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6})
+           option("sprung_mass", at<&C::vehicle, &V::sprung_mass>,
+                  "Mass on the suspension; below 0 the load is less than the weight of "
+                  "wheel_mass, which half-spaces alone take",
+                  kMass, {-1e5, 1e6})
                .where(load_given),
            option("wheel_load", at<&C::vehicle, &V::sprung_mass>,
                   "Load of the wheel on the rail, a force or a mass, instead of the sprung mass, which is load / "
-                  "g - wheel_mass; at least the wheel's own weight",
+                  "g - wheel_mass",
                   kForce, above(0, 1e7))
-               .derived({sprung_mass_under, kMoreLoad})
+               .derived({sprung_mass_under, kLessLoad})
                .or_mass(),
            option("axle_load", at<&C::vehicle, &V::sprung_mass>,
                   "Load of both wheels on the track, a force or a mass, instead of the sprung mass; each wheel carries "
-                  "half, at least its own weight",
+                  "half",
                   kForce, above(0, 2e7))
-               .derived({sprung_mass_under_axle, kMoreLoad})
+               .derived({sprung_mass_under_axle, kLessLoad})
                .or_mass(),
            option("approach", at<&C::vehicle, &V::approach>,
                   "Approach of wheel and rail along the contact normal, instead of a load, which is then a result; "

@@ -259,13 +259,19 @@ std::string named(const Diagnostic& d) {
   return d.message.find(d.where) == std::string::npos ? fmt::format("{}: {}", d.where, d.message) : d.message;
 }
 
-/// Only blanks and comments.
-bool says_nothing(const std::string& text) {
+/// A case that was saved before its text, or another file: its defaults were not meant.
+void require_keys(const std::string& text, const std::filesystem::path& file) {
+  bool empty = true;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    if (const std::size_t at = line.find_first_not_of(" \t\r"); at != std::string::npos && line[at] != '#')
-      return false;
-  return true;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string_view said = trimmed(line, " \t\r");
+    if (said.starts_with('#') || said.empty()) continue;
+    if (said.find('=') != std::string::npos) return;
+    empty = empty && said.starts_with('[');
+  }
+  if (empty)
+    throw CaseError("the case file has no key", "write one at least, e.g. title = \"my case\" below [case]",
+                    file.string());
 }
 
 }  // namespace
@@ -290,9 +296,6 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   note_types(loaded);
   spread_over_wheels(of_loads, of_bogies, loaded);
   loaded.resolved_toml = resolved_case(loaded.spec);
-  if (says_nothing(text))
-    loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),
-                                       overrides.empty() ? "" : ", but for what --set gives"));
   for (IdleSetting& idle : idle_settings(loaded.spec, &source)) {
     if (idle.by && overlooked(*idle.by))
       loaded.idle.push_back(std::move(idle));
@@ -306,6 +309,7 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
 LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   std::vector<std::string> notes;
   const std::string text = read_text_file(file, "shipped cases stand in cases/, e.g. cases/quick/case.toml", &notes);
+  require_keys(text, file);
   LoadedCase loaded = parse_case(text, file, overrides);
   loaded.inputs.insert(loaded.inputs.begin(), file);
   loaded.notes.insert(loaded.notes.begin(), notes.begin(), notes.end());

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <optional>
-#include <sstream>
 
 #include "core/faults.hpp"
-#include "core/text.hpp"
+#include "spec/case_spec.hpp"
+#include "tables/column_words.hpp"
 #include "tables/unit_table.hpp"
 #include "text/text_file.hpp"
 
@@ -21,72 +19,38 @@ namespace fs = std::filesystem;
 
 constexpr const char* kListRemedy = "a list of wheels has the columns file and share [%]";
 
-std::string bare(std::string_view text) { return std::string(trimmed(text, " \t\r\"")); }
+/// Where the text of a column goes: the reader asks for one.
+Slot text_slot(CaseSpec& spec, std::size_t) { return &spec.title; }
 
-struct ListLine {
-  int number = 0;
-  std::vector<std::string> cells;
-};
-
-/// Lines with something in them; the first one is that of the names.
-std::vector<ListLine> lines_of(const std::string& text) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  std::istringstream stream(text.starts_with(kMark) ? text.substr(kMark.size()) : text);
-  std::vector<ListLine> out;
-  char separator = 0;
-  int number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    ++number;
-    line = line.substr(0, line.find('#'));
-    if (bare(line).empty()) continue;
-    if (separator == 0)
-      separator = line.find(';') != std::string::npos ? ';' : line.find('\t') != std::string::npos ? '\t' : ',';
-    ListLine& added = out.emplace_back();
-    added.number = number;
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, separator);) added.cells.push_back(bare(cell));
-  }
-  return out;
-}
-
-std::optional<std::size_t> column_of(const ListLine& names, std::string_view wanted) {
-  for (std::size_t k = 0; k < names.cells.size(); ++k)
-    if (names.cells[k] == wanted || names.cells[k].starts_with(std::string(wanted) + " ")) return k;
-  return std::nullopt;
-}
-
-double share_in(const fs::path& list, const ListLine& line, std::size_t column) {
-  std::string text = column < line.cells.size() ? line.cells[column] : "";
-  std::replace(text.begin(), text.end(), ',', '.');
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != 0 || !(value > 0 && value <= 100))
-    refuse_in_table(list, line.number, fmt::format("share \"{}\": must be a number above 0 and at most 100", text),
-                    "give the share of the passages in per cent, or leave the column out for equal shares");
-  return value;
-}
+/// Shares without a unit that add up to 100 are in per cent.
+const Option kFile{"file", text_slot, ""}, kShare{"share", nullptr, "", dimension::kNumber, {0, 100, true}};
 
 std::vector<WheelShare> in_list(const fs::path& list, const std::string& text) {
-  constexpr double kAll = 100, kClose = 0.5;  // per cent
-  const std::vector<ListLine> lines = lines_of(text);
-  const std::size_t file = *column_of(lines.front(), "file");
-  const std::optional<std::size_t> share = column_of(lines.front(), "share");
+  constexpr double kClose = 0.005;
+  UnitTableForm form{{}, {}, "a wheel", "file; share [%]"};
+  for (const Option* option : {&kFile, &kShare}) {
+    form.columns.push_back({option, option->key});
+    for (const std::string_view word : words_of(option->key)) form.columns.push_back({option, word});
+  }
+  const UnitTable table = read_unit_table(text, list, form);
   std::vector<WheelShare> out;
   double sum = 0;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const ListLine& line = lines[i];
-    const std::string name = file < line.cells.size() ? line.cells[file] : "";
+  for (const UnitTable::Row& row : table.rows) {
+    WheelShare& wheel = out.emplace_back(WheelShare{{}, 1});
+    for (std::size_t k = 0; k < row.cells.size(); ++k)
+      if (table.columns[k] == &kFile)
+        wheel.file = (list.parent_path() / row.cells[k].text).lexically_normal();
+      else
+        wheel.share = *row.cells[k].number;
     std::error_code error;
-    const fs::path found = (list.parent_path() / name).lexically_normal();
-    if (name.empty() || !fs::is_regular_file(found, error))
-      refuse_in_table(list, line.number, fmt::format("no profile \"{}\" (looked for {})", name, found.string()),
+    if (!fs::is_regular_file(wheel.file, error))
+      refuse_in_table(list, row.line, fmt::format("no profile {}", wheel.file.string()),
                       "name a profile's file, relative to the folder of the list");
-    out.push_back({found, share ? share_in(list, line, *share) : 1});
-    sum += out.back().share;
+    sum += wheel.share;
   }
-  if (out.empty()) refuse_in_table(list, lines.front().number, "lists no wheels", kListRemedy);
-  if (share && std::abs(sum - kAll) > kClose)
-    refuse_in_table(list, lines.front().number, fmt::format("the shares add up to {:.4g} %, must be 100 %", sum),
+  const double whole = sum > 2 ? 100 : 1;
+  if (table.has(kShare.key) && !(std::abs(sum / whole - 1) <= kClose))
+    refuse_in_table(list, table.line, fmt::format("the shares add up to {:.4g} %, must be 100 %", 100 * sum / whole),
                     "correct them, or leave the column share out for equal shares");
   for (WheelShare& wheel : out) wheel.share /= sum;
   return out;
@@ -104,8 +68,10 @@ std::string text_of(const fs::path& file) { return read_text_file(file, kListRem
 }  // namespace
 
 bool lists_wheels(const std::string& text) {
-  const std::vector<ListLine> lines = lines_of(text);
-  return !lines.empty() && column_of(lines.front(), "file");
+  const std::vector<std::string> names = column_names(text);
+  const auto named = [&](std::string_view word) { return std::find(names.begin(), names.end(), word) != names.end(); };
+  const std::vector<std::string_view>& words = words_of(kFile.key);
+  return named(kFile.key) || std::any_of(words.begin(), words.end(), named);
 }
 
 std::vector<WheelShare> measured_wheels(const fs::path& from) {

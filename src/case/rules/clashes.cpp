@@ -64,6 +64,8 @@ constexpr Feature kOfWheel{"drive.creepage_of = \"wheel\""}, kForces{"drive.trac
 // Features that are more than a value at a key.
 constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return !is_flat(c.geometry.wheel_profile); },
                                 "a profile that is not flat"},
+    kLiftedWheel{"vehicle.sprung_mass", [](const C&c) { return !(c.vehicle.sprung_mass >= 0); },
+                 "a load below the weight of vehicle.wheel_mass"},
     kRailProfile{"geometry.rail_profile", [](const C&c) { return !is_flat(c.geometry.rail_profile); },
                  "a profile that is not flat"},
     kFlangeOnArc{"geometry.rail_profile",
@@ -324,6 +326,8 @@ constexpr Clash kClashes[] = {
     {"passes.traction_coefficients", idle_with, kAtRest, kNoFriction, kLetRoll},
 
     // The finite elements
+    {kLiftedWheel, excludes, uses::kRollingElements, "the wheel rolls with its mass",
+     "give more load, or less vehicle.wheel_mass"},
     {"vehicle.approach", excludes, uses::kFiniteElements, "masses press the wheel down, and the approach follows",
      kByBem},
     {"transient.kind", excludes, uses::kFiniteElements, "one drive leads to the wanted positions, with inertia",

@@ -7,6 +7,8 @@ namespace railstrata {
 const std::vector<std::string_view>& words_of(std::string_view key) {
   static const std::vector<std::string_view> none;
   static const std::map<std::string_view, std::vector<std::string_view>> words{
+      {"file", {"Datei", "Fichier", "Fil", "文件"}},
+      {"share", {"Anteil", "Part", "Andel", "比例"}},
       {"name", {"Name", "Fahrzeug", "Véhicule", "Fordon", "名称"}},
       {"passages", {"Überrollungen", "Überfahrten", "Anzahl", "Nombre", "Antal", "通过次数"}},
       {"mgt", {"MGT", "Mio. t", "总重"}},

@@ -10,7 +10,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "core/text.hpp"
@@ -29,13 +28,6 @@ struct RowFault {
 
 std::optional<RowFault> fault_of(const CaseSpec& spec, const LoadSpec& load) {
   constexpr double kTightest = 5;  // m
-  const double wheel = spec.vehicle.wheel_mass * kGravity;
-  if (load.wheel_load && *load.wheel_load < wheel)
-    return RowFault{
-        "wheel_load",
-        fmt::format("wheel_load = {}: the wheel itself weighs {}", format_quantity(*load.wheel_load, dimension::kForce),
-                    format_quantity(wheel, dimension::kForce)),
-        "give more load, or less vehicle.wheel_mass"};
   if (load.curve_radius && !(std::abs(*load.curve_radius) >= kTightest))
     return RowFault{"curve_radius",
                     fmt::format("curve_radius = {}: must be at least {} to either side",
@@ -195,16 +187,9 @@ bool names_way(std::string_view column) {
 }
 
 /// Whether a line of names has a column of time or distance: its rows are then samples of one wheel.
-bool names_series(std::string_view text) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  std::istringstream lines{std::string(text.starts_with(kMark) ? text.substr(kMark.size()) : text)};
-  std::string line;
-  while (std::getline(lines, line) && (is_comment(line) || trimmed(line, " \t\r").empty())) {
-  }
-  std::istringstream cells(line);
-  for (std::string cell; std::getline(cells, cell, line.find(';') == std::string::npos ? ',' : ';');)
-    if (names_way(trimmed(cell, " \t\r\""))) return true;
-  return false;
+bool names_series(const std::string& text) {
+  const std::vector<std::string> names = column_names(text);
+  return std::any_of(names.begin(), names.end(), names_way);
 }
 
 /// Samples in the same bin become one load: the means of their numbers, each weighted by its passages, which are added

@@ -35,6 +35,18 @@ struct Column {
 
 std::string cell_of(std::string_view text) { return std::string(trimmed(text, " \t\r\"")); }
 
+/// Those that are neither empty nor comments.
+template <class See>
+void for_each_line(const std::string& text, See&& see) {
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    if (!cell_of(line).empty() && !is_comment(line)) see(line, number);
+  }
+}
+
 /// By the line of names. One column alone has nothing to separate.
 char separator_of(const std::string& names) {
   for (const char c : {';', '\t', ','})
@@ -300,16 +312,21 @@ bool is_comment(std::string_view line) {
   return text.starts_with('#') && !is_spreadsheet_error(trimmed(text.substr(0, text.find_first_of(";\t,\""))));
 }
 
+std::vector<std::string> column_names(const std::string& text) {
+  std::vector<std::string> out;
+  for_each_line(text, [&](const std::string& line, int) {
+    if (out.empty()) out = cells_of(line, separator_of(line));
+  });
+  return out;
+}
+
 UnitTable read_unit_table(const std::string& text, const std::filesystem::path& file, const UnitTableForm& form) {
-  std::istringstream lines(text);
   TableReader reader(form);
   int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-    if (cell_of(line).empty() || is_comment(line)) continue;
-    reader.read_line(line, {file, number});
-  }
+  for_each_line(text, [&](const std::string& line, int at) {
+    number = at;
+    reader.read_line(line, {file, at});
+  });
   UnitTable table = std::move(reader).table();
   if (table.rows.empty())
     refuse_in_table(file, std::max(number, 1), "the table has no rows",

@@ -61,6 +61,9 @@ bool names_column(std::string_view name, std::string_view key);
 /// Whether a line is a comment, "#" and anything but an error of a spreadsheet ("#NV").
 bool is_comment(std::string_view line);
 
+/// The cells of the first line that is neither empty nor a comment: the line of names.
+std::vector<std::string> column_names(const std::string& text);
+
 /// Throws CaseError with file, line and remedy: unknown and rival columns, units, numbers out of an option's range.
 UnitTable read_unit_table(const std::string& text, const std::filesystem::path& file, const UnitTableForm& form);
 

@@ -38,6 +38,7 @@ const std::array kSymbols{
     Symbol{"g", {1, -3, dimension::kMass}, true},
     Symbol{"t", {1, 3, dimension::kMass}, false},
     Symbol{"Mt", {1, 9, dimension::kMass}, false},
+    Symbol{"MGT", {1, 9, dimension::kMass}, false},
     Symbol{"m", {1, 0, dimension::kLength}, true},
     Symbol{"s", {1, 0, dimension::kTime}, true},
     Symbol{"min", {60, 0, dimension::kTime}, false},

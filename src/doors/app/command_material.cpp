@@ -104,6 +104,9 @@ nlohmann::ordered_json as_json(const MaterialRun& run, const fs::path& out, cons
   for (const CsvColumn& c : point_columns(run, true)) json["points"][c.name] = c.values;
   for (const CsvColumn& c : cycle_columns(run)) json["cycles"][c.name] = c.values;
   json["dissipated_J_m3"] = run.states.back().dissipated;
+  json["increments"] = run.increments;
+  json["strain_error"] = run.strain_error;
+  json["stress_error_Pa"] = run.stress_error;
   json["notes"] = notes;
   return json;
 }
@@ -131,17 +134,14 @@ ExitCode drive(const MaterialOptions& o, const CommandOptions& options, const Lo
   write_whole_file(
       fs::path(out).replace_extension(".svg"),
       path_picture(fmt::format("{} of {}, along {}", which.name, loaded.file.string(), file.string()), run, remarks));
-  std::vector<std::string> notes = law.notes;
-  if (const std::string note = increments_note(run, o.increments); !note.empty()) notes.push_back(note);
-  for (const std::string& note : notes) spdlog::info("{}", note);
+  for (const std::string& note : law.notes) spdlog::info("{}", note);
   warn_of_large_strain(run);
   if (options.json) {
-    fmt::print("{}\n", json_text(as_json(run, out, notes), 2));
+    fmt::print("{}\n", json_text(as_json(run, out, law.notes), 2));
   } else {
-    fmt::print(
-        "{}: {}\n{} points, {} increments each; accumulated plastic strain {:.6f} %, dissipated {:.6g} MJ/m3\n{}",
-        which.name, law_text(material), run.states.size(), o.increments, kToPercent * run.states.back().history[6],
-        kToMega * run.states.back().dissipated, run.cycles.size() > 1 ? cycles_text(run) : "");
+    fmt::print("{}: {}\n{} points, {}; accumulated plastic strain {:.6f} %, dissipated {:.6g} MJ/m3\n{}", which.name,
+               law_text(material), run.states.size(), increments_text(run), kToPercent * run.states.back().history[6],
+               kToMega * run.states.back().dissipated, run.cycles.size() > 1 ? cycles_text(run) : "");
   }
   spdlog::info("the table is {}, its picture in the same folder", out.string());
   return ExitCode::ok;
@@ -192,7 +192,11 @@ ExitCode command_material(const MaterialOptions& o, const CommandOptions& option
              fit = !o.calibrate.empty() || !o.cyclic_curve.empty() || !o.shear_yield.empty();
   if (path == fit)
     throw CaseError(
-        path ? "a path to drive and a test to fit are given" : "neither a path nor a test is given",
+        path ? "a path to drive and a test to fit are given"
+        : o.monotonic.empty()
+            ? "neither a path nor a test is given"
+            : "a tensile test alone does not distinguish hardening that turns round with the load (C, gamma) "
+              "from hardening that stays (Q, b): both pull the same curve",
         "give one of --strain PATH.csv, --stress PATH.csv, --calibrate LOOP.csv, --cyclic-curve CURVE.csv and "
         "--shear-yield POINTS.csv");
   if ((path || !o.shear_yield.empty()) && !o.monotonic.empty())
@@ -214,7 +218,10 @@ CommandWork declare_material(CLI::App& sub, CommandOptions& options) {
                  "A path of stresses: CSV with s_xx_MPa, …; what has no column is free of stress, e_xx prescribes a "
                  "strain instead")
       ->excludes(strain);
-  sub.add_option("--increments", m.increments, "Equal steps from row to row (default: 100); the error falls as 1/N")
+  sub.add_option("--increments", m.increments,
+                 "Equal steps from row to row to begin with (default: 100); they are doubled, and the states "
+                 "extrapolated, until "
+                 "these change by less than a thousandth")
       ->check(CLI::Range(1, 10000000));
   sub.add_option("--cycles", m.cycles, "Times through the rows (default: 1)")->check(CLI::Range(1, 1000000));
   auto* loop = sub.add_option("--calibrate", m.calibrate,

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <memory>
 #include <new>
@@ -156,7 +157,10 @@ class PrintableText : public spdlog::custom_flag_formatter {
 };
 
 void set_up_log(bool quiet, int verbose) {
-  auto logger = std::make_shared<spdlog::logger>("railstrata", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+  const char* plain = std::getenv("NO_COLOR");
+  auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(plain && *plain ? spdlog::color_mode::never
+                                                                                    : spdlog::color_mode::automatic);
+  auto logger = std::make_shared<spdlog::logger>("railstrata", std::move(sink));
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
   formatter->add_flag<PrintableText>('*').set_pattern("%^%l:%$ %*");
   logger->set_formatter(std::move(formatter));

@@ -18,6 +18,9 @@ void ask_to_stop(int) {
   if (asked_by_signals->stop.exchange(true) && !patient) _exit(static_cast<int>(ExitCode::interrupted));
 }
 
+/// Batch systems and limits of processor time repeat their signals.
+void ask_to_end(int) { asked_by_signals->stop = true; }
+
 void ask_to_save(int) { asked_by_signals->save = true; }
 
 }  // namespace
@@ -29,6 +32,7 @@ void handle_signals(Control& asked) {
   std::signal(SIGTERM, ask_to_stop);
   if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: it outlives its terminal
   std::signal(SIGUSR1, ask_to_save);
+  for (const int ending : {SIGUSR2, SIGXCPU}) std::signal(ending, ask_to_end);
 }
 
 }  // namespace railstrata

@@ -89,6 +89,9 @@ void drive(Call& call) {
   call.answer = {{"name", driven->chosen.name},
                  {"notes", driven->law.notes},
                  {"law", law_json(driven->chosen.spec.young, driven->law.material.plastic)},
+                 {"increments", driven->run.increments},
+                 {"strain_error", driven->run.strain_error},
+                 {"stress_error", driven->run.stress_error},
                  {"largest_plastic_strain", largest_plastic_strain(driven->run)},
                  {"states", states_json(driven->run.states)},
                  {"on_the_way", states_json(driven->run.trace)}};

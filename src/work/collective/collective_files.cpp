@@ -419,7 +419,7 @@ void write_rail_damage(const std::filesystem::path& file, const std::vector<std:
                                  column("friction_energy", kSurfaceEnergy, d.friction_energy),
                                  column("rcf_damage", kNone, d.rcf_damage)};
   for (const KnownWear& wear : known_wear(d))
-    columns.push_back(column(wear.key + "_depth", kMicrometres, d.depth(wear.law)));
+    columns.push_back(column(wear.key + "_depth", kMicrometres, smoothed_wear(d, wear.law)));
   write_csv(file, origin, columns);
 }
 

@@ -93,6 +93,76 @@ Plot by_cycle(const MaterialRun& run) {
   return out;
 }
 
+MaterialRun in_increments(const PlasticMaterial& material, const MaterialPathTable& table, int increments, int cycles,
+                          const Control* control) {
+  MaterialPath path{table.path.prescribed, {}};
+  for (int n = 0; n < cycles; ++n)
+    path.points.insert(path.points.end(), table.path.points.begin(), table.path.points.end());
+  MaterialRun out;
+  out.increments = increments;
+  out.trace.emplace_back();
+  const std::size_t every = path.points.size() * static_cast<std::size_t>(increments) / kMostTraced + 1;
+  std::size_t seen = 0;
+  const auto look = [&](const MaterialState& s) {
+    if (asked_to_stop(control)) throw Interrupted("stopped on the path");
+    if (++seen % every == 0 || seen % static_cast<std::size_t>(increments) == 0) out.trace.push_back(s);
+  };
+  try {
+    out.states = drive_path(material, path, increments, look);
+  } catch (const BeyondMaterial& e) {
+    throw beyond(material, table, e);
+  }
+  return out;
+}
+
+std::vector<MaterialState> extrapolated(const std::vector<MaterialState>& coarse, std::vector<MaterialState> fine) {
+  const auto improve = [](auto& f, const auto& c) {
+    for (std::size_t j = 0; j < f.size(); ++j) f[j] += f[j] - c[j];
+  };
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    improve(fine[i].strain, coarse[i].strain);
+    improve(fine[i].stress, coarse[i].stress);
+    improve(fine[i].history, coarse[i].history);
+    fine[i].dissipated += fine[i].dissipated - coarse[i].dissipated;
+  }
+  return fine;
+}
+
+/// Puts what two extrapolations differ by into the errors of `run`; whether that is little.
+bool compare(const std::vector<MaterialState>& before, const std::vector<MaterialState>& now, MaterialRun& run) {
+  constexpr double kEnough = 1e-3, kNone = 1e-9, kNoStress = 1;  // -, -, Pa: round-off
+  constexpr std::size_t kStrains = 7;                            // plastic strain and p
+  double largest_strain = 0, largest_stress = 0;
+  run.strain_error = run.stress_error = 0;
+  const auto look = [](const auto& a, const auto& b, std::size_t count, double& error, double& largest) {
+    for (std::size_t j = 0; j < count; ++j) {
+      error = std::max(error, std::abs(b[j] - a[j]));
+      largest = std::max(largest, std::abs(b[j]));
+    }
+  };
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    look(before[i].history, now[i].history, kStrains, run.strain_error, largest_strain);
+    look(before[i].strain, now[i].strain, now[i].strain.size(), run.strain_error, largest_strain);
+    look(before[i].stress, now[i].stress, now[i].stress.size(), run.stress_error, largest_stress);
+  }
+  return run.strain_error <= std::max(kEnough * largest_strain, kNone) &&
+         run.stress_error <= std::max(kEnough * largest_stress, kNoStress);
+}
+
+std::vector<MaterialCycle> cycles_of(const std::vector<MaterialState>& states, std::size_t rows) {
+  std::vector<MaterialCycle> out;
+  MaterialState before;
+  for (std::size_t last = rows; last <= states.size(); last += rows) {
+    const MaterialState& after = states[last - 1];
+    MaterialCycle& cycle = out.emplace_back();
+    cycle.number = static_cast<int>(out.size());
+    for (std::size_t j = 0; j < 6; ++j) cycle.net[j] = after.history[j] - before.history[j];
+    cycle.accumulated = after.history[6] - before.history[6];
+    before = after;
+  }
+  return out;
+}
+
 }  // namespace
 
 double MaterialCycle::largest_net() const {
@@ -124,31 +194,20 @@ ChosenLaw law_of(const LoadedCase& card, const ChosenMaterial& chosen, double de
 
 MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTable& table, int increments, int cycles,
                          const Control* control) {
-  MaterialPath path{table.path.prescribed, {}};
-  for (int n = 0; n < cycles; ++n)
-    path.points.insert(path.points.end(), table.path.points.begin(), table.path.points.end());
-  MaterialRun out;
-  out.trace.emplace_back();
-  const std::size_t every = path.points.size() * static_cast<std::size_t>(increments) / kMostTraced + 1;
-  std::size_t seen = 0;
-  const auto look = [&](const MaterialState& s) {
-    if (asked_to_stop(control)) throw Interrupted("stopped on the path");
-    if (++seen % every == 0 || seen % static_cast<std::size_t>(increments) == 0) out.trace.push_back(s);
-  };
-  try {
-    out.states = drive_path(material, path, increments, look);
-  } catch (const BeyondMaterial& e) {
-    throw beyond(material, table, e);
+  constexpr int kMostDoublings = 8;
+  MaterialRun coarse = in_increments(material, table, increments, cycles, control),
+              out = in_increments(material, table, 2 * increments, cycles, control);
+  std::vector<MaterialState> before = extrapolated(coarse.states, out.states);
+  for (int doubling = 2; doubling <= kMostDoublings; ++doubling) {
+    coarse = std::move(out);
+    out = in_increments(material, table, 2 * coarse.increments, cycles, control);
+    std::vector<MaterialState> now = extrapolated(coarse.states, out.states);
+    const bool enough = compare(before, now, out);
+    before = std::move(now);
+    if (enough) break;
   }
-  MaterialState before;
-  for (std::size_t last = table.lines.size(); last <= out.states.size(); last += table.lines.size()) {
-    const MaterialState& after = out.states[last - 1];
-    MaterialCycle& cycle = out.cycles.emplace_back();
-    cycle.number = static_cast<int>(out.cycles.size());
-    for (std::size_t j = 0; j < 6; ++j) cycle.net[j] = after.history[j] - before.history[j];
-    cycle.accumulated = after.history[6] - before.history[6];
-    before = after;
-  }
+  out.states = std::move(before);
+  out.cycles = cycles_of(out.states, table.lines.size());
   return out;
 }
 
@@ -173,13 +232,9 @@ std::string path_picture(const std::string& title, const MaterialRun& run, const
   return plots_svg(title, {loops(run), run.cycles.size() > 1 ? by_cycle(run) : along_path(run)}, remarks);
 }
 
-std::string increments_note(const MaterialRun& run, int increments) {
-  constexpr int kEnough = 400;
-  if (run.cycles.size() < 2 || increments >= kEnough || run.states.back().history[6] == 0) return "";
-  return fmt::format(
-      "{} increments a row overestimate ratchetting, by an error that falls as 1/N: look at it with "
-      "--increments {}",
-      increments, std::max(2 * increments, kEnough));
+std::string increments_text(const MaterialRun& run) {
+  return fmt::format("{} increments a row, extrapolated: ± {:.2g} % of strain, ± {:.2g} MPa", run.increments,
+                     kToPercent * run.strain_error, kToMega * run.stress_error);
 }
 
 double largest_plastic_strain(const MaterialRun& run) {

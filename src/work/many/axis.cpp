@@ -128,6 +128,11 @@ class AxisNumbers {
     return out;
   }
 
+  /// To twelve digits, as people write values: 9 mm, not 9.000000000000001 mm; round-off of `size` is zero.
+  static double rounded(double value, double size) {
+    return std::abs(value) < 1e-12 * size ? 0 : std::stod(fmt::format("{:.12g}", value));
+  }
+
   std::vector<double> range(std::string_view given) const {
     const bool by_ratio = given.starts_with("log ");
     const std::vector<std::string> parts = split(by_ratio ? given.substr(4) : given, ':');
@@ -137,8 +142,8 @@ class AxisNumbers {
     std::vector<double> out;
     for (int k = 0; k < n; ++k)
       out.push_back(k == n - 1 ? to
-                    : by_ratio ? from * std::pow(to / from, static_cast<double>(k) / (n - 1))
-                               : from + (to - from) * k / (n - 1));
+                    : by_ratio ? rounded(from * std::pow(to / from, static_cast<double>(k) / (n - 1)), 0)
+                               : rounded(from + (to - from) * k / (n - 1), std::abs(to - from)));
     return out;
   }
 

@@ -24,13 +24,19 @@ struct LinePoint {
 void add_trend(ReportChart& chart, const std::string& key, const std::string& column,
                const std::vector<LinePoint>& points);
 
+/// A key as the name of an axis: "friction coefficient".
+std::string key_name(const std::string& key);
+
+/// Over all cases with a strength: how many last, and what decides; without one the range of p_max.
+std::vector<ReportAnswer> cases_answers(const std::vector<CaseRow>& rows);
+
 /// "name [unit]", the unit that the values have.
 std::string axis_title(const std::string& name, const std::vector<std::string>& values);
 
 /// A number of a result as a column of a page's table, in the unit that pages show.
 CaseColumn number_column(const ResultColumn& column);
 
-/// The shown columns of all cases between those of `head` and their state.
+/// The shown columns of all cases between those of `head` and answers and state.
 ReportTable cases_table(const std::string& note, const std::vector<CaseColumn>& head, const std::vector<CaseRow>& rows);
 
 }  // namespace railstrata

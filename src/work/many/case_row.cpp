@@ -71,9 +71,16 @@ std::vector<CaseColumn> number_columns(const std::vector<CaseRow>& rows) {
 }
 
 std::vector<CaseColumn> answer_columns(const std::vector<CaseRow>& rows) {
-  if (std::all_of(rows.begin(), rows.end(), [](const CaseRow& row) { return row.remarks.lasts.empty(); })) return {};
-  return {{"lasts", [](const CaseRow& row) { return row.remarks.lasts; }},
-          {"decided_by", [](const CaseRow& row) { return row.remarks.decided_by; }}};
+  const std::vector<CaseColumn> all{{"lasts", [](const CaseRow& row) { return row.remarks.lasts; }},
+                                    {"decided_by", [](const CaseRow& row) { return row.remarks.decided_by; }},
+                                    {"life", [](const CaseRow& row) { return row.remarks.life; }}};
+  const auto given = [&](std::string ResultRemarks::*remark) {
+    return std::any_of(rows.begin(), rows.end(), [=](const CaseRow& row) { return !(row.remarks.*remark).empty(); });
+  };
+  std::vector<CaseColumn> out;
+  if (given(&ResultRemarks::lasts)) out = {all[0], all[1]};
+  if (given(&ResultRemarks::life)) out.push_back(all[2]);
+  return out;
 }
 
 std::vector<CaseColumn> remark_columns() {

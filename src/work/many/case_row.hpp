@@ -38,7 +38,7 @@ struct CaseTable {
 /// The keys that any case varies and the numbers that any case has, in the order of the rows.
 std::vector<CaseColumn> value_columns(const std::vector<CaseRow>& rows);
 std::vector<CaseColumn> number_columns(const std::vector<CaseRow>& rows);
-/// Whether it lasts and what decides, where any row has a strength.
+/// Whether it lasts and what decides, where any row has a strength; whether a life ends, where one was asked for.
 std::vector<CaseColumn> answer_columns(const std::vector<CaseRow>& rows);
 /// The last columns of every row: fault, patches, checks, warnings.
 std::vector<CaseColumn> remark_columns();

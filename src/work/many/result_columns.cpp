@@ -101,6 +101,10 @@ ResultRemarks remarks_of(const nlohmann::ordered_json& summary) {
     out.lasts = summary[answer].value("lasts", "");
     out.decided_by = summary[answer].value("zone", "");
   }
+  if (const auto life = summary.find("life"); life != summary.end()) {
+    const nlohmann::ordered_json best = life->value("best_kg", nlohmann::ordered_json());
+    out.life = best.is_number() ? "ends" : best == kEndlessLife ? "never" : life->value("text", "");
+  }
   return out;
 }
 

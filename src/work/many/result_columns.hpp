@@ -32,11 +32,12 @@ std::string column_title(const std::string& name);
 double column_value(const ResultColumn& column, const nlohmann::ordered_json& summary);
 
 /// Columns beside the numbers of a result in a table: its patches (0: no result), "ok" or the checks that fail, the
-/// warnings; names separated by "; "; whether it lasts and the zone that decides, both empty without a strength.
+/// warnings; names separated by "; "; whether it lasts and the zone that decides, both empty without a strength;
+/// whether a life ends: "ends", "never", "not known: …" with the reason, empty where none was asked for.
 struct ResultRemarks {
   int patches = 0;
   std::string checks, warnings;
-  std::string lasts, decided_by;
+  std::string lasts, decided_by, life = {};
 };
 ResultRemarks remarks_of(const nlohmann::ordered_json& summary);
 

@@ -26,11 +26,11 @@ const Axis* along(const std::vector<Axis>& axes) {
   return best;
 }
 
-/// "layer.0.thickness 1 mm, drive.friction_coefficient 0.3": the values of all keys but one.
+/// "thickness h 1 mm, friction coefficient 0.3": the values of all keys but one.
 std::string line_name(const CaseRow& row, const std::string& without) {
   std::string out;
   for (const auto& [key, value] : row.values)
-    if (key != without) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", key, value);
+    if (key != without) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", key_name(key), shown_value(value));
   return out.empty() ? "all cases" : out;
 }
 
@@ -51,9 +51,10 @@ void write_sweep_page(const std::filesystem::path& page, const std::string& titl
                       const std::vector<CaseRow>& rows) {
   Report report;
   report.title = fmt::format("{}: sweep", title);
+  report.answers = cases_answers(rows);
   if (const Axis* axis = along(axes)) {
     const std::vector<LinePoint> points = points_over(axis->key, rows);
-    const std::string x = axis_title(axis->key, axis->values);
+    const std::string x = axis_title(key_name(axis->key), axis->values);
     const std::string note =
         points.size() < rows.size() ? fmt::format("The first {} lines; the table has all of them.", kMostLines) : "";
     for (const ResultColumn* column : shown_columns(rows)) {

@@ -1,6 +1,7 @@
 #include "runs/receptance.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -129,9 +130,32 @@ std::vector<CsvColumn> receptance_table(const Receptance& r) {
   return out;
 }
 
+/// Largest values that stand above what lies half an octave beside them, of the first curve.
+std::vector<std::string> resonances(const Receptance& r) {
+  constexpr double kBeside = 1.2;
+  std::vector<std::string> out;
+  const std::vector<std::complex<double>>& u = r.curves.back().values;
+  for (std::size_t k = 1; k + 1 < u.size(); ++k) {
+    bool peak = true;
+    for (std::size_t j = 1; j < u.size() && peak; ++j)
+      if (j != k && r.frequency[j] > r.frequency[k] / kBeside && r.frequency[j] < r.frequency[k] * kBeside)
+        peak = std::abs(u[j]) < std::abs(u[k]);
+    if (peak) out.push_back(fmt::format("{:.0f} Hz ({:.3g} nm/N)", r.frequency[k], 1e9 * std::abs(u[k])));
+  }
+  return out;
+}
+
+ReportAnswer receptance_answer(const Receptance& r) {
+  const std::vector<std::string> peaks = resonances(r);
+  return {"plain", peaks.empty() ? "No resonance" : fmt::format("Resonances at {}", fmt::join(peaks, ", ")),
+          fmt::format("of {}; static compliance {:.3g} nm/N, pinned-pinned mode of the beam at {:.0f} Hz",
+                      r.curves.back().shown, 1e9 * std::abs(r.curves.back().values.front()), r.pinned_pinned)};
+}
+
 void write_receptance_page(const std::filesystem::path& page, const std::string& title, const Receptance& r) {
   Report report;
   report.title = fmt::format("{}: receptance", title);
+  report.answers = {receptance_answer(r)};
   report.charts.push_back(receptance_chart(r, "modulus", "Receptance", "|u/F|, dB of 1 nm/N", decibels));
   report.charts.push_back(receptance_chart(r, "phase", "Phase", "degrees",
                                            [](std::complex<double> v) { return unit::kDegrees.factor * std::arg(v); }));

@@ -23,19 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Name of a key on an axis.
-std::string key_name(const std::string& key) {
-  static const std::map<std::string, std::string> names{{"layer.0.thickness", "thickness h"},
-                                                        {"layer.0.young_ratio", "E₁/E₀"},
-                                                        {"drive.traction_coefficient", "F_T/G"},
-                                                        {"layer.0.elements", "elements through the layer"}};
-  const auto known = names.find(key);
-  if (known != names.end()) return known->second;
-  std::string out = last_part(key);
-  std::replace(out.begin(), out.end(), '_', ' ');
-  return out;
-}
-
 std::string value_name(const std::string& key, const std::string& value) {
   if (key == "layer.0.young_ratio") return value == "1" ? "E₁ = E₀" : fmt::format("E₁ = {} E₀", value);
   return fmt::format("{} {}", key_name(key), shown_value(value));
@@ -304,30 +291,6 @@ void add_verdict(const std::vector<CaseRow>& entries, Report& report, ReportTabl
   }
 }
 
-/// Over all cases with a strength: how many last.
-std::vector<ReportAnswer> study_answers(const std::vector<CaseRow>& rows) {
-  std::map<std::string, int> lasts, decides;
-  int answered = 0;
-  for (const CaseRow& row : rows) {
-    if (row.remarks.lasts.empty()) continue;
-    ++answered;
-    ++lasts[row.remarks.lasts];
-    if (row.remarks.lasts == "no") ++decides[row.remarks.decided_by];
-  }
-  if (answered == 0) return {};
-  const int yes = lasts["yes"], no = lasts["no"];
-  std::vector<std::string> by, rest;
-  for (const auto& [zone, count] : decides) by.push_back(fmt::format("{} in {}", zone, count));
-  if (no > 0)
-    rest.push_back(fmt::format("{} {} not (decided by {})", no, no == 1 ? "does" : "do", fmt::join(by, ", ")));
-  for (const auto& [word, count] : lasts)
-    if (word != "yes" && word != "no") rest.push_back(fmt::format("{} {}", count, word));
-  return {{yes == answered              ? "good"
-           : yes == 0 && no == answered ? "bad"
-                                        : "open",
-           fmt::format("{} of {} cases last", yes, answered), fmt::format("{}", fmt::join(rest, ", "))}};
-}
-
 ReportTable engines_table() {
   ReportTable t{.id = "engines",
                 .title = "Finite elements against half-spaces",
@@ -364,7 +327,7 @@ std::vector<CaseColumn> head_columns(const StudySpec& study, const std::vector<C
 Report study_report(const StudySpec& study, const std::vector<CaseRow>& entries) {
   Report report;
   report.title = study.title;
-  report.answers = study_answers(entries);
+  report.answers = cases_answers(entries);
   for (const StudyFigure& f : study.figures) {
     if (f.kind == "centre_line")
       add_centre_lines(f, entries, report);

@@ -153,9 +153,33 @@ ReportTable sources_of(std::span<const Validation> all) {
   return table;
 }
 
+/// How many sets agree, and the comparison that is farthest beyond its bar.
+ReportAnswer answer_of(std::span<const Validation> all) {
+  std::size_t judged = 0, held = 0;
+  const Comparison* worst = nullptr;
+  const Validation* of = nullptr;
+  const auto share = [](const Comparison& c) { return c.difference / c.column->bar; };
+  for (const Validation& v : all)
+    for (const Comparison& c : v.comparisons) {
+      if (c.agreement == Agreement::not_judged) continue;
+      ++judged;
+      held += c.agreement == Agreement::within_scatter || c.agreement == Agreement::within_bar;
+      if (!worst || !(share(c) <= share(*worst))) {
+        worst = &c;
+        of = &v;
+      }
+    }
+  if (!worst) return {"plain", "Nothing was judged", "the sets have no bar: the table shows the differences"};
+  return {held == judged ? "good" : "bad", fmt::format("{} of {} comparisons hold", held, judged),
+          fmt::format("the worst is {} of {}: {} of a bar of {}, {}", worst->column->title, of->set->title,
+                      measured_text(*worst->column, worst->difference),
+                      measured_text(*worst->column, worst->column->bar), agreement_text(worst->agreement))};
+}
+
 Report report_of(std::span<const Validation> all, const std::string& title) {
   Report report;
   report.title = title;
+  report.answers = {answer_of(all)};
   report.tables = {verdicts_of(all), sources_of(all)};
   for (const Validation& v : all)
     for (const ComparedColumn& column : v.set->compared)

@@ -197,6 +197,7 @@ class WearLoopJob : public CaseJob {
                                   read_profile_table(step_folder(row.step) / kProfile),
                                   {}});
     history.contacts = loads_;
+    history.traffic = in_si(kColumns, rows_.back()).traffic;
     write_wear_loop_page(folder() / kWearPage, history);
     control_.info("everything on one page: {}", (folder() / kWearPage).string());
     return true;

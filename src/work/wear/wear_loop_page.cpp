@@ -137,6 +137,20 @@ ReportTable steps_table(const WearLoopHistory& history) {
   return t;
 }
 
+ReportAnswer wear_answer(const WearLoopHistory& history) {
+  const WornRail& last = history.profiles.back();
+  const std::vector<double> depth = worn_depth(history.unworn, last.points);
+  const auto most = std::max_element(depth.begin(), depth.end());
+  const double traffic = unit::kMGT.factor * history.traffic;
+  const std::string each =
+      traffic > 0 ? fmt::format(" ({:.3g} MGT, {:.3g} mm per 100 MGT)", traffic, 100 / traffic * kToMilli * *most) : "";
+  return {"plain", "Wear",
+          fmt::format("{:.3g} µm after {:.4g} passages{}, at y = {:.1f} mm of the rail; {:.3g} mm² in all",
+                      kToMicro * *most, last.passages, each,
+                      kToMilli * history.unworn[static_cast<std::size_t>(most - depth.begin())].y,
+                      unit::kSquareMillimetres.factor * last.area)};
+}
+
 }  // namespace
 
 std::vector<WearLoad> wear_loads(const WearStep& step, double passages_before) {
@@ -176,6 +190,7 @@ void write_wear_loop_page(const std::filesystem::path& page, const WearLoopHisto
   const ShownCells reach = cells_above(worn_depth(history.unworn, history.profiles.back().points), kWorn, kRoom);
   Report report;
   report.title = fmt::format("{}: wear loop", history.title);
+  report.answers = {wear_answer(history)};
   report.tables = {steps_table(history)};
   report.charts = {depth_chart(history, reach),
                    profile_chart(history, reach),

@@ -31,6 +31,7 @@ struct WearLoopHistory {
   std::vector<Vec2> unworn;        ///< m
   std::vector<WornRail> profiles;  ///< after each step, in order
   std::vector<WearLoad> contacts;
+  double traffic = 0;  ///< kg, gross
 };
 void write_wear_loop_page(const std::filesystem::path& page, const WearLoopHistory& history);
 
