@@ -3,7 +3,7 @@
 # target `extras` builds them all. A variant is a second build of some of them for another instruction set: its targets end in _<variant>
 # (room_fem_v3). The width of a SIMD pack follows from the instruction set: whatever has a pack in it, or is laid out by
 # packs, belongs to these rooms, and its names say the width (core/simd.hpp).
-set(ROOMS_OF_VARIANTS core material friction halfspace fft damage steady mesh element contact body bem fem device
+set(ROOMS_OF_VARIANTS core material friction halfspace fft damage steady mesh element contact section body bem fem device
   single_track)
 
 include(CheckCXXCompilerFlag)
@@ -91,6 +91,7 @@ set(ROOM_LIBS_core fmt::fmt OpenMP::OpenMP_CXX)
 set(ROOM_LIBS_material Eigen3::Eigen)
 set(ROOM_LIBS_geometry Eigen3::Eigen)
 set(ROOM_LIBS_element Eigen3::Eigen)
+set(ROOM_LIBS_section Eigen3::Eigen)
 set(ROOM_LIBS_halfspace Eigen3::Eigen)
 set(ROOM_LIBS_steady Eigen3::Eigen)
 set(ROOM_LIBS_track Eigen3::Eigen)

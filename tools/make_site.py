@@ -30,7 +30,7 @@ SECTIONS = [
              "docs/study.md",
              "docs/report.md", "docs/explorer.md", "docs/export.md", "docs/creep-table.md", "docs/track.md",
              "docs/validate.md", "docs/gpu.md"]),
-    ("Theory", ["docs/bem-theory.md", "docs/finite-elements-theory.md", "docs/damage-theory.md",
+    ("Theory", ["docs/bem-theory.md", "docs/bem-sections.md", "docs/finite-elements-theory.md", "docs/damage-theory.md",
                 "docs/passes-theory.md"]),
     ("Verification", ["docs/validation.md", "docs/bem-verification.md", "docs/finite-elements-verification.md",
                       "docs/damage-verification.md", "docs/passes-verification.md"]),

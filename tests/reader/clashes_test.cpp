@@ -40,6 +40,7 @@ const std::map<std::string, Overrides>& examples() {
        {"geometry.contact=line", "geometry.line_length=20 mm", "geometry.wheel_profile=flat",
         "geometry.rail_profile=flat", "geometry.cant=0"}},
       {"geometry.line_length", {"geometry.line_length=20 mm"}},
+      {"bem.bodies", {"bem.bodies=sections"}},
       {"geometry.wheel_profile", {"geometry.wheel_profile=LMA"}},
       {"geometry.rail_profile", {"geometry.rail_profile=CN60"}},
       {"an arc or a plane below a wheel with a flange", {"geometry.rail_profile=\"arc:R=300 mm\""}},

@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/body_id.hpp"
 #include "core/faults.hpp"
 #include "geometry/height_field.hpp"
 #include "geometry/profile_names.hpp"
@@ -311,6 +310,35 @@ double Model::likely_end(double position) const {
   for (std::size_t k = 1; k < spec.run.positions.size(); ++k)
     if (const double end = spec.run.positions[k] + 0.5 * spec.run.window; end > position) return end;
   return x_end;
+}
+
+MeshedSection meshed_section(const CaseSpec& spec, const Placement& placement, BodyId body, double contact_s,
+                             const MeshSizes& sizes) {
+  CaseSpec own = spec;
+  own.mesh.element_size = sizes.element;
+  for (LayerSpec& layer : own.layers) layer.elements = 0;
+  const GeometrySpec& g = spec.geometry;
+  MeshedSection out;
+  if (body == BodyId::rail) {
+    RailMeshSpec rail;
+    rail.shape = g.rail_shape;
+    rail.contact_s = contact_s;
+    rail.x_end = sizes.element;
+    rail.block_width = g.block_width;
+    rail.block_height = g.block_height;
+    rail.layers = layer_meshes(own, body);
+    out = {mesh_rail(placement.rail, placement.track, rail, sizes), materials_of(own, body, spec.rail_material)};
+  } else {
+    WheelMeshSpec wheel;
+    wheel.shape = g.wheel_shape;
+    wheel.contact_s = contact_s;
+    wheel.theta_end = sizes.element / g.wheel_radius;
+    wheel.section = g.wheel_section;
+    wheel.layers = layer_meshes(own, body);
+    out = {mesh_wheel(placement.wheel, g.wheel_radius, {}, wheel, sizes), materials_of(own, body, spec.wheel_material)};
+  }
+  require_sound_mesh(out.body, body, spec);
+  return out;
 }
 
 Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail) {

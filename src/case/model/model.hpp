@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/body_id.hpp"
 #include "friction/third_body.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile.hpp"
@@ -68,6 +69,15 @@ struct Model {
   }
   Vec2 wheel_section_normal(double s) const { return placement.wheel.at(s).outward; }
 };
+
+/// A body's mesh over a short way, for its section alone, and its materials as Model has them. Layers have as many rows
+/// as the sizes ask for. contact_s: arc length of the middle of the fine columns. Throws CaseError as build_model.
+struct MeshedSection {
+  SweptBody body;
+  std::vector<Elastic> materials;
+};
+MeshedSection meshed_section(const CaseSpec& spec, const Placement& placement, BodyId body, double contact_s,
+                             const MeshSizes& sizes);
 
 /// Meshes both bodies; not null: the rail has this mesh, of another model of the same rail, for wheels elsewhere across
 /// it (whether the patch lies in its fine zone is for the caller: a rolling reports patch_reaches_edge_of_fine_zone).

@@ -85,7 +85,12 @@ OptionTable run_table() {
 OptionTable bem_table() {
   return {"bem",
           "The half-space engine",
-          {choice_at<&C::bem, &BemSpec::leading_edge>(
+          {choice_at<&C::bem, &BemSpec::bodies>(
+               "bodies",
+               "Elastic bodies of the contact. sections: the sections of rail and wheel with their layers, the foot "
+               "and the bore held; stresses below stay those of half-spaces",
+               {{"half_spaces", ContactBodies::half_spaces}, {"sections", ContactBodies::sections}}),
+           choice_at<&C::bem, &BemSpec::leading_edge>(
                "leading_edge",
                "How rows of cells meet the leading edge of the patch. sub_cell: inside a cell, computed from the gap; "
                "whole_cell: between two cells, as in Kalker's method and CONTACT",

@@ -158,7 +158,7 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
     kUnreached{"life.until", [](const C&c) { return c.life.first_cracks.value_or(0) > c.life.until; },
                "a rail that is not followed so far"},
     kElastic{"run.plasticity = false", [](const C&c) { return !c.run.plasticity && c.life.until == 0; }},
-    kLayerEnds{"layer.from | layer.to"},
+    kLayerEnds{"layer.from | layer.to"}, kSections{"bem.bodies = \"sections\""},
     kGivingInterface{"layer.interface_normal_stiffness | layer.interface_shear_stiffness"},
     kRollingColumns{
         "transient.creepage | transient.lateral_creepage | transient.spin | transient.at_distance | "
@@ -171,13 +171,14 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
     kStationaryGrid{"passes.patch_cells | passes.patch_rows | passes.first_row | passes.window"};
 
 using enum ClashRule;
-constexpr const Use* kInElements = &uses::kFiniteElements;
+constexpr const Use *kInElements = &uses::kFiniteElements, *kInHalfSpaces = &uses::kHalfSpaces;
 
 constexpr const char *kOneOut = "take one of them out", *kOut = "take it out",
                      *kByBem = "take it out, or solve the case with `railstrata bem`",
                      *kByRun = "take it out, or roll over it with `railstrata run`",
                      *kCpu = "give run.device = \"cpu\"",
                      *kPoint = "leave it out, or give geometry.contact = \"point\"";
+constexpr const char* kOfHalfSpaces = "it is implemented for half-spaces";
 constexpr const char* kOfBonded = "plastic strain is followed in bonded layers";
 constexpr const char *kStraight = "its wheel rolls straight on and level", *kAcross = "all places across are the same",
                      *kUnknown = "displacements of distant points are not known in plane strain",
@@ -385,6 +386,18 @@ constexpr Clash kClashes[] = {
      "steady rolling needs a rail and a wheel that are the same all along",
      "take it out; half-spaces roll over it with transient.kind = \"rolling\", the finite elements with `railstrata "
      "run`"},
+    {kSections, excludes, "transient.kind", "sections are solved in steady rolling", kOneOut, kInHalfSpaces},
+    {kSections, excludes, "run.rolling = false", "sections are solved in steady rolling", kOneOut, kInHalfSpaces},
+    {kSections, excludes, kLine, "sections meet in patches", kOneOut, kInHalfSpaces},
+    {kSections, excludes, "geometry.rail_radius", "the section is that of a straight rail", kOneOut, kInHalfSpaces},
+    {kSections, excludes, kGivingInterface, "layers of sections are bonded", kOneOut, kInHalfSpaces},
+    {kSections, excludes, kIncompressible, "elements lock", kOneOut, kInHalfSpaces},
+    {kSections, excludes, uses::kStates, kOfHalfSpaces, kByBem},
+    {kSections, excludes, uses::kCollective, kOfHalfSpaces, kByBem},
+    {kSections, excludes, uses::kPasses, kOfHalfSpaces, kByBem},
+    {kSections, excludes, uses::kCreepTable, kOfHalfSpaces, kByBem},
+    {kSections, excludes, uses::kContactResult, kOfHalfSpaces, "export a case with bem.bodies = \"half_spaces\""},
+    {kSections, excludes, uses::kExplorer, kOfHalfSpaces, kByBem},
     {kRollingDevice, idle_with, uses::kHalfSpaces, "half-spaces are computed on processors", ""},
 
     // Commands

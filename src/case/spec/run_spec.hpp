@@ -69,7 +69,14 @@ enum class SpinAngle {
   patch   ///< of the contact plane everywhere
 };
 
+/// What carries the surfaces of the contact of the half-space engine.
+enum class ContactBodies {
+  half_spaces,
+  sections  ///< the rail's and the wheel's own, alike along rolling (bem/rows_difference.hpp)
+};
+
 struct BemSpec {
+  ContactBodies bodies = ContactBodies::half_spaces;
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
   SpinAngle spin_angle = SpinAngle::local;
 };

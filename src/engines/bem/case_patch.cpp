@@ -52,22 +52,26 @@ std::string describe(const NormalTarget& target) {
                      : fmt::format("approach of {:.3g} mm", 1e3 * *target.approach);
 }
 
-void gap_and_influence(const Placement& placement, const BemOptions& options, InfluenceCache& cache, CasePatch& patch) {
+void gap_and_influence(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                       InfluenceCache& cache, CasePatch& patch) {
   patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, patch.grid);
   if (options.rail_surface) {
     patch.surface = options.rail_surface(patch.grid);
     for (std::size_t k = 0; k < patch.profile.gap.size(); ++k)
       if (patch.profile.gap[k] < ProfileGap::kNoSurface) patch.profile.gap[k] += patch.surface.sinking[k];
   }
-  patch.influence = cache.get(patch.wheel, patch.rail, patch.grid, patch.contact.third_body.flexibility());
+  const double film = patch.contact.third_body.flexibility();
+  patch.influence = spec.bem.bodies == ContactBodies::half_spaces
+                        ? cache.get(patch.wheel, patch.rail, patch.grid, film)
+                        : cache.get(patch.wheel, patch.rail, patch.grid, film, {spec, placement});
 }
 
-void fit_grid(const Placement& placement, const NormalTarget& target, const PatchRoom& room, const BemOptions& options,
-              InfluenceCache& cache, CasePatch& patch) {
+void fit_grid(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, const PatchRoom& room,
+              const BemOptions& options, InfluenceCache& cache, CasePatch& patch) {
   const int most_x = most_cells(options, options.cell), most_y = most_cells(options, across_of(options));
   for (int grown = 0;; ++grown) {
     PatchGrid& g = patch.grid;
-    gap_and_influence(placement, options, cache, patch);
+    gap_and_influence(spec, placement, options, cache, patch);
     keep_to_room(g, room, patch.profile.gap);
     patch.frictionless = solve_normal(*patch.influence, g, gap_after(patch, 0), target, options.rolling.normal);
     const Touches edge = touches(g, patch.frictionless.pressure);
@@ -90,11 +94,15 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
 
 /// Rigid slip of the wheel's surface beyond creepage: each point moves with its local rolling radius, of a rail that
 /// turns too with its own. The part linear in y, -spin y, is left to the spin, which also brings the lateral slip.
-Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidContact& contact, double spin) {
+/// Surfaces meet halfway; of sections the wheel's own counts, whose influence brings its displacement.
+Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidContact& contact, double spin,
+                     ContactBodies bodies) {
   Plane slip(g.size());
   for (std::size_t k = 0; k < g.size(); ++k) {
     const std::size_t under_axle = g.index(g.nx / 2, static_cast<int>(k) % g.ny);
-    const double radius = gap.radius[under_axle];
+    double radius = gap.radius[under_axle];
+    if (bodies == ContactBodies::sections && gap.gap[under_axle] < ProfileGap::kNoSurface)
+      radius -= 0.5 * std::cos(contact.angle) * gap.gap[under_axle];
     slip[k] = (contact.rolling_radius - radius) / contact.rolling_radius + spin * g.y_of(k);
     if (!gap.rail_radius.empty()) slip[k] += gap.rail_radius[under_axle] * contact.rail_turn - 1;
   }
@@ -240,7 +248,8 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   contact.friction = spec.drive.friction_coefficient;
   contact.leading_edge = spec.bem.leading_edge;
   contact.spin = spin_at(spec, placement.contact);
-  contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, wheel_spin(placement.contact));
+  contact.extra_slip.x =
+      slip_of_radius(patch.grid, patch.profile, placement.contact, wheel_spin(placement.contact), spec.bem.bodies);
   scale_by(contact.extra_slip.x, spec.drive.rolling_share);
   if (const PlanePair& stretch = patch.surface.stretch; !stretch.x.empty()) {
     add_scaled(contact.extra_slip.x, 1, stretch.x);
@@ -255,6 +264,9 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   contact.lateral_share = lateral_friction_share(spec);
   fill_heat(spec, patch, estimate);
   contact.speed = spec.drive.speed;
+  if (spec.bem.bodies == ContactBodies::sections)
+    patch.notes.push_back(
+        "the contact has the sections of rail and wheel; stresses below the surface are those of half-spaces");
 }
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
@@ -262,7 +274,7 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
   CasePatch patch = bodies_of(spec);
   patch.grid = first_grid(spec, placement, options, target, room);
   InfluenceCache own;
-  fit_grid(placement, target, room, options, options.cache ? *options.cache : own, patch);
+  fit_grid(spec, placement, target, room, options, options.cache ? *options.cache : own, patch);
   set_problem(spec, placement, target, patch);
   return patch;
 }
@@ -272,7 +284,7 @@ CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Place
   CasePatch patch = bodies_of(spec);
   patch.grid = grid;
   InfluenceCache own;
-  gap_and_influence(placement, options, options.cache ? *options.cache : own, patch);
+  gap_and_influence(spec, placement, options, options.cache ? *options.cache : own, patch);
   keep_to_room(grid, room, patch.profile.gap);
   set_problem(spec, placement, target, patch);
   return patch;

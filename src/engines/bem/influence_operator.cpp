@@ -5,6 +5,7 @@
 #include <complex>
 #include <utility>
 
+#include "bem/rows_difference.hpp"
 #include "core/stop_request.hpp"
 #include "halfspace/line_contact.hpp"
 
@@ -80,7 +81,7 @@ InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int 
   make_spectra(table_, couples_at_all(pair));
 }
 
-InfluenceOperator::InfluenceOperator(const InfluenceOperator& whole, int nx, int ny)
+InfluenceOperator::InfluenceOperator(const InfluenceOperator& whole, int nx, int ny, int first_y)
     : fft_(nx, ny), film_(whole.film_) {
   const std::size_t columns = static_cast<std::size_t>(fft_.my() / 2 + 1),
                     columns_of_whole = static_cast<std::size_t>(whole.fft_.my() / 2 + 1);
@@ -88,17 +89,30 @@ InfluenceOperator::InfluenceOperator(const InfluenceOperator& whole, int nx, int
     const auto row = whole.table_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * columns_of_whole);
     table_.insert(table_.end(), row, row + static_cast<std::ptrdiff_t>(columns));
   }
-  make_spectra(table_, whole.couples());
+  make_spectra(table_, !whole.nx_hat_.empty());
+  if (whole.rows_) rows_ = whole.rows_->part(first_y, nx, ny);
 }
 
-std::shared_ptr<const InfluenceOperator> InfluenceOperator::part(int nx, int ny) const {
+InfluenceOperator::InfluenceOperator(const InfluenceOperator& flat, std::shared_ptr<const RowsDifference> rows,
+                                     const SurfaceCompliance& wheel, double curvature, double dx, double dy)
+    : fft_(flat.nx(), flat.ny()),
+      film_(flat.film_),
+      table_(flat.table_),
+      rows_(std::move(rows)),
+      turn_(curvature * dx) {
+  make_spectra(table_, !flat.nx_hat_.empty());
+  wheel_nn_hat_ = fft_.spectrum(component(influence_table(wheel, fft_, dx, dy, false), &RectangleInfluence::nn), 1, 1);
+}
+
+std::shared_ptr<const InfluenceOperator> InfluenceOperator::part(int nx, int ny, int first_y) const {
   constexpr std::size_t kMost = 16;
+  if (!rows_) first_y = 0;
   const std::lock_guard lock(parts_mutex_);
-  for (const auto& op : parts_)
-    if (op->nx() == nx && op->ny() == ny) return op;
+  for (const Part& part : parts_)
+    if (part.op->nx() == nx && part.op->ny() == ny && part.first_y == first_y) return part.op;
   if (parts_.size() == kMost) parts_.erase(parts_.begin());
-  parts_.push_back(std::shared_ptr<const InfluenceOperator>(new InfluenceOperator(*this, nx, ny)));
-  return parts_.back();
+  parts_.push_back({first_y, std::shared_ptr<const InfluenceOperator>(new InfluenceOperator(*this, nx, ny, first_y))});
+  return parts_.back().op;
 }
 
 void InfluenceOperator::make_spectra(std::vector<RectangleInfluence> table, bool couples) {
@@ -136,6 +150,7 @@ void InfluenceOperator::make_spectra(std::vector<RectangleInfluence> table, bool
 void InfluenceOperator::normal(const double* p, double* u_n) const {
   stop_if_requested();
   fft_.apply({p}, {u_n}, nx(), ScalarProduct{nn_hat_.data()});
+  if (rows_) rows_->add({nullptr, nullptr, p}, {nullptr, nullptr, u_n}, nx());
 }
 
 void InfluenceOperator::precondition_normal(const double* u_n, double* p) const {
@@ -145,6 +160,7 @@ void InfluenceOperator::precondition_normal(const double* u_n, double* p) const 
 void InfluenceOperator::tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const {
   stop_if_requested();
   fft_.apply({q_x, q_y}, {u_x, u_y}, rows, SymmetricProduct{xx_hat_.data(), xy_hat_.data(), yy_hat_.data()});
+  if (rows_) rows_->add({q_x, q_y, nullptr}, {u_x, u_y, nullptr}, rows);
 }
 
 PlanePair InfluenceOperator::tangential(const Plane& q_x, const Plane& q_y, int rows) const {
@@ -157,33 +173,53 @@ void InfluenceOperator::precondition_tangential(const double* u_x, const double*
   fft_.apply({u_x, u_y}, {q_x, q_y}, nx(), SymmetricProduct{inv_xx_.data(), inv_xy_.data(), inv_yy_.data()});
 }
 
+// A ring whose surface moves by u_n towards the axle is shorter: a particle's velocity along the surface loses u_n over
+// the radius beside the gradient of its displacement along it. As a displacement: that integrated along x.
+void InfluenceOperator::add_stretch_of_wheel(const Plane& p, Plane& u_x) const {
+  Plane inward(u_x.size());
+  const auto n = static_cast<std::size_t>(ny());
+  const int rows = static_cast<int>(u_x.size() / n);
+  fft_.apply({p.data()}, {inward.data()}, rows, ScalarProduct{wheel_nn_hat_.data()});
+  rows_->add_of_wheel(p.data(), inward.data(), rows);
+  Plane sum(n, 0.0);
+  for (std::size_t k = n; k < u_x.size(); ++k) u_x[k] += sum[k % n] += 0.5 * turn_ * (inward[k - n] + inward[k]);
+}
+
 PlanePair InfluenceOperator::tangential_from_pressure(const Plane& p, int rows) const {
   PlanePair u{plane_of(rows), plane_of(rows)};
-  if (!couples()) return u;
-  fft_.apply({p.data()}, {u.x.data(), u.y.data()}, rows, [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
-    Complex *a = z[0], *b = z[1];
-    for (int k = 0; k < count; ++k) {
-      const std::size_t i = first + static_cast<std::size_t>(k);
-      const Complex ip = times_i(a[k]);
-      a[k] = -nx_hat_[i] * ip;
-      b[k] = -ny_hat_[i] * ip;
-    }
-  });
+  if (!nx_hat_.empty())
+    fft_.apply({p.data()}, {u.x.data(), u.y.data()}, rows,
+               [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
+                 Complex *a = z[0], *b = z[1];
+                 for (int k = 0; k < count; ++k) {
+                   const std::size_t i = first + static_cast<std::size_t>(k);
+                   const Complex ip = times_i(a[k]);
+                   a[k] = -nx_hat_[i] * ip;
+                   b[k] = -ny_hat_[i] * ip;
+                 }
+               });
+  if (!rows_) return u;
+  rows_->add({nullptr, nullptr, p.data()}, {u.x.data(), u.y.data(), nullptr}, rows);
+  add_stretch_of_wheel(p, u.x);
   return u;
 }
 
 Plane InfluenceOperator::normal_from_traction(const Plane& q_x, const Plane& q_y) const {
   Plane u = plane_of(nx());
-  if (!couples()) return u;
-  fft_.apply({q_x.data(), q_y.data()}, {u.data()}, nx(), [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
-    Complex *a = z[0], *b = z[1];
-    for (int k = 0; k < count; ++k) {
-      const std::size_t i = first + static_cast<std::size_t>(k);
-      a[k] = times_i(nx_hat_[i] * a[k] + ny_hat_[i] * b[k]);
-    }
-  });
+  if (!nx_hat_.empty())
+    fft_.apply({q_x.data(), q_y.data()}, {u.data()}, nx(),
+               [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
+                 Complex *a = z[0], *b = z[1];
+                 for (int k = 0; k < count; ++k) {
+                   const std::size_t i = first + static_cast<std::size_t>(k);
+                   a[k] = times_i(nx_hat_[i] * a[k] + ny_hat_[i] * b[k]);
+                 }
+               });
+  if (rows_) rows_->add({q_x.data(), q_y.data(), nullptr}, {nullptr, nullptr, u.data()}, nx());
   return u;
 }
+
+InfluenceCache::InfluenceCache() : sections_(std::make_shared<SectionStore>()) {}
 
 std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSpace& wheel,
                                                              const LayeredHalfSpace& rail, const PatchGrid& g,
@@ -206,6 +242,24 @@ std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSp
   entries_.push_front({wheel, rail, g, film, std::move(pair), op});
   if (entries_.size() > kEntries) entries_.pop_back();
   return op;
+}
+
+std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSpace& wheel,
+                                                             const LayeredHalfSpace& rail, const PatchGrid& g,
+                                                             double film, const SectionsAsked& sections) {
+  const std::shared_ptr<const InfluenceOperator> flat = get(wheel, rail, g, film);
+  const auto& [spec, placement] = sections;
+  const RigidContact& contact = placement.contact;
+  const double half_width = 0.5 * g.ny * g.dy;
+  const PlacedRemainder of_rail{sections_->get(spec, placement, BodyId::rail, rail, half_width),
+                                rail_to_model(placement.track, placement.rail.at(contact.rail_s).position),
+                                contact.angle},
+      of_wheel{sections_->get(spec, placement, BodyId::wheel, wheel, half_width),
+               placement.wheel.at(contact.wheel_s).position - Vec2{0, spec.geometry.wheel_radius},
+               contact.angle - contact.roll};
+  return std::make_shared<const InfluenceOperator>(*flat, std::make_shared<const RowsDifference>(of_rail, of_wheel, g),
+                                                   layered_compliance(wheel),
+                                                   std::cos(of_wheel.angle) / contact.rolling_radius, g.dx, g.dy);
 }
 
 }  // namespace railstrata

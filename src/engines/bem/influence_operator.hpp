@@ -12,6 +12,11 @@
 
 namespace railstrata {
 
+struct CaseSpec;
+struct Placement;
+class RowsDifference;
+class SectionStore;
+
 /// Linear operator of a pair of bodies (combined_compliance) on nx x ny cells of dx x dy. All planes have index j + ny
 /// i. Tractions Pa, displacements m. Costs: one plane in and out about 0.16 ms for 100 x 100 cells on one core. Const
 /// members may be called from several threads at once.
@@ -23,21 +28,26 @@ class InfluenceOperator {
   InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film = 0,
                     bool line = false);
 
+  /// The same with what the sections of the bodies add. wheel: its compliance; curvature: of its surface along x, 1/m.
+  InfluenceOperator(const InfluenceOperator& flat, std::shared_ptr<const RowsDifference> rows,
+                    const SurfaceCompliance& wheel, double curvature, double dx, double dy);
+
   int nx() const { return fft_.nx(); }
   int ny() const { return fft_.ny(); }
   /// Displacement at (i dx, 0), i = 0 or 1, from the centre of a cell under unit traction.
   const RectangleInfluence& of_one_cell(int i) const { return near_[i]; }
-  double film() const { return film_; }              ///< m/Pa
-  bool couples() const { return !nx_hat_.empty(); }  ///< normal and tangential problems interact
+  double film() const { return film_; }  ///< m/Pa
+  /// Normal and tangential problems interact: not for half-spaces of equal bodies.
+  bool couples() const { return rows_ || !nx_hat_.empty(); }
 
   /// Normal elastic displacement u_n = u_z'(rail) + u_z'(wheel) by pressure, each into its body: nx x ny.
   void normal(const double* p, double* u_n) const;
   /// Rail minus wheel, from tangential tractions. rows = nx, or nx + 1 for one more row of cells ahead of the grid.
   void tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const;
   PlanePair tangential(const Plane& q_x, const Plane& q_y, int rows) const;
-  /// Rail minus wheel, from pressure; zero for equal bodies.
+  /// Rail minus wheel, from pressure.
   PlanePair tangential_from_pressure(const Plane& p, int rows) const;
-  /// Normal elastic displacement by tangential tractions; zero for equal bodies.
+  /// Normal elastic displacement by tangential tractions.
   Plane normal_from_traction(const Plane& q_x, const Plane& q_y) const;
 
   /// Approximate inverses of `normal` and `tangential`: the inverses on the periodic grid, symmetric positive definite.
@@ -45,28 +55,48 @@ class InfluenceOperator {
   void precondition_tangential(const double* u_x, const double* u_y, double* q_x, double* q_y) const;
 
   /// The same pair and cells for planes of nx x ny, at most as many: made once for each size and kept, up to some.
-  std::shared_ptr<const InfluenceOperator> part(int nx, int ny) const;
+  /// first_y: their first row of this one's, which sections ask for; of displacements along the plane by tractions
+  /// along it alone there.
+  std::shared_ptr<const InfluenceOperator> part(int nx, int ny, int first_y) const;
 
  private:
-  InfluenceOperator(const InfluenceOperator& whole, int nx, int ny);
+  InfluenceOperator(const InfluenceOperator& whole, int nx, int ny, int first_y);
   void make_spectra(std::vector<RectangleInfluence> table, bool couples);
+  void add_stretch_of_wheel(const Plane& p, Plane& u_x) const;
   PlaneFft fft_;
   double film_;
   Plane plane_of(int rows) const { return Plane(static_cast<std::size_t>(rows) * static_cast<std::size_t>(ny())); }
   RectangleInfluence near_[2];
   std::vector<RectangleInfluence> table_;  // of the padded plane, without a film: index j + (my/2 + 1) i
   mutable std::mutex parts_mutex_;
-  mutable std::vector<std::shared_ptr<const InfluenceOperator>> parts_;
+  struct Part {
+    int first_y;
+    std::shared_ptr<const InfluenceOperator> op;
+  };
+  mutable std::vector<Part> parts_;
   std::vector<double> nn_hat_, xx_hat_, xy_hat_, yy_hat_, nx_hat_, ny_hat_;  // nx, ny: imaginary parts
   std::vector<double> inv_nn_, inv_xx_, inv_xy_, inv_yy_;
+  std::shared_ptr<const RowsDifference> rows_;  // null: half-spaces
+  std::vector<double> wheel_nn_hat_;
+  double turn_ = 0;  // of the wheel's surface over a cell, rad
+};
+
+/// The bodies whose sections are meant, in the plane of `placement`; both are kept by reference during a call.
+struct SectionsAsked {
+  const CaseSpec& spec;
+  const Placement& placement;
 };
 
 /// Influence operators of earlier solutions: cases of a sweep share bodies and grid. Safe to share between threads.
 class InfluenceCache {
  public:
+  InfluenceCache();
   /// film: flexibility of a third-body layer, m/Pa.
   std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail,
                                                const PatchGrid& grid, double film = 0);
+  /// With the sections of the bodies (bem.bodies).
+  std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail,
+                                               const PatchGrid& grid, double film, const SectionsAsked& sections);
 
  private:
   struct Entry {
@@ -78,6 +108,7 @@ class InfluenceCache {
   };
   std::mutex mutex_;
   std::list<Entry> entries_;  // most recently used first
+  std::shared_ptr<SectionStore> sections_;
 };
 
 }  // namespace railstrata

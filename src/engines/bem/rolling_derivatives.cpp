@@ -36,7 +36,7 @@ struct RollingDerivatives::Weights {
 struct RollingDerivatives::System {
   System(const InfluenceOperator& whole, const PatchGrid& cells, const RollingContact& at, const RollingSolution& s)
       : part(part_of(whole, cells, s.normal.pressure)),
-        kept(part.nx == cells.nx && part.ny == cells.ny ? nullptr : whole.part(part.nx, part.ny)),
+        kept(part.nx == cells.nx && part.ny == cells.ny ? nullptr : whole.part(part.nx, part.ny, part.first_y)),
         influence(kept ? *kept : whole),
         grid(part.grid()),
         pressure(part.take(s.normal.pressure)),

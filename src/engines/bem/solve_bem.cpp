@@ -285,11 +285,15 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   const auto begin = std::chrono::steady_clock::now();
   require_support(spec.run.rolling ? uses::kSteadyRolling : uses::kHalfSpaces, spec);
   std::vector<SharedLoad> solved = loaded_wheel(spec, placement, options);
-  for (const SharedLoad& one : solved)
+  for (const SharedLoad& one : solved) {
+    if (one.patches.size() > 1 && spec.bem.bodies == ContactBodies::sections)
+      throw CaseError("sections: the wheel touches at several places, which sections do not join",
+                      "move the wheel (geometry.lateral_shift), or give bem.bodies = \"half_spaces\"", "bem.bodies");
     if (one.patches.size() > 1 && !spec.irregularities.empty())
       throw CaseError("irregularity: a wheel that touches at several places needs a rail and a wheel without heights",
                       "take it out, or move the wheel (geometry.lateral_shift) until it touches at one place",
                       "irregularity");
+  }
   BemResult r = mean_result(spec, placement, solved, options.apart);
   if (options.neighbour) *options.neighbour = neighbour_of(std::move(solved));
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -268,7 +268,7 @@ TangentialSolution solve_tangential(const InfluenceOperator& influence, const Pa
   const std::optional<PatchPart> part = start && start->extrapolated ? tight_part_with(grid, problem.traction_bound)
                                                                      : part_with(grid, problem.traction_bound, kRing);
   if (!part) return Solver(influence, grid, problem, options).solve(start);
-  const std::shared_ptr<const InfluenceOperator> own = influence.part(part->nx, part->ny);
+  const std::shared_ptr<const InfluenceOperator> own = influence.part(part->nx, part->ny, part->first_y);
   const TangentialProblem problem_there = on_part(*part, problem);
   const std::optional<TangentialSolution> start_there =
       start ? std::optional<TangentialSolution>(on_part(*part, *start)) : std::nullopt;

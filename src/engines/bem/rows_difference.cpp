@@ -1,0 +1,191 @@
+#include "bem/rows_difference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/lagrange.hpp"
+#include "crack/gauss.hpp"
+
+namespace railstrata {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+constexpr double kStationsOfRows = 2e-3;  // m
+
+/// What stands at `at` as shares of values at `nodes`; beyond their ends those of the ends.
+Matrix shares_of(const std::vector<double>& nodes, const std::vector<double>& at) {
+  Matrix out = Matrix::Zero(static_cast<Eigen::Index>(nodes.size()), static_cast<Eigen::Index>(at.size()));
+  for (std::size_t j = 0; j < at.size(); ++j) {
+    const double t = std::clamp(at[j], nodes.front(), nodes.back());
+    const LagrangeStencil s = lagrange_stencil(nodes.data(), static_cast<int>(nodes.size()), t);
+    for (int i = 0; i < s.count; ++i) out(s.first + i, static_cast<Eigen::Index>(j)) = s.weight[i];
+  }
+  return out;
+}
+
+/// Wave numbers and weights of ∫ dk over 0 … highest for waves over lengths up to `reach`.
+struct WaveQuadrature {
+  std::vector<double> k, weight;
+  void add_panel(double from, double to, bool in_logarithm) {
+    for (const GaussPoint& g : kGauss8) {
+      const double at = in_logarithm ? from * std::pow(to / from, g.node) : from + g.node * (to - from);
+      k.push_back(at);
+      weight.push_back(g.weight * (in_logarithm ? at * std::log(to / from) : to - from));
+    }
+  }
+};
+WaveQuadrature wave_quadrature(double lowest, double highest, double reach) {
+  constexpr double kRadians = 8;  // of a wave in a panel of eight points
+  WaveQuadrature out;
+  const double even = std::min(kRadians / reach, highest);
+  // below the lowest D is linear in ln k: its integral is the value at lowest/e
+  out.k.push_back(lowest / std::numbers::e);
+  out.weight.push_back(lowest);
+  const int low = std::max(1, static_cast<int>(std::ceil(std::log(even / lowest) / 4)));
+  for (int i = 0; i < low; ++i)
+    out.add_panel(lowest * std::pow(even / lowest, 1.0 * i / low), lowest * std::pow(even / lowest, (i + 1.0) / low),
+                  true);
+  const int panels = static_cast<int>(std::ceil((highest - even) / even));
+  for (int i = 0; i < panels; ++i)
+    out.add_panel(even + (highest - even) * i / panels, even + (highest - even) * (i + 1) / panels, false);
+  return out;
+}
+
+/// D of a body at its wave numbers, between the stations t of the contact plane.
+std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t) {
+  const SectionRemainder& body = *placed.remainder;
+  const SectionCompliance& section = body.section;
+  const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)}, down{along.z, -along.y};
+  std::vector<double> own;
+  for (const Vec2 p : section.stations) own.push_back(dot(p - placed.contact, along));
+  const Matrix shares = shares_of(own, t);
+  const auto n = static_cast<Eigen::Index>(own.size()), m = static_cast<Eigen::Index>(t.size());
+  Matrix turn = Matrix::Zero(3 * n, 3 * m);  // from forces (x, y, normal) at t to those along the section's axes
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < m; ++j) {
+      turn(3 * i, j) = shares(i, j);
+      turn(3 * i + 1, m + j) = along.y * shares(i, j);
+      turn(3 * i + 2, m + j) = along.z * shares(i, j);
+      turn(3 * i + 1, 2 * m + j) = down.y * shares(i, j);
+      turn(3 * i + 2, 2 * m + j) = down.z * shares(i, j);
+    }
+  Matrix plane = Matrix::Zero(3 * n, 3 * m);  // the half-space has the plane's axes
+  for (Eigen::Index a = 0; a < 3; ++a)
+    for (Eigen::Index i = 0; i < n; ++i) plane.row(3 * i + a).segment(a * m, m) = shares.row(i);
+  std::vector<Matrix> out;
+  for (std::size_t k = 0; k < section.k.size(); ++k)
+    out.push_back(turn.transpose() * section.at[k] * turn - plane.transpose() * body.half_space[k] * plane);
+  Matrix last = out.back();  // but of the coupling of x with the others, which is odd in k
+  last.topRightCorner(m, 2 * m).setZero();
+  last.bottomLeftCorner(2 * m, m).setZero();
+  for (Matrix& rest : out) rest -= last;
+  return out;
+}
+
+/// At other wave numbers, linear in ln k below the first.
+std::vector<Matrix> at_waves(const std::vector<Matrix>& values, const std::vector<double>& k,
+                             const std::vector<double>& wanted) {
+  std::vector<double> log;
+  for (const double at : k) log.push_back(std::log(at));
+  std::vector<Matrix> out;
+  for (const double at : wanted) {
+    const LagrangeStencil s =
+        lagrange_stencil(log.data(), static_cast<int>(log.size()), std::log(at), at < k.front() ? 2 : 4);
+    Matrix sum = Matrix::Zero(values.front().rows(), values.front().cols());
+    for (int i = 0; i < s.count; ++i) sum += s.weight[i] * values[static_cast<std::size_t>(s.first + i)];
+    out.push_back(std::move(sum));
+  }
+  return out;
+}
+
+}  // namespace
+
+RowsDifference::RowsDifference(const PlacedRemainder& rail, const PlacedRemainder& wheel, const PatchGrid& grid)
+    : nx_(grid.nx), ny_(grid.ny), cell_area_(grid.cell_area()) {
+  std::vector<double> stations, rows;
+  const int half = std::max(2, static_cast<int>(std::ceil(0.5 * grid.ny * grid.dy / kStationsOfRows)));
+  for (int m = -half; m <= half; ++m) stations.push_back(m * kStationsOfRows);
+  for (int j = 0; j < ny_; ++j) rows.push_back(grid.y(j));
+  shares_ = shares_of(stations, rows);
+
+  const std::vector<double>& known = rail.remainder->section.k;
+  const WaveQuadrature waves = wave_quadrature(known.front(), known.back(), (nx_ + 1) * grid.dx);
+  const std::vector<Matrix> of_rail = at_waves(difference_at(rail, stations), known, waves.k);
+  auto of_wheel =
+      std::make_shared<Kernel>(at_waves(difference_at(wheel, stations), wheel.remainder->section.k, waves.k));
+  auto pair = std::make_shared<Kernel>();
+  for (std::size_t q = 0; q < waves.k.size(); ++q) pair->push_back(of_rail[q] + (*of_wheel)[q]);
+
+  const auto count = static_cast<Eigen::Index>(waves.k.size());
+  weight_ = Eigen::Map<const Eigen::VectorXd>(waves.weight.data(), count) / std::numbers::pi;
+  cosines_.resize(count, nx_ + 1);
+  sines_.resize(count, nx_ + 1);
+  for (Eigen::Index q = 0; q < count; ++q)
+    for (int i = 0; i <= nx_; ++i) {
+      cosines_(q, i) = std::cos(waves.k[static_cast<std::size_t>(q)] * i * grid.dx);
+      sines_(q, i) = std::sin(waves.k[static_cast<std::size_t>(q)] * i * grid.dx);
+    }
+  const Eigen::Index middle = 2 * (2 * half + 1) + half;
+  for (Eigen::Index q = 0; q < count; ++q) rigid_ += weight_[q] * (*pair)[static_cast<std::size_t>(q)](middle, middle);
+  pair_ = std::move(pair);
+  wheel_ = std::move(of_wheel);
+}
+
+std::shared_ptr<const RowsDifference> RowsDifference::part(int first_y, int nx, int ny) const {
+  auto out = std::make_shared<RowsDifference>(*this);
+  out->nx_ = nx;
+  out->ny_ = ny;
+  out->shares_ = shares_.middleCols(first_y, ny);
+  out->cosines_ = cosines_.leftCols(nx + 1);
+  out->sines_ = sines_.leftCols(nx + 1);
+  return out;
+}
+
+void RowsDifference::add(const In& in, const Out& out, int rows) const {
+  add(*pair_, in, out, rows);
+  if (!in[2] || !out[2]) return;
+  const double whole = rigid_ * cell_area_ * Eigen::Map<const Eigen::VectorXd>(in[2], ny_ * nx_).sum();
+  Eigen::Map<Eigen::VectorXd>(out[2], ny_ * rows).array() -= whole;
+}
+
+void RowsDifference::add(const Kernel& kernel, const In& in, const Out& out, int rows) const {
+  const Eigen::Index n = shares_.rows(), count = weight_.size();
+  std::array<Matrix, 3> real, imaginary, u_real, u_imaginary;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (in[a]) {
+      const Matrix force = cell_area_ * shares_ * Eigen::Map<const Matrix>(in[a], ny_, nx_);
+      real[a] = force * cosines_.leftCols(nx_).transpose();
+      imaginary[a] = -force * sines_.leftCols(nx_).transpose();
+      if (a == 0) {  // Q = q_x/i
+        std::swap(real[a], imaginary[a]);
+        imaginary[a] *= -1;
+      }
+    }
+    if (out[a]) {
+      u_real[a] = Matrix::Zero(n, count);
+      u_imaginary[a] = Matrix::Zero(n, count);
+    }
+  }
+  for (Eigen::Index q = 0; q < count; ++q)
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; out[a] && b < 3; ++b) {
+        if (!in[b]) continue;
+        const auto block = kernel[static_cast<std::size_t>(q)].block(static_cast<Eigen::Index>(a) * n,
+                                                                     static_cast<Eigen::Index>(b) * n, n, n);
+        u_real[a].col(q) += weight_[q] * (block * real[b].col(q));
+        u_imaginary[a].col(q) += weight_[q] * (block * imaginary[b].col(q));
+      }
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!out[a]) continue;
+    if (a == 0) {  // u_x = i U
+      std::swap(u_real[a], u_imaginary[a]);
+      u_real[a] *= -1;
+    }
+    const Matrix u = u_real[a] * cosines_.leftCols(rows) - u_imaginary[a] * sines_.leftCols(rows);
+    Eigen::Map<Matrix>(out[a], ny_, rows) += shares_.transpose() * u;
+  }
+}
+
+}  // namespace railstrata

@@ -1,0 +1,60 @@
+#pragma once
+// Influence of the real bodies' sections less that of the half-spaces: between rows of cells, smooth along and across.
+//
+// With displacements (U, u_y, u_n) and tractions (Q, q_y, p) of the wave k, u_x = i U e^{ikx}, the difference of a
+// body is a real symmetric matrix D(k) between stations across the surface. Less D at the largest k, the mesh's own
+// local error,
+//   u(x) = 1/pi Re ∫ D(k) τ(k) e^{ikx} dk,   τ(k) = sum over the cells of force e^{-ikx},
+// by a fixed quadrature in k: no periods, no images.
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "bem/patch_grid.hpp"
+#include "bem/plane_algebra.hpp"
+#include "bem/section_remainder.hpp"
+
+namespace railstrata {
+
+/// A body in the contact plane.
+struct PlacedRemainder {
+  std::shared_ptr<const SectionRemainder> remainder;
+  Vec2 contact;      ///< m, the origin of the contact plane where the stations are given
+  double angle = 0;  ///< rad, of the plane
+};
+
+class RowsDifference {
+ public:
+  /// Planes of a direction: x, y, normal; null: none.
+  using In = std::array<const double*, 3>;
+  using Out = std::array<double*, 3>;
+
+  RowsDifference(const PlacedRemainder& rail, const PlacedRemainder& wheel, const PatchGrid& grid);
+
+  /// Adds displacements by tractions: signs as InfluenceOperator's. rows: of the outputs along x. Normal ones by
+  /// pressure without the approach of the bodies as a whole, which is that in the middle by the load there: an approach
+  /// stays that of half-spaces.
+  void add(const In& in, const Out& out, int rows) const;
+  /// The wheel's own displacement into it by p, with the approach of the whole.
+  void add_of_wheel(const double* p, double* u_n, int rows) const {
+    add(*wheel_, {nullptr, nullptr, p}, {nullptr, nullptr, u_n}, rows);
+  }
+  /// Rows first_y to first_y + ny of the grid.
+  std::shared_ptr<const RowsDifference> part(int first_y, int nx, int ny) const;
+
+ private:
+  using Kernel =
+      std::vector<Eigen::MatrixXd>;  ///< of each wave number of the quadrature; index direction * n + station
+  void add(const Kernel& kernel, const In& in, const Out& out, int rows) const;
+
+  int nx_, ny_;
+  double cell_area_;
+  Eigen::MatrixXd shares_;           ///< stations x rows: of a row's force and displacement
+  Eigen::MatrixXd cosines_, sines_;  ///< wave numbers x cells along x
+  Eigen::VectorXd weight_;           ///< of the quadrature, over pi, 1/m
+  std::shared_ptr<const Kernel> pair_, wheel_;
+  double rigid_ = 0;  ///< m/N, approach of the bodies as a whole
+};
+
+}  // namespace railstrata

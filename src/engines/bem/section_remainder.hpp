@@ -1,0 +1,35 @@
+#pragma once
+// What the section of a body gives beyond the half-space of the same layers, at stations across its running surface.
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "model/model.hpp"
+#include "section/section_compliance.hpp"
+
+namespace railstrata {
+
+struct SectionRemainder {
+  double radius = 0;                        ///< m, of a wheel where the stations are; 0: a rail
+  SectionCompliance section;                ///< in the axes of the model; stations of a wheel relative to its axle
+  std::vector<Eigen::MatrixXd> half_space;  ///< half_space_compliance of the same stations
+};
+
+/// Remainders of sections that were asked for before. Safe to share between threads.
+class SectionStore {
+ public:
+  /// Of the section with its foot or bore held, around the contact, at least `half_width` [m] to both sides where the
+  /// running surface is as wide. half_space: its layers. Throws CaseError where the section cannot be meshed.
+  std::shared_ptr<const SectionRemainder> get(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                              const LayeredHalfSpace& half_space, double half_width);
+
+ private:
+  struct Entry {
+    std::vector<double> key;
+    std::shared_ptr<const SectionRemainder> remainder;
+  };
+  std::mutex mutex_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace railstrata

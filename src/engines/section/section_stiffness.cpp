@@ -1,0 +1,143 @@
+#include "section/section_stiffness.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+
+namespace {
+
+using Strains = Eigen::Matrix<double, 6, 24>;  // xx, yy, zz, yz, xz, xy of (U, v, w) at eight nodes
+using ElementMatrix = Eigen::Matrix<double, 24, 24>;
+
+struct Shape {
+  std::array<double, 8> value, by_a, by_b;
+};
+
+/// The eight-node quadrilateral on -1 … 1, corners first.
+Shape quadratic_shape(double a, double b) {
+  constexpr std::array<double, 4> kA{-1, 1, 1, -1}, kB{-1, -1, 1, 1};
+  Shape s;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double p = 1 + a * kA[i], q = 1 + b * kB[i], r = a * kA[i] + b * kB[i] - 1;
+    s.value[i] = 0.25 * p * q * r;
+    s.by_a[i] = 0.25 * kA[i] * q * (r + p);
+    s.by_b[i] = 0.25 * kB[i] * p * (r + q);
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool along_a = i % 2 == 0;
+    const double side = i == 0 || i == 3 ? -1 : 1, across = along_a ? b : a, along = along_a ? a : b;
+    const double bump = 0.5 * (1 - along * along), slope = -along * (1 + side * across), rise = bump * side;
+    s.value[4 + i] = bump * (1 + side * across);
+    s.by_a[4 + i] = along_a ? slope : rise;
+    s.by_b[4 + i] = along_a ? rise : slope;
+  }
+  return s;
+}
+
+/// Strains at a point: B0 + k B1; weight: of the area.
+struct PointStrains {
+  Strains b0 = Strains::Zero(), b1 = Strains::Zero();
+  double weight = 0;
+};
+
+PointStrains strains_at(const std::array<Vec2, 8>& x, const Shape& s, double radius) {
+  Vec2 by_a{}, by_b{}, at{};
+  for (std::size_t n = 0; n < 8; ++n) {
+    by_a = by_a + s.by_a[n] * x[n];
+    by_b = by_b + s.by_b[n] * x[n];
+    at = at + s.value[n] * x[n];
+  }
+  const double det = cross(by_a, by_b);
+  if (!(det > 0)) throw NumericalError("an element of the section is turned inside out");
+  const bool revolved = radius > 0;
+  const double stretch = revolved ? radius / -at.z : 1, turn = revolved ? 1 / -at.z : 0;
+  PointStrains out;
+  for (int n = 0; n < 8; ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    const double N = s.value[i], by_y = (s.by_a[i] * by_b.z - s.by_b[i] * by_a.z) / det,
+                 by_z = (s.by_b[i] * by_a.y - s.by_a[i] * by_b.y) / det;
+    const int U = 3 * n, v = U + 1, w = U + 2;
+    out.b0(0, w) = -N * turn;
+    out.b0(1, v) = by_y;
+    out.b0(2, w) = by_z;
+    out.b0(3, v) = by_z;
+    out.b0(3, w) = by_y;
+    out.b0(4, U) = by_z + N * turn;
+    out.b0(5, U) = by_y;
+    out.b1(0, U) = -N * stretch;
+    out.b1(4, w) = N * stretch;
+    out.b1(5, v) = N * stretch;
+  }
+  out.weight = det / stretch;
+  return out;
+}
+
+struct ElementStiffness {
+  ElementMatrix k0 = ElementMatrix::Zero(), k1 = k0, k2 = k0;
+};
+
+ElementStiffness element_stiffness(const std::array<Vec2, 8>& x, const Elastic& material, double radius) {
+  constexpr double kOuter = 0.7745966692414834;  // three points of Gauss's rule
+  constexpr std::array<double, 3> kAt{-kOuter, 0, kOuter}, kWeight{5.0 / 9, 8.0 / 9, 5.0 / 9};
+  Eigen::Matrix<double, 6, 6> d = Eigen::Matrix<double, 6, 6>::Zero();
+  d.topLeftCorner<3, 3>().setConstant(material.lambda);
+  d.diagonal() << material.p_wave_modulus(), material.p_wave_modulus(), material.p_wave_modulus(), material.mu,
+      material.mu, material.mu;
+  ElementStiffness out;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const PointStrains p = strains_at(x, quadratic_shape(kAt[i], kAt[j]), radius);
+      const double weight = p.weight * kWeight[i] * kWeight[j];
+      const Strains d0 = weight * d * p.b0, d1 = weight * d * p.b1;
+      const ElementMatrix mixed = p.b0.transpose() * d1;
+      out.k0 += p.b0.transpose() * d0;
+      out.k1 += mixed + mixed.transpose();
+      out.k2 += p.b1.transpose() * d1;
+    }
+  return out;
+}
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+}  // namespace
+
+Eigen::SparseMatrix<double> SectionStiffness::at(double k) const {
+  Eigen::SparseMatrix<double> out = k0;
+  out.coeffs() += k * k1.coeffs() + k * k * k2.coeffs();
+  return out;
+}
+
+SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vector<Elastic>& materials, double radius) {
+  std::array<Triplets, 3> entries;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const std::array<int, 8>& nodes = mesh.elements[e];
+    std::array<Vec2, 8> x;
+    std::transform(nodes.begin(), nodes.end(), x.begin(), [&](int n) { return mesh.nodes[n]; });
+    const ElementStiffness own = element_stiffness(x, materials[mesh.material[e]], radius);
+    for (int a = 0; a < 24; ++a)
+      for (const auto& [row_node, row_share] : mesh.shares[nodes[a / 3]])
+        for (int b = 0; b < 24; ++b)
+          for (const auto& [column_node, column_share] : mesh.shares[nodes[b / 3]]) {
+            const int row = 3 * row_node + a % 3, column = 3 * column_node + b % 3;
+            if (row < column) continue;
+            const double share = row_share * column_share;
+            entries[0].emplace_back(row, column, share * own.k0(a, b));
+            entries[1].emplace_back(row, column, share * own.k1(a, b));
+            entries[2].emplace_back(row, column, share * own.k2(a, b));
+          }
+  }
+  SectionStiffness out;
+  const int n = 3 * mesh.free_nodes;
+  const std::array<Eigen::SparseMatrix<double>*, 3> parts{&out.k0, &out.k1, &out.k2};
+  for (std::size_t j = 0; j < 3; ++j) {
+    parts[j]->resize(n, n);
+    parts[j]->setFromTriplets(entries[j].begin(), entries[j].end());
+  }
+  return out;
+}
+
+}  // namespace railstrata

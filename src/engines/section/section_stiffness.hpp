@@ -1,0 +1,24 @@
+#pragma once
+// Stiffness of a section under displacements that are waves along the sweep.
+//
+// u_x = i U e^{ikx}, u_y = v e^{ikx}, u_z = w e^{ikx}: with isotropic materials the stiffness of (U, v, w) is real and
+// symmetric, K(k) = K0 + k K1 + k² K2. Of a revolved body x = R theta with a radius R, and displacements are those
+// along, across and towards the axle at each theta: strains have r = -z in place of R, and r/R weighs the area.
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "material/elastic.hpp"
+#include "section/quadratic_section.hpp"
+
+namespace railstrata {
+
+struct SectionStiffness {
+  /// Lower triangles of one pattern; index 3 n + direction of free nodes n. Per m along the sweep, Pa m^j.
+  Eigen::SparseMatrix<double> k0, k1, k2;
+  Eigen::SparseMatrix<double> at(double k) const;  ///< k in 1/m
+};
+
+/// radius: R of a revolved body, m; 0: extruded. materials: as the mesh numbers them.
+SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vector<Elastic>& materials, double radius);
+
+}  // namespace railstrata

@@ -1,0 +1,141 @@
+// The sections of rail and wheel as influence of the contact.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "bem/rows_difference.hpp"
+#include "bem/solve_bem.hpp"
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+
+namespace railstrata {
+namespace {
+
+/// LMA on CN60 of cases/paper.
+CaseSpec paper_case(ContactBodies bodies) {
+  CaseSpec spec;
+  spec.geometry.lateral_shift = 1.5e-3;
+  spec.drive.traction_coefficient = 0.2;
+  spec.drive.friction_coefficient = 0.5;
+  spec.bem.bodies = bodies;
+  return spec;
+}
+
+LayerSpec layer_of(double thickness, double ratio) {
+  LayerSpec layer;
+  layer.thickness = thickness;
+  layer.material.young *= ratio;
+  return layer;
+}
+
+BemResult solved(const CaseSpec& spec, double cell, InfluenceCache* cache = nullptr) {
+  BemOptions options;
+  options.cell = cell;
+  options.cache = cache;
+  return solve_bem(spec, place(spec, "."), options);
+}
+
+Plane noise(std::size_t n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> value(-1, 1);
+  Plane out(n);
+  for (double& v : out) v = value(generator);
+  return out;
+}
+
+class Sections : public testing::Test {
+ protected:
+  std::shared_ptr<const InfluenceOperator> on(const PatchGrid& grid) {
+    return cache_.get({}, {}, grid, 0, {spec_, placement_});
+  }
+  CaseSpec spec_ = paper_case(ContactBodies::sections);
+  Placement placement_ = place(spec_, ".");
+  InfluenceCache cache_;
+};
+
+TEST_F(Sections, WorkIsTheSameWhicheverLoadComesFirst) {
+  const PatchGrid grid = centred_grid(9, 8, 0.8e-3, 0.8e-3);
+  const auto op = on(grid);
+  const Plane p = noise(grid.size(), 1), x = noise(grid.size(), 2), y = noise(grid.size(), 3),
+              x2 = noise(grid.size(), 4), y2 = noise(grid.size(), 5), p2 = noise(grid.size(), 6),
+              none(grid.size(), 0.0);
+  const double there = dot(y, op->tangential_from_pressure(p, grid.nx).y),
+               back = dot(p, op->normal_from_traction(none, y));
+  EXPECT_NEAR(there, back, 1e-10 * std::abs(there));
+  const PlanePair u = op->tangential(x, y, grid.nx), u2 = op->tangential(x2, y2, grid.nx);
+  EXPECT_NEAR((dot(x2, u.x) + dot(y2, u.y)) / (dot(x, u2.x) + dot(y, u2.y)), 1, 1e-10);
+  Plane n(grid.size()), n2(grid.size());
+  op->normal(p.data(), n.data());
+  op->normal(p2.data(), n2.data());
+  EXPECT_NEAR(dot(p2, n) / dot(p, n2), 1, 1e-10);
+}
+
+TEST_F(Sections, APartOfTheRowsHasTheirInfluence) {
+  const PatchGrid grid = centred_grid(9, 8, 0.8e-3, 0.8e-3);
+  const auto whole = on(grid);
+  constexpr int kRows = 6, kAlong = 8, kFirst = 3;
+  const auto part = whole->part(kAlong, kRows, kFirst);
+  Plane x(kAlong * kRows, 0.0), in_whole(grid.size(), 0.0);
+  const Plane zero(x.size(), 0.0), none(grid.size(), 0.0);
+  for (int i = 0; i < kAlong; ++i)
+    for (int j = 0; j < kRows; ++j)
+      x[static_cast<std::size_t>(i * kRows + j)] = in_whole[grid.index(i, kFirst + j)] = std::sin(i + 2 * j);
+  const PlanePair own = part->tangential(x, zero, kAlong), all = whole->tangential(in_whole, none, kAlong);
+  for (int i = 0; i < kAlong; ++i)
+    for (int j = 0; j < kRows; ++j)
+      EXPECT_NEAR(own.x[static_cast<std::size_t>(i * kRows + j)], all.x[grid.index(i, kFirst + j)],
+                  1e-9 * std::abs(all.x[grid.index(0, kFirst)]));
+}
+
+TEST_F(Sections, HaveTheSameBitsForAnyNumberOfThreads) {
+  const int before = max_threads();
+  set_threads(1);
+  const BemResult one = solved(spec_, 1e-3);
+  set_threads(3);
+  const BemResult three = solved(spec_, 1e-3);
+  set_threads(before);
+  EXPECT_EQ(one.field.p, three.field.p);
+  EXPECT_EQ(one.field.q_x, three.field.q_x);
+}
+
+TEST_F(Sections, RefuseLayersThatEndNextToThePatch) {
+  spec_.layers = {layer_of(3e-3, 4)};
+  spec_.layers[0].width = 20e-3;
+  EXPECT_THROW(solved(spec_, 1e-3), CaseError);
+}
+
+/// Creepage of free rolling over that of half-spaces.
+double free_rolling_shift(CaseSpec spec) {
+  spec.drive.traction_coefficient = 0;
+  spec.bem.bodies = ContactBodies::sections;
+  const double real = solved(spec, 0.5e-3).rigid_slip.x;
+  spec.bem.bodies = ContactBodies::half_spaces;
+  return real - solved(spec, 0.5e-3).rigid_slip.x;
+}
+
+// Explicit elements (docs/finite-elements-verification.md#free-rolling-of-real-bodies): -3.7e-5 of disc and
+// block; 4.2e-5 to 5.1e-5 of wheel and rail, with 2.8e-5 from the widening of the rim at their speed.
+TEST_F(Sections, RollFreelyAsElementsDo) {
+  EXPECT_NEAR(free_rolling_shift(spec_), 4.5e-5 - 2.8e-5, 0.6e-5);
+  spec_.geometry.rail_shape = RailShape::block;
+  spec_.geometry.wheel_shape = WheelShape::disc;
+  EXPECT_NEAR(free_rolling_shift(spec_), -3.7e-5, 0.4e-5);
+}
+
+/// p_max in MPa by an independent program of section elements, without a difference to half-spaces.
+struct SectionRow {
+  double thickness, ratio, p_max;
+};
+
+TEST(SlowSections, AgreeWithAnIndependentProgram) {
+  for (const SectionRow& row : {SectionRow{0, 1, 1078}, SectionRow{0.2e-3, 4, 1092}, SectionRow{3e-3, 2, 1193},
+                                SectionRow{3e-3, 4, 1299}, SectionRow{6e-3, 4, 1429}}) {
+    CaseSpec spec = paper_case(ContactBodies::sections);
+    if (row.thickness > 0) spec.layers = {layer_of(row.thickness, row.ratio)};
+    EXPECT_NEAR(solved(spec, 0.25e-3).patch.largest_pressure / (row.p_max * 1e6), 1, 2e-3) << row.thickness;
+  }
+}
+
+}  // namespace
+}  // namespace railstrata
