@@ -257,6 +257,18 @@ TEST(LoadRows, NamesPartTheSamplesOfASeriesAndBinsHaveAScale) {
   EXPECT_EQ(names(6), (std::vector<std::string>{"wagon: 80.7 kN, 2.23 mm", "coach: 78 kN, 1.8 mm"}));
 }
 
+TEST(LoadRows, DoubtfulLoadsAreNamed) {
+  const TemporaryFolder temporary;
+  std::ofstream(temporary.path() / "loads.csv")
+      << "name; Q [kN]; y [mm]; curve_radius [m]; t_gamma [N]\na; 2250; 0; -600; -2\nb; 80; 5; 600; 9\n";
+  const LoadedCase loaded = parse_case("[collective]\nfile = \"loads.csv\"\n", temporary.path() / "a.toml");
+  ASSERT_EQ(loaded.spec.loads.size(), 2u);
+  std::string all;
+  for (const std::string& note : loaded.notes) all += note;
+  expect_says(all, "1 of 2 loads have more than 250 kN on a wheel");
+  expect_says(all, "1 of 2 loads have a positive curve_radius");
+}
+
 namespace {
 
 /// A folder with two wheels, one of them twice as often.

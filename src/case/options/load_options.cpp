@@ -92,11 +92,11 @@ OptionTable load_table() {
               kForce, {-1e6, 1e6}),
        option("t_gamma", load<&LoadSpec::t_gamma>,
               "T-gamma of the vehicle code, without spin; compared with the result, not used as input", kForce,
-              {0, 1e6}),
+              {-1e6, 1e6}),
        option("friction_energy", load<&LoadSpec::friction_energy>,
               "Friction power of the vehicle code divided by the speed, with spin; compared with the result, not used "
               "as input",
-              kForce, {0, 1e6})},
+              kForce, {-1e6, 1e6})},
       list_of<&CaseSpec::loads>(),
       {{"wheel_load", "axle_load"},
        {"passages", "mgt"},

@@ -247,6 +247,25 @@ std::string lacking_of(const UnitTable& table, const std::vector<LoadSpec>& samp
   return text;
 }
 
+/// What no railway has, or only with another sign.
+std::string doubts_of(const std::vector<LoadSpec>& loads) {
+  constexpr double kHeaviest = 250e3, kAside = 2e-3;  // N, m
+  const auto heavy =
+      std::count_if(loads.begin(), loads.end(), [](const LoadSpec& l) { return l.wheel_load.value_or(0) > kHeaviest; });
+  const auto turned = std::count_if(loads.begin(), loads.end(), [](const LoadSpec& l) {
+    return l.curve_radius.value_or(0) > 0 && l.lateral_shift.value_or(0) > kAside;
+  });
+  std::string out;
+  if (heavy > 0)
+    out += fmt::format("; {} of {} loads have more than 250 kN on a wheel: is the unit right?", heavy, loads.size());
+  if (turned > 0)
+    out += fmt::format(
+        "; {} of {} loads have a positive curve_radius (this rail is the inner one) and a wheel shifted to the field "
+        "side: of an outer rail the radius is negative",
+        turned, loads.size());
+  return out;
+}
+
 }  // namespace
 
 std::string read_load_table(const std::string& text, const std::filesystem::path& path, CaseSpec& spec,
@@ -271,7 +290,8 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
     if (const auto fault = fault_of(spec, spec.loads.back()))
       refuse_in_table(file, row.line, fault->message, fault->remedy);
   }
-  if (!series) return {};
+  const std::string doubts = doubts_of(spec.loads);
+  if (!series) return doubts.empty() ? doubts : file.string() + ": " + doubts.substr(2);
   require_states(table, file);
   const std::size_t samples = spec.loads.size();
   const std::string lacking = lacking_of(table, spec.loads);
@@ -294,7 +314,7 @@ std::string read_load_table(const std::string& text, const std::filesystem::path
     note +=
         "; its creepages are taken for those of the contact that touches first: give drive.creepage_of = \"wheel\" and "
         "(V - omega r0) / V where wheels touch tread and flange";
-  return note;
+  return note + doubts;
 }
 
 void check_loads(const CaseSpec& spec, CaseSource& source) {

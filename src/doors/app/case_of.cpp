@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "app/shipped_files.hpp"
+#include "reader/assumed.hpp"
 
 namespace railstrata {
 namespace {
@@ -27,6 +28,7 @@ LoadedCase load_case_of(const CommandOptions& options, const Use& use) {
   loaded.spec.title = title_of(loaded.spec.title, options.overrides);
   require_support(use, loaded);
   for (const std::string& note : notes_for(use, loaded)) spdlog::warn("{}", note);
+  if (const std::string assumed = assumed_in(loaded, use); !assumed.empty()) spdlog::info("{}", assumed);
   return loaded;
 }
 

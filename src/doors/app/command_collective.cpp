@@ -178,11 +178,12 @@ bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded
   const CollectiveRow* shown = shown_row(rows);
   if (!shown) return true;
   const std::filesystem::path page = out / "report.html";
-  return write_page_or_warn(page, control(), [&] {
-    write_row(options, loaded, out / kRowFolder, *shown);
-    return WrittenPage{
-        write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name, front), {}};
-  });
+  write_row(options, loaded, out / kRowFolder, *shown);  // a full disk is an error: no command makes the page later
+  const WrittenPage written{
+      write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name, front), {}};
+  report_page(written, control());
+  spdlog::info("everything on one page: {}", page.string());
+  return written.verdict.ok;
 }
 
 /// `collective --measured-before --measured-after --tonnes`.
