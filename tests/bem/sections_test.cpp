@@ -57,8 +57,8 @@ class Sections : public testing::Test {
 TEST_F(Sections, WorkIsTheSameWhicheverLoadComesFirst) {
   const PatchGrid grid = centred_grid(9, 8, 0.8e-3, 0.8e-3);
   const auto op = on(grid);
-  const Plane p = noise(grid.size(), 1), x = noise(grid.size(), 2), y = noise(grid.size(), 3),
-              x2 = noise(grid.size(), 4), y2 = noise(grid.size(), 5), p2 = noise(grid.size(), 6),
+  const Plane p = noise(grid.size(), 1), x = noise(grid.size(), 2), y = noise(grid.size(), 3);
+  const Plane x2 = noise(grid.size(), 4), y2 = noise(grid.size(), 5), p2 = noise(grid.size(), 6),
               none(grid.size(), 0.0);
   const double there = dot(y, op->tangential_from_pressure(p, grid.nx).y),
                back = dot(p, op->normal_from_traction(none, y));

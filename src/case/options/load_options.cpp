@@ -14,10 +14,10 @@ bool has_loads(const CaseSpec& spec, std::size_t) { return !spec.loads.empty(); 
 bool has_wheel(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(index).wheel_profile.empty(); }
 bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(index).name.empty(); }
 
-/// Each axle has this wheel and another like it: N = MGT / (2 wheel loads).
+/// Each axle has this wheel and another like it, N = MGT / (2 wheel loads), or its weight is given.
 double passages_of(const CaseSpec& spec, std::size_t index, double million_tonnes) {
-  const double wheel = spec.loads.at(index).wheel_load.value_or(spec.vehicle.load());
-  return 1e6 * million_tonnes / gross_tonnes(wheel);
+  const LoadSpec& load = spec.loads.at(index);
+  return 1e6 * million_tonnes / load.tonnes(load.wheel_load.value_or(spec.vehicle.load()));
 }
 
 bool has_life(const CaseSpec& spec, std::size_t i) { return has_loads(spec, i) || spec.life.until > 0; }
@@ -65,9 +65,14 @@ OptionTable load_table() {
               "Load of both wheels on the track, a force or a mass; this wheel carries half", kForce, above(0, 2e7))
            .derived({half, "choose a load in this range"})
            .or_mass(),
+       option("axle_weight", load<&LoadSpec::axle_weight>,
+              "Weight of the axle, a force or a mass, for gross tonnes where a curve loads its wheels differently; not "
+              "given: twice the wheel's load",
+              kForce, above(0, 2e7))
+           .or_mass(),
        option("mgt", load<&LoadSpec::passages>,
               "Traffic in million gross tonnes of such axles, instead of passages. Each axle has two wheels of the "
-              "row's load, one of them on this rail: passages = mgt / (2 wheel_load)",
+              "row's load, one of them on this rail: passages = mgt / (2 wheel_load), or over axle_weight",
               kNumber, above(0, 1e6))
            .derived({passages_of, "choose a smaller value, or give passages instead"}),
        option("wheel_profile", load<&LoadSpec::wheel_profile>,

@@ -57,8 +57,11 @@ struct LoadSpec {
   std::optional<double> traction_coefficient, creepage;                  ///< at most one
   std::optional<double> lateral_traction_coefficient, lateral_creepage;  ///< at most one
   std::optional<double> friction_coefficient;
+  std::optional<double> axle_weight;  ///< N, for gross tonnes; not given: twice the wheel's load
   std::optional<double> guiding_force, t_gamma,
       friction_energy;  ///< N, of the vehicle code, to compare with what comes out
+  /// Gross tonnes of its axle, with the load of the wheel [N].
+  double tonnes(double load) const { return gross_tonnes(axle_weight ? 0.5 * *axle_weight : load); }
   bool operator==(const LoadSpec&) const = default;
 };
 

@@ -118,7 +118,8 @@ const std::array kAxes{Axis{&LoadSpec::wheel_load, 10e3},
                        Axis{&LoadSpec::creepage, 5e-4},
                        Axis{&LoadSpec::lateral_creepage, 5e-4}};
 /// Means alone, which part no samples.
-const std::array kMeans{&LoadSpec::roll, &LoadSpec::guiding_force, &LoadSpec::t_gamma, &LoadSpec::friction_energy};
+const std::array kMeans{&LoadSpec::roll, &LoadSpec::axle_weight, &LoadSpec::guiding_force, &LoadSpec::t_gamma,
+                        &LoadSpec::friction_energy};
 /// Name and profile of the wheel, and where it lies on the axes.
 using Bin = std::pair<std::array<std::string, 2>, std::array<std::optional<long>, kAxes.size()>>;
 

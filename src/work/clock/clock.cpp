@@ -162,7 +162,7 @@ void Clock::begin() {
   double kilograms = 0;
   for (const CollectiveRow& row : rows_) {
     now_.out.wheels += row.passages;
-    if (row.solved()) kilograms += row.passages * 1e3 * gross_tonnes(row.summary.contact.F_z);
+    if (row.solved()) kilograms += 1e3 * row.tonnes();
   }
   now_.kilograms = kilograms / now_.out.wheels;
   now_.out.tonnes = 1e-3 * kilograms;

@@ -124,7 +124,9 @@ Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& r
                        const WheelDamage& wheel) {
   std::vector<LifeLoad> loads;
   for (const CollectiveRow& row : rows)
-    if (row.sound()) loads.push_back({row.passages, row.summary.contact.F_z, &row.patches, &row.sections});
+    if (row.sound())
+      loads.push_back({row.passages, 0.5 * row.given.axle_weight.value_or(2 * row.summary.contact.F_z), &row.patches,
+                       &row.sections});
   return zone_lives(spec, loads, rail, wheel);
 }
 

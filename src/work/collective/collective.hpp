@@ -38,6 +38,7 @@ struct CollectiveRow {
   double moved = 0;   ///< m of the shift for the given guiding force; NaN: none within kFarthestMatch has it
   std::string fault;  ///< empty: solved, and its checks hold
   bool done = false;
+  double tonnes() const { return passages * given.tonnes(summary.contact.F_z); }  ///< gross, of all passages
   bool solved() const { return !summary_json.is_null(); }
   bool sound() const { return solved() && fault.empty(); }
 };

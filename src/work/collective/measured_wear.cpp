@@ -38,7 +38,7 @@ MeasuredWear measured_wear(const std::vector<CollectiveRow>& rows, const RailDam
                    .law = collective.wear_law};
   double all = 0;
   for (const CollectiveRow& row : rows)
-    if (row.sound()) all += row.passages * gross_tonnes(row.summary.contact.F_z);
+    if (row.sound()) all += row.tonnes();
   out.computed = worn_area(damage, damage.depth(out.law)) * tonnes / all;
   if (!(out.computed > 0))
     throw CaseError("the wear law of the case computes no wear, so there is no factor",

@@ -194,7 +194,8 @@ LoadSpec load_of(const CaseSpec& spec, const BogieSpec& bogie, const BogieInCurv
   LoadSpec out;
   const double radius = bogie.wheel_radius.value_or(spec.geometry.wheel_radius);
   out.name = fmt::format("{}, {}", found.name, which == 0 ? "leading" : "trailing");
-  out.passages = 1e6 * 0.5 * bogie.mgt.value_or(0) / gross_tonnes(0.5 * bogie.axle_load);
+  out.axle_weight = bogie.axle_load;
+  out.passages = 1e6 * 0.5 * bogie.mgt.value_or(0) / out.tonnes(0);
   out.wheel_profile = bogie.wheel_profile;
   out.wheel_radius = bogie.wheel_radius;
   out.wheel_load = wheel.force.z;

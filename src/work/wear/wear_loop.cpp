@@ -144,7 +144,7 @@ void note_layer(const LayerLeft& layer, const std::vector<double>& depth, double
 
 double tonnes_of(const std::vector<CollectiveRow>& rows) {
   double out = 0;
-  for (const CollectiveRow& row : rows) out += row.passages * gross_tonnes(row.summary.contact.F_z);
+  for (const CollectiveRow& row : rows) out += row.tonnes();
   return out;
 }
 
