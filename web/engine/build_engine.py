@@ -22,7 +22,7 @@ SRC = ROOT / "src"
 EXTRAS = ROOT / "extras"
 ENTRY = "explore/calls.cpp"
 # Rooms whose headers others include for the types, and whose functions nobody calls here: the linker would say.
-TYPES_ALONE = ("body/", "element/", "fem/", "mesh/", "contact/", "io/provenance.cpp")
+TYPES_ALONE = ("body/", "element/", "fem/", "contact/", "io/provenance.cpp")
 CALLED_HERE = ("contact/patch_extent.cpp",)  # of these, what is called here
 NOT_HERE = ("fft/fft_fftw.cpp", "halfspace/circular_pressure.cpp", "hdf5/")
 # Whole libraries of headers beside the system's own, which are not for this compiler.
