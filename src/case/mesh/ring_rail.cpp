@@ -1,9 +1,10 @@
+#include "mesh/bodies.hpp"
+
 #include <fmt/format.h>
 
 #include <numbers>
 
 #include "core/faults.hpp"
-#include "mesh/bodies.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,3 +1,5 @@
+#include "mesh/bodies.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
