@@ -28,8 +28,11 @@ LoadedCase load_case_of(const CommandOptions& options, const Use& use) {
   loaded.spec.title = title_of(loaded.spec.title, options.overrides);
   require_support(use, loaded);
   for (const std::string& note : notes_for(use, loaded)) spdlog::warn("{}", note);
-  if (const std::string assumed = assumed_in(loaded, use); !assumed.empty()) spdlog::info("{}", assumed);
   return loaded;
+}
+
+void report_assumed(const LoadedCase& loaded, const Use& use) {
+  if (const std::string assumed = assumed_in(loaded, use); !assumed.empty()) spdlog::info("{}", assumed);
 }
 
 std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,

@@ -14,6 +14,9 @@ namespace railstrata {
 /// CaseError.
 LoadedCase load_case_of(const CommandOptions& options, const Use& use);
 
+/// One line, before a verdict, of what it rests on and the case does not give.
+void report_assumed(const LoadedCase& loaded, const Use& use);
+
 /// --out, or results/<case name><suffix>.
 std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,
                                        const std::string& suffix = {});

@@ -124,6 +124,7 @@ ExitCode command_bem(const BemWords& own, const CommandOptions& options) {
   for (const std::string& doubt : job.placement.doubts) spdlog::warn("{}", doubt);
   for (const auto& notes : {job.placement.notes, answer.result.notes})
     for (const std::string& note : notes) spdlog::info("{}", note);
+  report_assumed(job.loaded, uses::kHalfSpaces);
   print_summary(answer.summary, options.json);
   spdlog::info("results are in {}", job.out.string());
   const bool page_ok = !options.page || add_report(job.out, control()), ok = page_ok && all_checks_hold(answer.summary);

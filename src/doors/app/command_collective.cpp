@@ -260,6 +260,7 @@ ExitCode collective_of(const CommandOptions& options, const LoadedCase& loaded, 
   if (tonnes > 0) measured = measured_wear(rows, damage.rail, wanted.before, wanted.after, tonnes);
   if (measured) json["measured_wear"] = measured_json(*measured);
   write_whole_file(out / "collective.json", json_text(json, 2) + "\n");
+  report_assumed(loaded, uses::kCollective);
   if (options.json)
     fmt::print("{}\n", json_text(json, 2));
   else

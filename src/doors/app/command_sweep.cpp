@@ -99,6 +99,7 @@ ExitCode command_sweep(const SweepWords& own, const CommandOptions& options) {
   control().progress("");
   write();
 
+  report_assumed(base, uses::kHalfSpaces);
   if (options.json)
     fmt::print("{}\n", json_of(table).dump(2));
   else
