@@ -57,7 +57,8 @@ std::string text_in(const fs::path& file) {
 
 class JobInAFolder : public testing::Test {
  protected:
-  JobEnd carry_out(const char* name, std::size_t terms, bool resume, const char* text = "") {
+  JobEnd carry_out(const char* name, std::size_t terms, bool resume,
+                   const char* text = "[case]\ntitle = \"series\"\n") {
     const fs::path file = folder.path() / "a.toml";
     write_whole_file(file, text);
     SeriesJob job(load_case(file), {folder.path() / name, resume, false, false, {}}, terms, control);

@@ -72,7 +72,7 @@ class InTheCase(Refusal):
 
     def test_no_control_character_reaches_the_terminal(self):
         cases = {"case.toml": '[mesh]\nelement = "\\u001b[31m"\n', "b\x1b[2J.toml": '[mesh]\nlargest = "\x9b"\n',
-                 "c\x1b[2J.toml": "", "c\x1b[2J bem.toml": "[drive]\ncreepage = -0.001\n"}
+                 "c\x1b[2J.toml": "run.rolling = true\n", "c\x1b[2J bem.toml": "[drive]\ncreepage = -0.001\n"}
         seen = ""
         for name, text in cases.items():
             (self.folder / name).write_text(text, encoding="utf-8")

@@ -80,7 +80,7 @@ class Program(FromOutside):
     def test_a_folder_that_is_not_empty_exits_2_and_force_writes_into_it(self):
         (self.folder / "out").mkdir()
         (self.folder / "out" / "mine.txt").write_text("keep")
-        words = ["check", self.case(""), *COARSE, "--mesh", "--out", self.folder / "out"]
+        words = ["check", self.case("run.rolling = true"), *COARSE, "--mesh", "--out", self.folder / "out"]
         self.refused(2, words,
                      "is not empty\n    remedy: choose another with --out, or overwrite files of the same name with "
                      "--force")
@@ -89,7 +89,7 @@ class Program(FromOutside):
         self.assertEqual((self.folder / "out" / "mine.txt").read_text(), "keep")
 
     def test_check_tells_the_contact_point_and_the_mesh(self):
-        rc, out, err = railstrata("check", self.case(""), *COARSE, "--json")
+        rc, out, err = railstrata("check", self.case("run.rolling = true"), *COARSE, "--json")
         self.assertEqual(rc, 0, err)
         report = json.loads(out)
         # half-space contact scripts' rigid contact point, LMA on CN60 at 1:40

@@ -852,7 +852,7 @@ class Sweep(Page):
         rows = rows_of(RESULTS / "sweep" / "sweep.csv")
         for k, friction in enumerate(("0.3", "0.5")):
             shown = self.trace("plot-p_max_MPa", k)
-            self.assertEqual(shown["name"], f"drive.friction_coefficient {friction}")
+            self.assertEqual(shown["name"], f"friction coefficient {friction}")
             self.assertEqual(shown["x"], [0.5, 1, 2])
             for x, y in zip(shown["x"], shown["y"]):
                 wanted = next(r for r in rows if float(r["layer.0.thickness"].split()[0]) == x

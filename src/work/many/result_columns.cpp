@@ -102,7 +102,9 @@ ResultRemarks remarks_of(const nlohmann::ordered_json& summary) {
     out.decided_by = summary[answer].value("zone", "");
   }
   if (const auto life = summary.find("life"); life != summary.end()) {
-    const nlohmann::ordered_json best = life->value("best_kg", nlohmann::ordered_json());
+    const auto row = std::find_if(result_numbers().begin(), result_numbers().end(),
+                                  [](const ResultNumber& n) { return n.group == kLifeGroup; });  // the best estimate
+    const nlohmann::ordered_json best = life->value(row->key(), nlohmann::ordered_json());
     out.life = best.is_number() ? "ends" : best == kEndlessLife ? "never" : life->value("text", "");
   }
   return out;
