@@ -72,7 +72,8 @@ class InTheCase(Refusal):
 
     def test_no_control_character_reaches_the_terminal(self):
         cases = {"case.toml": '[mesh]\nelement = "\\u001b[31m"\n', "b\x1b[2J.toml": '[mesh]\nlargest = "\x9b"\n',
-                 "c\x1b[2J.toml": "run.rolling = true\n", "c\x1b[2J bem.toml": "[drive]\ncreepage = -0.001\n"}
+                 "c\x1b[2J.toml": "run.rolling = true\n", "c\x1b[2J bem.toml": "[drive]\ncreepage = -0.001\n",
+                 "d\x1b[2J.toml": ""}
         seen = ""
         for name, text in cases.items():
             (self.folder / name).write_text(text, encoding="utf-8")
@@ -82,7 +83,7 @@ class InTheCase(Refusal):
             seen += out + err
         self.assertEqual([c for c in seen if ord(c) < 32 and c != "\n" or 0x7F <= ord(c) < 0xA0], [])
         self.assertIn('mesh.element = "\\x1b[31m"', seen)
-        self.assertIn("c\\x1b[2J.toml is empty", seen)
+        self.assertIn("d\\x1b[2J.toml: error: the case file has no key", seen)
         self.assertEqual(seen.count(": t\\x1b[2J\n"), 2, seen)
 
     def test_a_name_too_long(self):
