@@ -859,6 +859,7 @@ class Sweep(Page):
                               and r["drive.friction_coefficient"] == friction)
                 self.assertAlmostEqual(y, float(wanted["p_max_MPa"]), delta=1e-5 * y)
         self.assertEqual(len(self.js("return [...document.querySelectorAll('#table-cases tbody tr')].map(r => 1)")), 6)
+        self.assertIn("6 of 6 cases", self.js("return document.getElementById('verdict').textContent"))
         self.assertIn("thickness h [mm]", self.js(
             "return document.getElementById('plot-p_max_MPa').drawn.chart.x.title"))
         self.assertEqual(self.first_words + self.browser.console(), [])

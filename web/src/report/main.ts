@@ -203,8 +203,8 @@ function chooser(): HTMLElement|null {
   return element("div", {class: "chooser"}, "Run ", lists[0], " beside ", lists[1]);
 }
 
-/// A page without runs (a wear loop) has nothing to judge.
-const judged = () => report.checks.length > 0 || report.runs.length > 0;
+/// A page without runs (a wear loop, a sweep) has nothing to judge but its answers.
+const judged = () => report.checks.length > 0 || report.runs.length > 0 || (report.answers ?? []).length > 0;
 
 /// Names of the parts that this page has, in order, and their words in the contents line.
 function contents(): [id: string, name: string][] {

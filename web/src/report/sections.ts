@@ -122,9 +122,10 @@ export function verdict(report: Report): HTMLElement {
   const answers = answerLines(report.answers ?? []);
   const banner = (report.answers ?? []).some((a) => a.tone !== "plain");
   const line = verdictLine(judged, failed);
-  const heading = banner ? element("p", {class: failed.length ? "failed" : "held"}, `Numerical checks: ${line}`)
-                         : element("h2", {}, ok ? "✓ " : "✗ ", line);
-  const tone = toneOf(report.answers ?? [], ok);
+  const checks = banner ? element("p", {class: failed.length ? "failed" : "held"}, `Numerical checks: ${line}`)
+                        : element("h2", {}, ok ? "✓ " : "✗ ", line);
+  const heading = answers.length && !report.checks.length && !report.runs.length ? null : checks;
+  const tone = banner || heading ? toneOf(report.answers ?? [], ok) : "plain";
   const attributes = {id: "verdict", class: tone, "data-ok": String(ok), "data-tone": tone};
   const count = (n: number, one: string, more: string) => (n ? [`${n} ${n === 1 ? one : more}`] : []);
   const folded = [
