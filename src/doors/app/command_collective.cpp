@@ -212,6 +212,8 @@ std::vector<BogieInCurve> solve_curve_of(const LoadedCase& loaded) {
   if (loaded.spec.collective.curve.bogies.empty()) return {};
   std::vector<BogieInCurve> out = solve_curve(loaded, &control());
   for (const std::string& line : curving_lines(out)) spdlog::info("{}", line);
+  for (const BogieInCurve& bogie : out)
+    if (!bogie.fault.empty()) spdlog::warn("{} is left out: {}", bogie.name, bogie.fault);
   return out;
 }
 

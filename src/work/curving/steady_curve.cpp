@@ -239,10 +239,7 @@ LoadedCase with_curve_loads(const LoadedCase& loaded, const std::vector<BogieInC
   LoadedCase out = loaded;
   out.spec.loads.clear();
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (!found[i].fault.empty()) {
-      out.notes.push_back(fmt::format("{} is left out: {}", found[i].name, found[i].fault));
-      continue;
-    }
+    if (!found[i].fault.empty()) continue;
     for (std::size_t which : {0, 1})
       out.spec.loads.push_back(load_of(loaded.spec, loaded.spec.collective.curve.bogies[i], found[i], which));
   }

@@ -44,7 +44,7 @@ std::vector<BogieInCurve> solve_curve(const LoadedCase& loaded, const Control* c
 void require_equilibrium(const std::vector<BogieInCurve>& bogies);
 
 /// The case with the wheels on the rail of the curve as its loads, and their creepages those of wheels. Bogies without
-/// an equilibrium are left out, with a note. Throws CaseError as require_equilibrium.
+/// an equilibrium are left out. Throws CaseError as require_equilibrium.
 LoadedCase with_curve_loads(const LoadedCase& loaded, const std::vector<BogieInCurve>& bogies);
 
 }  // namespace railstrata
