@@ -45,10 +45,35 @@ TEST(RailOutline, CN60_is_73_mm_wide_at_the_head_150_at_the_base_and_176_high) {
   EXPECT_NEAR(2 * thinnest, 16.5 * mm, 1e-3 * mm);
 }
 
+// EN 13674-1: areas, moments about both axes; heights and widths
+TEST(RailOutline, European_rails_have_the_section_properties_of_their_standard) {
+  const auto properties = [](const char* name) {
+    const Profile head = rail(name);
+    const RailOutline o = rail_outline(head, rail_section(name, TrackKind::CN));
+    EXPECT_NEAR(o.base_z, name == std::string("UIC60") ? -172 * mm : -159 * mm, 1e-12);
+    EXPECT_NEAR(o.foot_top.back().y, name == std::string("UIC60") ? 75 * mm : 70 * mm, 1e-12);
+    return section_properties(outline_polygon(head, o));
+  };
+  const SectionProperties uic60 = properties("UIC60"), uic54 = properties("UIC54");
+  EXPECT_NEAR(uic60.area, 76.70e-4, 0.02e-4);
+  EXPECT_NEAR(uic60.i_horizontal, 3038.3e-8, 0.003 * 3038.3e-8);
+  EXPECT_NEAR(uic60.i_vertical, 512.3e-8, 0.003 * 512.3e-8);
+  EXPECT_NEAR(uic60.centroid_height, 80.92 * mm, 0.02 * mm);
+  EXPECT_NEAR(uic54.area, 69.77e-4, 0.02e-4);
+  EXPECT_NEAR(uic54.i_horizontal, 2337.9e-8, 0.003 * 2337.9e-8);
+  EXPECT_NEAR(uic54.i_vertical, 419.2e-8, 0.012 * 419.2e-8);
+}
+
+TEST(RailOutline, a_head_of_a_file_has_the_section_of_its_track) {
+  EXPECT_EQ(rail_section("mine.csv", TrackKind::EN), RailSection::UIC60);
+  EXPECT_EQ(rail_section("mine.csv", TrackKind::CN), RailSection::CN60);
+  EXPECT_EQ(rail_section("CN60", TrackKind::EN), RailSection::CN60);
+}
+
 TEST(RailOutline, parts_join_and_run_without_steps) {
   for (const char* name : {"CN60", "UIC60", "UIC54"}) {
     const Profile head = rail(name);
-    const RailOutline o = rail_outline(head);
+    const RailOutline o = rail_outline(head, rail_section(name, TrackKind::CN));
     EXPECT_NEAR(norm(o.underside.front() - Vec2{o.flank_y, o.flank_z}), 0, 1e-12);
     EXPECT_NEAR(norm(o.underside.back() - o.web.front()), 0, 1e-12);
     EXPECT_NEAR(norm(o.web.back() - o.foot_top.front()), 0, 1e-12);

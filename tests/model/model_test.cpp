@@ -106,6 +106,27 @@ TEST(BuildModel, AnUnbondedStretchLiesBeyondTheReachOfTheWheelAtItsStart) {
   for (const double x : {reach + 1e-3, 0.09}) EXPECT_NE(std::find(at.begin(), at.end(), x), at.end()) << x;
 }
 
+TEST(BuildModel, ALayerThatLiesOffTheRailIsRefused) {
+  CaseSpec spec = crossed_cylinders();
+  spec.layers.emplace_back();
+  spec.layers[0].from = 5;
+  try {
+    build_model(spec, {});
+    FAIL() << "taken";
+  } catch (const CaseError& e) {
+    EXPECT_NE(std::string(e.what()).find("layer.0 lies off the rail"), std::string::npos) << e.what();
+  }
+}
+
+TEST(BuildModel, TheFineCapIsAsWideAsThePatchNeeds) {
+  CaseSpec spec = crossed_cylinders();
+  spec.mesh.fine_width.reset();
+  spec.mesh.element_size = 3e-3;
+  EXPECT_EQ(build_model(spec, {}).spec.mesh.fine_width, kFineWidth);
+  spec.geometry.rail_profile = "arc:R=2000 mm";
+  EXPECT_GT(build_model(spec, {}).spec.mesh.fine_width, kFineWidth);
+}
+
 TEST(StaticLoad, IsTheWeightOfWheelAndSprungMass) {
   CaseSpec spec;
   spec.vehicle.wheel_mass = 700;

@@ -6,6 +6,7 @@
 #include "geometry/body_shapes.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile.hpp"
+#include "geometry/rail_outline.hpp"
 #include "mesh/swept.hpp"
 
 namespace railstrata {
@@ -45,7 +46,8 @@ struct MeshSizes {
 /// * h in the rest, growing outside. Section in the model frame (canted), origin (0,0,0).
 struct RailMeshSpec {
   RailShape shape = RailShape::rail;
-  double contact_s = 0;  ///< profile arc length of the contact point: centre of the fine cap
+  RailSection section = RailSection::CN60;  ///< below the head of the shape rail
+  double contact_s = 0;                     ///< profile arc length of the contact point: centre of the fine cap
   double x_begin = 0, x_end = 0;
   double end_length = 0.12;
   double block_width = 0.06, block_height = 0.06;  ///< shape block only

@@ -175,7 +175,7 @@ void fill_rail(SweptBody& body, const Profile& profile, const RailMeshSpec& spec
                const StationPair& stations) {
   const RailBand band = rail_band(profile, spec, sizes);
   const HeadBoundary boundary = head_boundary(profile, band);
-  const LowerOutline lower = lower_outline(rail_outline(profile));
+  const LowerOutline lower = lower_outline(rail_outline(profile, spec.section));
   HeadSection head = head_section(boundary, lower, band.element);
   FootSection foot = foot_section(lower, sizes.largest);
   BandBlock cap = band_block("cap", profile, band.fine, band.rows, spec.layers, boundary.under_band, stations.fine);

@@ -143,6 +143,7 @@ std::vector<Elastic> materials_at_surface(const CaseSpec& spec, BodyId body, std
 // side of the first point of contact.
 struct StripMiddle {
   double rail_s, wheel_s;
+  double width;  ///< m, along the rail
 };
 StripMiddle strip_middle(const Placement& p, double closeness) {
   const RigidContact& c = p.contact;
@@ -157,7 +158,7 @@ StripMiddle strip_middle(const Placement& p, double closeness) {
   while (low - step > p.rail.s_min() && c.rail_s - low < reach && gap(low - step) < closeness) low -= step;
   while (high + step < p.rail.s_max() && high - c.rail_s < reach && gap(high + step) < closeness) high += step;
   const double middle = 0.5 * (low + high);
-  return {middle, p.wheel.s_at_y(rail_to_model(p.track, p.rail.at(middle).position).y - c.wheel_offset_y)};
+  return {middle, p.wheel.s_at_y(rail_to_model(p.track, p.rail.at(middle).position).y - c.wheel_offset_y), high - low};
 }
 
 }  // namespace
@@ -248,8 +249,12 @@ void require_sound_mesh(const SweptBody& body, BodyId id, const CaseSpec& spec) 
                     q.scaled_jacobian_min),
         fmt::format("there is too little room for the fine zone: look at {}, the profile, mesh.fine_depth (now "
                     "{:g} mm) and mesh.fine_width (now {:g} mm)",
-                    shape, 1e3 * m.fine_depth, 1e3 * m.fine_width));
+                    shape, 1e3 * m.fine_depth, 1e3 * m.fine_width.value_or(kFineWidth)));
   }
+}
+
+RailSection section_below_head(const GeometrySpec& g, const Profile& rail) {
+  return rail_section(rail.name(), track_preset_of(g.track, g.wheel_profile, g.rail_profile).kind);
 }
 
 /// Of the rail beyond the fine range; on a track as long as its bays ask for.
@@ -281,6 +286,18 @@ void refuse_unbonded_at_start(const CaseSpec& spec, double semi_axis, double rai
                                     1e3 * stretch.to, 1e3 * rail_end),
                         "let it end before, or give more run.positions or mesh.end_length", key);
     }
+}
+
+/// A layer that ends has something of itself on the rail, m from the start of the wheel.
+void refuse_layers_off_rail(const CaseSpec& spec, double rail_begin, double rail_end) {
+  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
+    const LayerSpec& layer = spec.layers[i];
+    if (layer.on != BodyId::rail || (layer.begin() < rail_end && layer.end() > rail_begin)) continue;
+    throw CaseError(fmt::format("layer.{} lies off the rail, which reaches from {:.1f} mm to {:.1f} mm", i,
+                                1e3 * rail_begin, 1e3 * rail_end),
+                    "put it on the rail, or give more run.positions or mesh.end_length",
+                    fmt::format("layer.{}.{}", i, layer.begin() < rail_end ? "to" : "from"));
+  }
 }
 
 /// run.run_up, run.positions and where the run ends.
@@ -322,6 +339,7 @@ MeshedSection meshed_section(const CaseSpec& spec, const Placement& placement, B
   if (body == BodyId::rail) {
     RailMeshSpec rail;
     rail.shape = g.rail_shape;
+    rail.section = section_below_head(g, placement.rail);
     rail.contact_s = contact_s;
     rail.x_end = sizes.element;
     rail.block_width = g.block_width;
@@ -360,19 +378,21 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, con
   const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size + std::abs(contact.x) + m.reach;
   // A steady start has no time to settle where the fine range ends close behind the wheel.
   const double behind = margin + (why_from_rest(spec).empty() ? 4 * m.hertz.a : 0.0);
-  const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio,
-                        spec.mesh.largest};
-
   const StripMiddle strip = strip_middle(m.placement, m.hertz.approach);
+  if (!spec.mesh.fine_width) m.spec.mesh.fine_width = std::max(kFineWidth, strip.width + 2 * spec.mesh.element_size);
+  const MeshSizes sizes{spec.mesh.element_size, *m.spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio,
+                        spec.mesh.largest};
 
   const GeometrySpec& g = spec.geometry;
   RailMeshSpec rail;
   rail.shape = g.rail_shape;
+  rail.section = section_below_head(g, m.placement.rail);
   rail.contact_s = strip.rail_s;
   rail.x_begin = -behind;
   rail.x_end = m.x_end + margin;
   rail.end_length = end_length(spec, rail.x_begin, rail.x_end);
   refuse_unbonded_at_start(spec, m.hertz.a, rail.x_end + rail.end_length);
+  refuse_layers_off_rail(spec, rail.x_begin - rail.end_length, rail.x_end + rail.end_length);
   rail.block_width = g.block_width;
   rail.block_height = g.block_height;
   rail.layers = layer_meshes(spec, BodyId::rail);

@@ -23,7 +23,9 @@ OptionTable mesh_table() {
                   "Edge length at the running surfaces and in the studied subsurface", kLength,
                   {0.05 * kMilli, 20 * kMilli}),
            option("fine_width", at<&C::mesh, &H::fine_width>,
-                  "Lateral width of the fine cap, centred on the contact point", kLength, {kMilli, 0.1}),
+                  "Lateral width of the fine cap, centred on the contact. Not given: 24 mm, more where the patch is "
+                  "wider",
+                  kLength, {kMilli, 0.1}),
            option("fine_depth", at<&C::mesh, &H::fine_depth>, "Depth of the fine cap", kLength, {0.5 * kMilli, 0.05}),
            option("largest", at<&C::mesh, &H::largest>, "Largest edge far from the contact", kLength, {kMilli, 0.2}),
            option("coarse_ratio", at<&C::mesh, &H::coarse_ratio>,

@@ -181,7 +181,7 @@ void check_mesh(const MeshSpec& m, CaseSource& source) {
       refuse(source, key, length(value), fmt::format("must be at least {} ({})", length(least), why),
              "make it larger, or mesh.element_size smaller");
   };
-  at_least("mesh.fine_width", m.fine_width, 4 * m.element_size, "four elements");
+  at_least("mesh.fine_width", m.fine_width.value_or(kFineWidth), 4 * m.element_size, "four elements");
   at_least("mesh.fine_depth", m.fine_depth, m.element_size, "one element");
   at_least("mesh.largest", m.largest, m.element_size, "one element");
 }

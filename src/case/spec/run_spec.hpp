@@ -31,8 +31,12 @@ enum class LeadingEdge {
 /// Whose strength and fatigue a result judges.
 enum class JudgedBodies { both, rail, wheel };
 
+/// m, of the fine cap that is not given: wider where the patch is.
+inline constexpr double kFineWidth = 24e-3;
+
 struct MeshSpec {
-  double element_size = 1e-3, fine_width = 24e-3, fine_depth = 8e-3, largest = 12e-3;
+  double element_size = 1e-3, fine_depth = 8e-3, largest = 12e-3;
+  std::optional<double> fine_width;  ///< m, across; of a Model always given
   int coarse_ratio = 3;
   ElementFormulation element = ElementFormulation::full;
   double end_length = 0.12;

@@ -74,7 +74,7 @@ double along_wheel(const Model& model, const MeanContact& m) {
 PatchSurroundings surroundings(const Model& model, const MeanContact& m) {
   const Placement& p = model.placement;
   const Vec2 tangent{std::cos(p.contact.angle), std::sin(p.contact.angle)};
-  const double half = 0.5 * model.spec.mesh.fine_width;
+  const double half = 0.5 * model.spec.mesh.fine_width.value();
   SolvedPatch patch{half, -half, -half, half, model.load / tangent.y, model.hertz.approach};
   for (int i = 0; i < m.field.size(); ++i) {
     if (!(m.field.p[i] > m.field.p_noise)) continue;

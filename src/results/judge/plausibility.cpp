@@ -167,7 +167,8 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const P
   out.above("patch_near_edge", around.edges.edge_share, fmt::format(", here {}", around.edges.edge));
   warn_of_layers(spec, around, out);
   if (s.run.engine == Engine::fem)
-    out.above("patch_near_border_of_fine_zone", patch.width, spec.mesh.fine_width - 2 * spec.mesh.element_size);
+    out.above("patch_near_border_of_fine_zone", patch.width,
+              spec.mesh.fine_width.value_or(kFineWidth) - 2 * spec.mesh.element_size);
   out.above("patches_near_each_other", around.bent_by_others);
   if (spec.third_body.thickness) out.above("soft_film", film_shear(spec, patch));
   out.above("plastic_strain_large", s.plastic.strain);

@@ -58,7 +58,7 @@ CaseSpec case_of_rolls(CaseSpec spec, const std::filesystem::path& folder, const
   spec.run.output.patch_series = false;
   const double range = contact_range(spec, folder);
   if (range == 0) return spec;
-  spec.mesh.fine_width += 2 * range;
+  spec.mesh.fine_width = spec.mesh.fine_width.value_or(kFineWidth) + 2 * range;
   return spec;
 }
 
