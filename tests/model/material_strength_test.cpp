@@ -87,6 +87,36 @@ std::optional<StrainLifeOfMaterial> life_of(const StrengthSpec& s) {
   return strain_life_of(m, "rail", "material.rail");
 }
 
+TEST(PlasticLaw, AGradeBringsItsSetUnlessAnotherKeyGivesALaw) {
+  MaterialSpec m;
+  m.strength.grade = "R260";
+  EXPECT_EQ(law_of(m).value().top.plastic.yield, hardening_set("R260").hardening.law.yield);
+  m.strength.kinematic_hardening = {{60e9, 250}};
+  EXPECT_EQ(law_of(m).value().top.plastic.yield, 470e6) << "the law that is given, from the grade's yield strength on";
+  m.strength.kinematic_hardening.clear();
+  m.strength.yield_strength = 500e6;
+  EXPECT_EQ(law_of(m).value().top.plastic.modulus[0], 0);
+  m.strength.yield_strength.reset();
+  m.strength.hardening = "estimated";
+  EXPECT_EQ(law_of(m).value().top.plastic.yield, estimated_hardening(880e6).yield);
+}
+
+TEST(MaterialStrength, EnduranceIsGivenElseOfTheGrade) {
+  StrengthSpec s;
+  const auto known = [&] { return MaterialStrength(s, "rail", "material.rail").endurance(); };
+  EXPECT_TRUE(std::isnan(known().limit));
+  s.grade = "R260";
+  EXPECT_NEAR(known().limit, 0.577 * 0.45 * 880e6, 1);  // FKM guideline: alternating shear
+  // both endurance limits lie on the line: alternating tension has tau = sigma/2, sigma_h = sigma/3
+  EXPECT_NEAR((0.5 + known().weight / 3) * 0.45 * 880e6, known().limit, 1);
+  s.fatigue.limit = 300e6;
+  EXPECT_EQ(known().limit, 300e6);
+  s.grade.clear();
+  EXPECT_TRUE(std::isnan(known().limit)) << "without a weight";
+  s.fatigue.dang_van = 0.3;
+  EXPECT_EQ(known().weight, 0.3);
+}
+
 TEST(StrainLifeOfMaterial, IsGivenElseEstimatedFromTheTensileStrengthOfTheMaterialItsGradeOrItsHardness) {
   StrengthSpec s;
   EXPECT_FALSE(life_of(s)) << "nothing known";

@@ -192,7 +192,7 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
        "modulus = \"9 GPa\", recall = 5 }]\n",
        "has 5 backstresses, at most 4 are computed"},
       {"[material.rail]\nhardening = \"R26\"\n", "a.toml:2:13: material.rail.hardening: no hardening set \"R26\""},
-      {"[material.rail]\nhardening = \"estimated\"\n", "needs tensile_strength or hardness"},
+      {"[material.rail]\nhardening = \"estimated\"\n", "needs tensile_strength, a grade or hardness"},
       {"[material.rail]\nhardening = \"R260\"\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"9 "
        "GPa\", "
        "recall = 1 }]\n",

@@ -49,20 +49,20 @@ std::vector<DepthPoint> everywhere(double factor) {
 class LawOf {
  public:
   LawOf(const MaterialSpec& material, const std::string& name, const std::string& key)
-      : m_(material), s_(material.strength), name_(name), strength_(s_, name, key) {}
+      : m_(material), s_(material.strength), name_(name), set_(hardening_name(s_)), strength_(s_, name, key) {}
 
   PlasticLaw law() {
     const Elastic e = elastic(m_.young, m_.poisson, m_.density);
     out_.top.lambda = e.lambda;
-    if (s_.hardening.empty())
+    if (set_.empty())
       given();
-    else if (s_.hardening == kEstimatedHardening)
+    else if (set_ == kEstimatedHardening)
       estimated();
     else
-      ready(hardening_set(s_.hardening));
+      ready(hardening_set(set_));
     out_.top.plastic.mu = e.mu;
     out_.top.plastic.power = s_.recall_power;
-    if (s_.recall_power > 0 && !s_.hardening.empty())
+    if (s_.recall_power > 0 && !set_.empty())
       out_.notes.push_back(
           fmt::format("hardening of {}: the set was fitted with recall_power = 0; with {} its cycles are stiffer",
                       name_, s_.recall_power));
@@ -93,13 +93,13 @@ class LawOf {
   }
 
   void estimated() {
-    const double tensile = s_.tensile_strength ? *s_.tensile_strength : tensile_from_vickers(strength_.hardness(0));
+    const double tensile = strength_.tensile();
     out_.top.plastic = estimated_hardening(tensile);
     scale_by_hardness(vickers_from_tensile(tensile));
-    out_.notes.push_back(
-        fmt::format("hardening of {}: estimated from a tensile strength of {:.0f} MPa{} "
-                    "(FKM estimate of the cyclic curve, Wächter 2016)",
-                    name_, 1e-6 * tensile, s_.tensile_strength ? "" : ", itself estimated from hardness"));
+    out_.notes.push_back(fmt::format(
+        "hardening of {}: estimated from a tensile strength of {:.0f} MPa{} "
+        "(FKM estimate of the cyclic curve, Wächter 2016)",
+        name_, 1e-6 * tensile, s_.tensile_strength || !s_.grade.empty() ? "" : ", itself estimated from hardness"));
     note_start();
   }
 
@@ -142,6 +142,7 @@ class LawOf {
   const MaterialSpec& m_;
   const StrengthSpec& s_;
   const std::string& name_;
+  std::string_view set_;
   MaterialStrength strength_;
   PlasticLaw out_;
 };
@@ -187,6 +188,17 @@ double MaterialStrength::tensile() const {
   return std::isnan(vickers) ? kUnknown : tensile_from_vickers(vickers);
 }
 
+EstimatedEndurance MaterialStrength::endurance() const {
+  EstimatedEndurance out{kUnknown, 0};
+  if (grade_) out = estimated_endurance(tensile());
+  out.limit = s_.fatigue.limit.value_or(out.limit);
+  if (s_.fatigue.dang_van)
+    out.weight = *s_.fatigue.dang_van;
+  else if (!grade_)
+    out.limit = kUnknown;
+  return out;
+}
+
 double MaterialStrength::end() const {
   const std::vector<DepthPoint>& table = !s_.strength_table.empty() ? s_.strength_table : s_.hardness_table;
   return table.empty() ? std::numeric_limits<double>::infinity() : table.back().depth;
@@ -201,6 +213,14 @@ std::string MaterialStrength::note() const {
     return fmt::format("yield strength of {}: estimated from hardness as {:g} x 3.2 MPa x HV", name_,
                        s_.yield_to_tensile);
   return {};
+}
+
+std::string MaterialStrength::endurance_note() const {
+  if (!grade_ || (s_.fatigue.limit && s_.fatigue.dang_van)) return {};
+  return fmt::format(
+      "endurance of {} (Dang Van): {:.0f} MPa and {:.3f}, estimated from a tensile strength of {:.0f} MPa "
+      "(FKM guideline); {}.fatigue_limit and dang_van_coefficient give those of a test",
+      name_, kToMega * endurance().limit, endurance().weight, kToMega * tensile(), key_);
 }
 
 std::optional<StrainLifeOfMaterial> strain_life_of(const MaterialSpec& material, const std::string& name,
@@ -221,6 +241,14 @@ std::optional<StrainLifeOfMaterial> strain_life_of(const MaterialSpec& material,
                   name, kToMega * tensile, key)};
 }
 
+std::string_view hardening_name(const StrengthSpec& s) {
+  if (!s.hardening.empty() || s.yield_strength || !s.strength_table.empty() || s.isotropic_hardening ||
+      !s.kinematic_hardening.empty())
+    return s.hardening;
+  const Steel* const steel = find_grade(s.grade);
+  return steel && steel->hardening.known() ? steel->name : std::string_view();
+}
+
 bool has_strength(const StrengthSpec& s) {
   return s.yield_strength || s.hardness || !s.strength_table.empty() || !s.hardness_table.empty() || !s.grade.empty();
 }
@@ -235,7 +263,7 @@ PlasticMaterial PlasticLaw::at(double depth) const {
 std::optional<PlasticLaw> plastic_law(const MaterialSpec& material, const std::string& name, const std::string& key) {
   const StrengthSpec& s = material.strength;
   if (s.elastic) return std::nullopt;
-  if (s.hardening.empty() && std::isnan(MaterialStrength(s, name, key).yield(0))) return std::nullopt;
+  if (hardening_name(s).empty() && std::isnan(MaterialStrength(s, name, key).yield(0))) return std::nullopt;
   return LawOf(material, name, key).law();
 }
 

@@ -38,10 +38,14 @@ class MaterialStrength {
   /// Pa, at the top: given, a grade's, else an estimate from hardness, in this order; NaN where the case does not give
   /// it.
   double tensile() const;
+  /// Of Dang Van's criterion: given, else of the grade, estimated; a limit of NaN where the case does not give it.
+  EstimatedEndurance endurance() const;
   /// m, the depth where the strength's table ends; infinite without one.
   double end() const;
   /// Source of an estimated strength; empty if it was given or is unknown.
   std::string note() const;
+  /// Of an estimated endurance, likewise.
+  std::string endurance_note() const;
 
  private:
   StrengthSpec s_;
@@ -55,6 +59,10 @@ std::optional<StrainLifeOfMaterial> strain_life_of(const MaterialSpec& material,
 
 /// Whether a case gives a material's strength.
 bool has_strength(const StrengthSpec& strength);
+
+/// The set of hardening that a material takes: the one it names, else its grade's where no other key gives a law; empty
+/// without one.
+std::string_view hardening_name(const StrengthSpec& strength);
 
 /// The law of a material that yields (material/plastic.hpp), with depth:
 ///   hardening = "…"        a ready set; of known hardness it is scaled by HV(z) over the hardness the set stands for

@@ -42,8 +42,8 @@ std::vector<Option> yield_options(const Option& depth) {
   const Option strength = column("strength", "", kPressure, kStrength).with_remedy(kBeyondStrength),
                hardness = column("hardness", "", kHardness, kHardnessRange).with_remedy(kBeyondHardness);
   return {option("grade", Place::template slot<&S::grade>,
-                 "A steel grade (R260, R350HT, ER8, …; `railstrata info` lists them); supplies the strengths that no "
-                 "other key gives"),
+                 "A steel grade (R260, R350HT, ER8, …; `railstrata info` lists them); gives what no other key gives: "
+                 "strengths, cyclic hardening, fatigue, wear"),
           option("yield_strength", Place::template slot<&S::yield_strength>,
                  "Uniaxial yield strength (0.2 % proof stress); shakedown and fatigue are computed where it is known",
                  kPressure, kStrength)
@@ -89,7 +89,8 @@ std::vector<Option> hardening_options() {
   return {
       option("hardening", Place::template slot<&S::hardening>,
              "Name of a set of cyclic hardening data (docs/material.md lists them), or \"estimated\" from "
-             "tensile_strength or hardness. The set contains its own yield stress; yield_strength is then used for "
+             "tensile_strength or hardness. Not given: the grade's, without a yield_strength. The set contains its own "
+             "yield stress; yield_strength is then used for "
              "shakedown and fatigue only")
           .where(set_named<Place>),
       option("isotropic_hardening", Place::template slot<&S::isotropic_hardening>,
@@ -138,7 +139,7 @@ std::vector<Option> fatigue_options() {
              kToughness, {1e5, 1e9}),
       option("fatigue_limit", Place::template slot<&S::fatigue, &FatigueSpec::limit>,
              "Fatigue limit of Dang Van's criterion: the amplitude of alternating shear that the material endures "
-             "indefinitely",
+             "indefinitely. Not given: estimated from the tensile strength of the grade",
              kPressure, {kMega, 1e4 * kMega}),
       option("fatigue_exponent", Place::template slot<&S::fatigue, &FatigueSpec::exponent>,
              "Exponent k of the sigma-N line through the limit, N = fatigue_cycles (fatigue_limit / stress)^k; gives a "

@@ -48,7 +48,7 @@ bool any_material(const C& c, bool (*has)(const MaterialSpec&)) {
 
 bool yields(const MaterialSpec& material) {
   const StrengthSpec& s = material.strength;
-  return !s.elastic && !(s.hardening.empty() && std::isnan(MaterialStrength(s, {}, {}).yield(0)));
+  return !s.elastic && !(hardening_name(s).empty() && std::isnan(MaterialStrength(s, {}, {}).yield(0)));
 }
 
 // The words of features name these limits.
@@ -341,7 +341,7 @@ constexpr Clash kClashes[] = {
      kByBem},
     {kIncompressible, excludes, uses::kFiniteElements, "elements lock; to the contact the difference is small", kByBem},
     {kPlastic, needs, kYieldStrength, "nothing could yield",
-     "give material.rail.yield_strength, or a ready set: material.rail.hardening = \"R260\"", kInElements},
+     "give material.rail.yield_strength, or a steel: material.rail.grade = \"R260\"", kInElements},
     {"geometry.rail_shape = \"rail\"", excludes, "geometry.rail_radius", "web and foot do not close to a ring",
      "give rail_shape = \"block\": a disc as wide as its profile, block_height thick down to its bore", kInElements},
     {kCant, excludes, "geometry.rail_radius", "both axles are parallel",

@@ -85,8 +85,8 @@ class StrengthRules {
   void check_hardening_name() const {
     if (s_.hardening != kEstimatedHardening)
       check_name("hardening", s_.hardening, hardening_set);
-    else if (!s_.tensile_strength && !s_.hardness && s_.hardness_table.empty())
-      complain("hardening", " = \"estimated\": needs tensile_strength or hardness",
+    else if (!s_.tensile_strength && !s_.hardness && s_.hardness_table.empty() && s_.grade.empty())
+      complain("hardening", " = \"estimated\": needs tensile_strength, a grade or hardness",
                "add for example tensile_strength = \"880 MPa\"");
   }
 

@@ -168,6 +168,11 @@ double cyclic_strength_coefficient(double tensile) {
   return 3.1148 * kMega * std::pow(rm, 0.897) / std::pow(ductility, kCyclicExponent);
 }
 
+EstimatedEndurance estimated_endurance(double tensile) {
+  constexpr double kInTension = 0.45, kShearOverTension = 0.577;
+  return {kShearOverTension * kInTension * tensile, 3 * (kShearOverTension - 0.5)};
+}
+
 PlasticParameters<double> estimated_hardening(double tensile) {
   const double k = cyclic_strength_coefficient(tensile);
   PlasticParameters<double> out{0, kYieldShare * k, 0, 0, {}, {}};

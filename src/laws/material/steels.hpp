@@ -66,6 +66,15 @@ std::vector<std::string> hardening_set_names();
 /// Hardening of steel of a tensile strength [Pa], 300 to 2500 MPa. [Waechter2016]
 PlasticParameters<double> estimated_hardening(double tensile);
 
+/// Dang Van's criterion, max over a cycle of τ_a + weight σ_h against the limit, of steel of a tensile strength [Pa]:
+/// endurance 0.45 Rm in alternating tension, 0.577 of that in alternating shear [FKM2012]; the weight makes both meet
+/// it.
+struct EstimatedEndurance {
+  double limit = 0;   ///< Pa, amplitude of alternating shear
+  double weight = 0;  ///< of the hydrostatic stress
+};
+EstimatedEndurance estimated_endurance(double tensile);
+
 /// K' [Pa] of the curve behind it, and its exponent.
 double cyclic_strength_coefficient(double tensile);
 inline constexpr double kCyclicExponent = 0.187;

@@ -34,6 +34,13 @@ class ZoneStrength {
   /// m, the depth where the table of the strength ends; infinite without one.
   double end() const { return top_ + strength_.end(); }
 
+  /// Of Dang Van; infinite where it is not known.
+  DangVanLimit endurance() const {
+    const EstimatedEndurance known = strength_.endurance();
+    return {known.weight, std::isnan(known.limit) ? std::numeric_limits<double>::infinity() : known.limit};
+  }
+  std::string endurance_note() const { return strength_.endurance_note(); }
+
   StressPoint residual(double depth) const {
     StressPoint out = process_stress(s_, depth - top_, key_);
     out.depth = depth;
@@ -61,37 +68,19 @@ std::vector<ZoneStrength> zones_of(const CaseSpec& spec, BodyId body) {
   return out;
 }
 
-const StrengthSpec& strength_of_row(const CaseSpec& spec, BodyId body, const StressHistory& history, int row) {
-  return zone_material(spec, body, history.zone[row]).strength;
-}
-
-bool has_dang_van(const StrengthSpec& s) { return s.fatigue.limit && s.fatigue.dang_van; }
-
-/// Rows without a limit do not count.
-std::vector<DangVanLimit> dang_van_limits(const CaseSpec& spec, BodyId body, const StressHistory& history,
-                                          const RowStrength& strength) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  std::vector<DangVanLimit> out;
-  for (int r = 0; r < history.rows(); ++r) {
-    const StrengthSpec& s = strength_of_row(spec, body, history, r);
-    out.push_back(has_dang_van(s) ? DangVanLimit{*s.fatigue.dang_van, strength.fatigue_limit[r]}
-                                  : DangVanLimit{0, kNever});
-  }
-  return out;
-}
-
 FatigueValue place(const CaseSpec& spec, BodyId body, const StressHistory& history, int row, int column, double value) {
   return {value, history.depth[row], history.y[column], zone_name(spec, body, history.zone[row])};
 }
 
 void add_dang_van(const CaseSpec& spec, BodyId body, const StressHistory& history, const RowStrength& strength,
                   ResidualRows residual, BodyFatigue& out) {
-  if (!any_zone(spec, body, has_dang_van)) return;
-  const std::vector<DangVanLimit> limits = dang_van_limits(spec, body, history, strength);
-  const DangVanSection found = dang_van(history, residual, limits);
+  if (std::all_of(strength.endurance.begin(), strength.endurance.end(),
+                  [](const DangVanLimit& l) { return std::isinf(l.limit); }))
+    return;
+  const DangVanSection found = dang_van(history, residual, strength.endurance);
   if (!found.row) return;
   for (std::size_t p = 0; p < found.point.size(); ++p)
-    out.dang_van_used.push_back(found.point[p].stress / limits[p / history.y.size()].limit);
+    out.dang_van_used.push_back(found.point[p].stress / strength.endurance[p / history.y.size()].limit);
   out.dang_van = place(spec, body, history, *found.row, found.column, found.utilisation);
 }
 
@@ -252,12 +241,14 @@ RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory&
     out.shear.push_back(zone.yield(rows.depth[r]) / std::numbers::sqrt3);
     const MaterialSpec& material = zone_material(spec, body, rows.zone[r]);
     out.young.push_back(material.young);
-    out.fatigue_limit.push_back(material.strength.fatigue.limit.value_or(std::numeric_limits<double>::quiet_NaN()));
+    out.endurance.push_back(zone.endurance());
     out.residual_x.push_back(residual.longitudinal);
     out.residual_y.push_back(residual.lateral);
   }
   for (const ZoneStrength& zone : zones)
     if (std::string note = zone.note(); !note.empty()) out.notes.push_back(std::move(note));
+  for (const ZoneStrength& zone : zones)
+    if (std::string note = zone.endurance_note(); !note.empty()) out.endurance_notes.push_back(std::move(note));
   return out;
 }
 
@@ -273,7 +264,8 @@ BodyFatigue section_fatigue(const CaseSpec& spec, BodyId body, const StressHisto
   const std::vector<Sym3> residual = residual_rows(strength.residual_x, strength.residual_y);
   BodyFatigue out;
   out.body = std::string(body_word(body));
-  add_dang_van(spec, body, history, strength, residual, out);
+  const bool endurance_given = any_zone(spec, body, [](const StrengthSpec& s) { return s.fatigue.limit.has_value(); });
+  if (planes || endurance_given) add_dang_van(spec, body, history, strength, residual, out);
   if (planes) add_critical_planes(spec, body, history, strength, residual, out);
   add_zones(spec, body, history, residual, out);
   add_interfaces(spec, body, history, residual, out);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/body_id.hpp"
+#include "damage/dang_van.hpp"
 #include "damage/stress_history.hpp"
 #include "result/summary.hpp"
 #include "spec/case_fwd.hpp"
@@ -17,9 +18,10 @@ struct StrengthSpec;  // spec/strength_spec.hpp
 struct RowStrength {
   std::vector<double> shear;                   ///< Pa, k = yield strength / sqrt(3)
   std::vector<double> young;                   ///< Pa
-  std::vector<double> fatigue_limit;           ///< Pa, of Dang Van; NaN where the case gives none
+  std::vector<DangVanLimit> endurance;         ///< infinite where it is not known
   std::vector<double> residual_x, residual_y;  ///< Pa, of the process
   std::vector<std::string> notes;              ///< which strengths are estimates, and how, or not known
+  std::vector<std::string> endurance_notes;    ///< likewise
   bool any() const;                            ///< of a strength
 };
 

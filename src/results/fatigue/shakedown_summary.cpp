@@ -27,6 +27,7 @@ SectionShakedown section_shakedown(const CaseSpec& spec, BodyId body, const Stre
   out.strength = row_strength(spec, body, history);
   out.found = shakedown({history, out.strength.shear, out.strength.residual_x, out.strength.residual_y});
   out.fatigue = section_fatigue(spec, body, history, out.strength, planes);
+  if (out.fatigue.dang_van) out.notes = out.strength.endurance_notes;
   return out;
 }
 

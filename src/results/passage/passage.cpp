@@ -63,7 +63,7 @@ RowStrength strength_of(const RollingSystem& system, const std::vector<std::size
     const WatchedPoint& point = system.watched_points[at[r]];
     const int material = mesh.blocks[static_cast<std::size_t>(mesh.contact.block)].material(point.quad, point.element);
     out.shear[r] *= mesh.strength_of(material);
-    out.fatigue_limit[r] *= mesh.strength_of(material);
+    out.endurance[r].limit *= mesh.strength_of(material);
     out.young[r] = young(system.model.rail_materials[static_cast<std::size_t>(material)]);
   }
   return out;
