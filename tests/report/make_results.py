@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Result folders for the tests of the report: fem (a wheel on a layered block, 30 mm of rolling), its reference
-fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), sweep, creep, rest (a shipped transient), old (what
+fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), sweep, creep, rest and uneven (shipped transients), old (what
 folders held before they had sections and geometry), study (both engines). With --slow, for the slow tests alone, in the
 same folder: fretting, two (two patches), wheel (a layer on the wheel).
 usage: make_results.py BINARY FOLDER [--slow]"""
@@ -164,6 +164,8 @@ FOLDER.mkdir(parents=True)
 (FOLDER / "layers.toml").write_text(HALF_SPACE)
 railstrata("run", FOLDER / "rolling.toml", "--out", FOLDER / "fem", "--threads", "1", "--quiet")
 railstrata("bem", FOLDER / "layers.toml", "--out", FOLDER / "bem", "--cell", "0.4 mm", "--threads", "1", "--quiet")
+railstrata("bem", TRANSIENTS.parent / "along" / "indentation.toml", "--out", FOLDER / "uneven", "--cell", "0.5 mm",
+           "--threads", "1", "--quiet")
 railstrata("bem", TRANSIENTS / "from_rest.toml", "--out", FOLDER / "rest", "--cell", "0.5 mm", "--threads", "1",
            "--set", "output.series_frames=8", "--quiet")
 railstrata("run", FOLDER / "rolling.toml", "--out", FOLDER / "yields", "--threads", "1", "--quiet", "--no-report",

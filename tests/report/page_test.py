@@ -750,6 +750,32 @@ class Rest(Page):
         self.assertEqual(self.first_words + self.browser.console(), [])
 
 
+class UnevenWay(Page):
+    """A shipped transient over a hollow of the rail."""
+
+    file = RESULTS / "uneven" / "report.html"
+
+    def test_the_answer_is_the_largest_pressure_of_the_way(self):
+        history = read_table(RESULTS / "uneven" / "history.csv")
+        most = max(history["p_max_MPa"])
+        at = history["distance_mm"][history["p_max_MPa"].index(most)]
+        self.assertGreater(most, 1.2 * history["p_max_MPa"][-1])
+        self.assertTrue(self.browser.text("#verdict h2").startswith(
+            f"On its way: largest pressure {most:.4g} MPa with the wheel at {at:.4g} mm"))
+        self.assertRegex(self.browser.text("#verdict .held"), r"All \d+ checks hold")
+
+    def test_the_way_stands_before_the_pictures_of_its_end(self):
+        shown = self.js("return [...document.querySelectorAll('main figure')].map(f => f.id)")
+        self.assertEqual(shown[:3], ["way-heights", "way-pressure", "hero-p"], "the force is given")
+        heights = self.trace("plot-way-heights")
+        self.assertAlmostEqual(min(heights["y"]), -200, delta=0.1)
+        self.assertAlmostEqual(heights["x"][heights["y"].index(min(heights["y"]))], 20, delta=0.1)
+
+    def test_the_film_begins_at_the_largest_pressure(self):
+        self.assertNotEqual(self.js("return document.getElementById('film-slider').value"),
+                            self.js("return document.getElementById('film-slider').max"))
+
+
 @slow
 class ThreePatches(Page):
     """A wheel that touches on two lobes of the tread, which have one plane, and in the flange's root."""

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "spec/case_spec.hpp"
 
@@ -45,6 +46,18 @@ std::string why_from_rest(const CaseSpec& spec) {
 double run_up_of(const CaseSpec& spec, double patch_length) {
   constexpr double kFromRest = 0.12;
   return spec.run.run_up.value_or(why_from_rest(spec).empty() ? 2 * patch_length : kFromRest);
+}
+
+double end_of_way(const CaseSpec& spec) {
+  const TransientSpec& t = spec.transient;
+  if (t.kind == TransientKind::rolling) {
+    if (t.distance) return *t.distance;
+    if (!t.at_distance.empty()) return t.at_distance.back();
+    if (!t.at_time.empty()) return t.at_time.back() * spec.drive.speed;
+  } else if (const std::vector<double>& positions = spec.run.positions; !positions.empty()) {
+    return *std::max_element(positions.begin(), positions.end());
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace railstrata

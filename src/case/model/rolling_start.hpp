@@ -1,5 +1,6 @@
 #pragma once
-// How a rolling of finite elements starts, how long its run-up is, and whether rail or wheel change on its way.
+// How a rolling of finite elements starts, how long its run-up is, whether rail or wheel change on its way, and where
+// a way ends.
 #include <string>
 
 #include "spec/case_fwd.hpp"
@@ -16,5 +17,9 @@ std::string why_from_rest(const CaseSpec& spec);
 
 /// run.run_up, or what stands for it: from rest 120 mm, from a steady start `patch_length` [m] twice.
 double run_up_of(const CaseSpec& spec, double patch_length);
+
+/// m from the start, where a wheel stops: a transient at transient.distance or the last row of its history, finite
+/// elements at the last of run.positions; infinite where the case leaves it open.
+double end_of_way(const CaseSpec& spec);
 
 }  // namespace railstrata

@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "geometry/height_field.hpp"
 #include "geometry/turned_wheel.hpp"
+#include "model/rolling_start.hpp"
 #include "record/output_file.hpp"
+#include "record/unit.hpp"
 #include "rules/track_facts.hpp"
 
 namespace railstrata {
@@ -73,6 +76,23 @@ VtkQuads swept(const std::vector<ProfilePoint>& line, int stations, const std::f
   return mesh;
 }
 
+/// Heights of both bodies below the axle, at equal distances along its way; null without any.
+Json heights_json(const CaseSpec& spec) {
+  constexpr int kPlaces = 1200;
+  const double end = end_of_way(spec);
+  if (spec.irregularities.empty() || !std::isfinite(end)) return nullptr;
+  Json out{{"x_mm", Json::array()}, {"rail_um", Json::array()}, {"wheel_um", Json::array()}};
+  const HeightField rail(spec.irregularities, BodyId::rail, spec.geometry.wheel_radius),
+      wheel(spec.irregularities, BodyId::wheel, spec.geometry.wheel_radius);
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double x = end * k / kPlaces;
+    out["x_mm"].push_back(unit::kMillimetres.factor * x);
+    out["rail_um"].push_back(unit::kMicrometres.factor * rail.at(x, 0).z);
+    out["wheel_um"].push_back(unit::kMicrometres.factor * wheel.at(x, 0).z);
+  }
+  return out;
+}
+
 }  // namespace
 
 Json track_json(const GeometrySpec& geometry) {
@@ -107,6 +127,7 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement, const std::
                                 {"hertz", hertz_json(hertz_under(spec, p))}});
   out["rail_m"] = curve(placement.rail, c.rail_s, 0, kReach, rail);
   out["wheel_m"] = curve(placement.wheel, c.wheel_s, 0, kReach, wheel);
+  if (Json heights = heights_json(spec); !heights.is_null()) out["heights"] = std::move(heights);
   out["layers"] = Json::array();
   const std::vector<double> tops = layer_tops(spec.layers);
   for (std::size_t i = 0; i < spec.layers.size(); ++i) {

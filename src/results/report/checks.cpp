@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "core/engine.hpp"
@@ -166,6 +167,38 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
   return out;
 }
 
+namespace {
+
+/// What the heights of its way did to a wheel; nothing of a run without them.
+std::optional<ReportAnswer> way_answer(const ReportRun& run) {
+  constexpr double kBefore = 50;  // mm, from where on a run is looked at, before the first height
+  const CsvTable* const history = run.table("history");
+  if (!history || !run.geometry.is_object() || !run.geometry.contains("heights")) return std::nullopt;
+  const auto values = [&](const char* key) { return run.geometry["heights"][key].get<std::vector<double>>(); };
+  const std::vector<double> x = values("x_mm"), rail = values("rail_um"), wheel = values("wheel_um");
+  std::size_t first = 0;
+  while (first + 1 < x.size() && rail[first] == 0 && wheel[first] == 0) ++first;
+  const bool rolls = is_engine(run.result.engine, Engine::fem);
+  const std::vector<double> way = history->column(rolls ? "position_mm" : "distance_mm"),
+                            force = history->column("F_z_N"), pressure = history->column("p_max_MPa");
+  const auto begin = std::lower_bound(way.begin(), way.end(), x[first] - kBefore) - way.begin();
+  if (begin >= static_cast<std::ptrdiff_t>(way.size())) return std::nullopt;
+  const auto most = std::max_element(pressure.begin() + begin, pressure.end()) - pressure.begin();
+  const auto [least, largest] = std::minmax_element(force.begin() + begin, force.end());
+  const auto place = [&](auto at) {
+    return fmt::format("{:.4g} mm", way[static_cast<std::size_t>(at - force.begin())]);
+  };
+  std::string forces = fmt::format("F_z from {:.3g} kN at {} to {:.3g} kN at {}", 1e-3 * *least, place(least),
+                                   1e-3 * *largest, place(largest));
+  if (*largest - *least < 1e-3 * *largest) forces = fmt::format("F_z {:.3g} kN all along", 1e-3 * *largest);
+  return ReportAnswer{"plain", "On its way",
+                      fmt::format("largest pressure {:.4g} MPa with the wheel at {:.4g} mm, {:.4g} MPa before the "
+                                  "heights; {}",
+                                  pressure[most], way[most], pressure[begin], forces)};
+}
+
+}  // namespace
+
 std::vector<ReportAnswer> run_answers(const std::vector<ReportRun>& runs) {
   const nlohmann::json::json_pointer at("/shakedown/answer");
   const auto& numbers = result_numbers();
@@ -178,6 +211,10 @@ std::vector<ReportAnswer> run_answers(const std::vector<ReportRun>& runs) {
             ? fmt::format("{} ({}), ", run.name,
                           engine_title(is_engine(run.result.engine, Engine::fem) ? Engine::fem : Engine::bem))
             : "";
+    if (std::optional<ReportAnswer> way = way_answer(run)) {
+      way->text = whose + way->text;
+      out.push_back(std::move(*way));
+    }
     const nlohmann::json& summary = run.result.summary;
     if (summary.contains(at) && summary[at].is_object()) {
       const nlohmann::json& answer = summary[at];

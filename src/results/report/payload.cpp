@@ -436,7 +436,7 @@ Json series_json(const ReportSeries& s) {
 Json chart_json(const ReportChart& c) {
   return {{"id", c.id},     {"title", c.title}, {"note", c.note},
           {"x", c.x},       {"y", c.y},         {"series", of_each(c.series, series_json)},
-          {"bars", c.bars}, {"wide", c.wide}};
+          {"bars", c.bars}, {"wide", c.wide},   {"log", c.log}};
 }
 
 Json maps_json(const ReportMaps& m) {

@@ -94,6 +94,7 @@ struct ReportChart {
   std::vector<ReportSeries> series;
   std::vector<std::string> bars{};  ///< names of y = 0, 1, … from below, where lines are bars; x is logarithmic then
   bool wide = false;                ///< as wide as the page
+  std::string log = {};             ///< logarithmic axes: "x", "xy"
 };
 
 /// A row of maps of one quantity, one for each run, on one scale.

@@ -23,8 +23,9 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
     contacts.push_back({p->place, p->force.normal});
     fields.push_back(&p->field);
   }
-  write_geometry(folder / "geometry.json", answer.moment ? case_of_moment(spec, *answer.moment) : spec, placement,
-                 contacts);
+  CaseSpec loaded = spec;
+  if (answer.moment) loaded.vehicle.set_load(answer.moment->load);
+  write_geometry(folder / "geometry.json", loaded, placement, contacts);
   write_placed_surfaces(folder, placement, summary.position);
   write_view_script(folder);
   write_patch_tables(folder, provenance, fields);

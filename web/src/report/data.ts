@@ -94,6 +94,7 @@ export interface Geometry extends LoadedContact {
   rail_m: [number, number][];
   wheel_m: [number, number][];
   layers: Layer[];
+  heights?: {x_mm: number[], rail_um: number[], wheel_um: number[]};  // below the axle, of an uneven way
 }
 
 export interface Run {
@@ -164,6 +165,7 @@ export interface ChartData {
   y: string;
   series: ChartSeries[];
   bars?: string[];  // names of y = 0, 1, … where lines are bars; x is logarithmic then
+  log?: ""|"x"|"xy";
   wide?: boolean;
 }
 

@@ -32,7 +32,7 @@ export interface LinesSpec {
   deepest?: number;    // of y that grows downwards
   leastSpan?: number;  // of y, as a share of its largest value: small ripples stay small
   wide?: boolean;
-  log?: "xy";       // logarithmic axes: values above zero alone
+  log?: "x"|"xy";   // logarithmic axes: values above zero alone
   bars?: string[];  // names of y = 0, 1, …: lines are bars there, over a logarithmic x
 }
 
@@ -68,13 +68,13 @@ function rangeOfY(c: LinesSpec): Span {
 }
 
 function axesOf(c: LinesSpec): {x: Axis; y: Axis} {
-  const log = c.log !== undefined;
   const bars = c.bars?.length ? c.bars : undefined;
-  const rangeX = log || bars ? decades(c.series.map((s) => s.x)) : c.window ?? roomFor(c.series.map((s) => s.x));
-  const rangeY: Span = bars ? [-0.6, bars.length - 0.4] : log ? decades(c.series.map((s) => s.y)) : rangeOfY(c);
+  const [logX, logY] = [c.log !== undefined || bars !== undefined, c.log === "xy"];
+  const rangeX = logX ? decades(c.series.map((s) => s.x)) : c.window ?? roomFor(c.series.map((s) => s.x));
+  const rangeY: Span = bars ? [-0.6, bars.length - 0.4] : logY ? decades(c.series.map((s) => s.y)) : rangeOfY(c);
   return {
-    x: {title: c.labels[0], range: rangeX, log: log || bars !== undefined},
-    y: {title: c.labels[1], range: rangeY, log, names: bars},
+    x: {title: c.labels[0], range: rangeX, log: logX},
+    y: {title: c.labels[1], range: rangeY, log: logY, names: bars},
   };
 }
 

@@ -20,6 +20,7 @@ import {slicesParts} from "./slices";
 import {spaceParts} from "./space";
 import {depthLines, kShear, maximaTable, sectionMaps} from "./stress";
 import {filmParts, transientFigures} from "./transient";
+import {hasHeights, wayPart} from "./way";
 import {hasWhatIf, whatIfPart} from "./whatif";
 import {engineName, runLabel, setWords} from "./words";
 import {yieldedPart} from "./yielded";
@@ -85,6 +86,7 @@ function chartFigure(c: ChartData): Figure {
     series: c.series.map(seriesOf),
     wide: c.wide,
     bars: c.bars,
+    log: c.log || undefined,
     height: c.bars?.length ? 120 + 34 * c.bars.length : undefined,
   });
 }
@@ -159,7 +161,7 @@ function runParts(runs: Run[]): HTMLElement[] {
     ...(yielded ? [yielded] : []),
     ...(lasts ? [lasts] : []),
     ...(crack ? [crack] : []),
-    ...(way.length ? [part("history", "On the way", ...way)] : []),
+    ...(way.length ? [part("history", "The whole history", ...way)] : []),
     part("origin", "Origin", ...origin(runs)),
   ];
 }
@@ -173,7 +175,8 @@ function showRuns(): void {
   forget(stage);
   forget(glance);
   const named = report.runs.length > 1 || report.tables.length > 0;
-  glance.replaceChildren(hero(looked[0]), ...(named ? [heroOf(looked[0])] : []));
+  const way = wayPart(looked);
+  glance.replaceChildren(...(way ? [way] : []), hero(looked[0]), ...(named ? [heroOf(looked[0])] : []));
   stage.replaceChildren(tiles(looked, named), ...runParts(looked));
   drawAll(theme());
 }
@@ -215,6 +218,7 @@ function contents(): [id: string, name: string][] {
   const figures: Entry = ["charts", "figures", report.charts.length > 0];
   const all: Entry[] = [
     ["verdict", "verdict", judged()],
+    ["way", "on the way", report.runs.some(hasHeights)],
     ["grids", "what lasts", report.grids.length > 0],
     figures,
     ["maps", "maps", report.maps.length > 0],

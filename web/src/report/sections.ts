@@ -69,10 +69,11 @@ const kToneMarks: Record<string, string> = {
   bad: "✗ "
 };
 
-/// Answers, the worst first: their tone is the banner's.
+/// Answers, the worst first: their tone is the banner's. Where none judges the first is the heading.
 function answerLines(answers: Answer[]): HTMLElement[] {
-  return answers.map((a) => {
-    const tag = a.tone === "plain" ? "p" : "h2";
+  const judges = answers.some((a) => a.tone !== "plain");
+  return answers.map((a, k) => {
+    const tag = a.tone === "plain" && (judges || k > 0) ? "p" : "h2";
     return element(
         tag, {class: a.tone, "data-tone": a.tone},
         `${kToneMarks[a.tone] ?? ""}${[a.title, a.text].filter((s) => s).join(": ")}.`);
@@ -111,7 +112,7 @@ function mind(notes: Check[]): HTMLElement|null {
   return element("p", {class: "minded"}, `Notes: ${[...worst.values()].map(text).join("; ")}.`);
 }
 
-/// The answers in green, amber or red, the checks below them in a line; without an answer the checks alone. What failed
+/// The answers, in green, amber or red, the checks below them in a line; without an answer the checks alone. What failed
 /// stands open, the checks that hold and the notes on demand.
 export function verdict(report: Report): HTMLElement {
   const judged = report.checks.filter((c) => c.judged);
@@ -120,12 +121,13 @@ export function verdict(report: Report): HTMLElement {
   const notes = report.checks.filter((c) => !c.judged);
   const ok = judged.length > 0 && failed.length === 0;
   const answers = answerLines(report.answers ?? []);
-  const banner = (report.answers ?? []).some((a) => a.tone !== "plain");
+  const banner = answers.length > 0;
   const line = verdictLine(judged, failed);
   const checks = banner ? element("p", {class: failed.length ? "failed" : "held"}, `Numerical checks: ${line}`)
                         : element("h2", {}, ok ? "✓ " : "✗ ", line);
   const heading = answers.length && !report.checks.length && !report.runs.length ? null : checks;
-  const tone = banner || heading ? toneOf(report.answers ?? [], ok) : "plain";
+  const judges = (report.answers ?? []).some((a) => a.tone !== "plain");
+  const tone = judges || heading ? toneOf(report.answers ?? [], ok) : "plain";
   const attributes = {id: "verdict", class: tone, "data-ok": String(ok), "data-tone": tone};
   const count = (n: number, one: string, more: string) => (n ? [`${n} ${n === 1 ? one : more}`] : []);
   const folded = [
@@ -135,7 +137,7 @@ export function verdict(report: Report): HTMLElement {
   const rest = folded.length ? details(folded.join(", "), checksTable(report, [...holds, ...notes])) : null;
   const open = failed.length ? checksTable(report, failed) : null;
   return element(
-      "section", attributes, ...(banner ? [...answers, heading] : [heading, ...answers]), warning(failed), open,
+      "section", attributes, ...answers, heading, warning(failed), open,
       mind(notes), rest);
 }
 

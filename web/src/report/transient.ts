@@ -10,6 +10,7 @@ import {historyFigure, type Along, type HistoryChart, type HistoryLine} from "./
 import {linesFigure, type Series} from "./lines";
 import {mapFigure, type MapSpec} from "./maps";
 import {contactY, stateLegend} from "./patch";
+import {hasHeights, placesOf} from "./way";
 import {runLabel} from "./words";
 
 const kDistance: Along = {
@@ -154,6 +155,16 @@ function frameWords(run: Run, film: Film, k: number): string {
   return rolls(run.history!) ? `after ${fixedText(distance_mm, 2)} mm` : `increment ${step}`;
 }
 
+/// The frame next to the largest pressure of an uneven way; else the last.
+function worstFrame(run: Run, film: Film): number {
+  const last = film.frames.length - 1;
+  if (!hasHeights(run)) return last;
+  const pressure = run.history!.p_max_MPa.map((v) => v ?? 0);
+  const place = placesOf(run)[pressure.indexOf(Math.max(...pressure))] ?? 0;
+  const away = film.frames.map((f) => Math.abs(f.distance_mm - place));
+  return away.indexOf(Math.min(...away));
+}
+
 /// Two maps that show one frame, and the slider that chooses it.
 class Player {
   shown: number;
@@ -170,8 +181,9 @@ class Player {
     this.traction = film.frames.map((f) => shape(unpack(f.q)));
     this.states = film.frames.map((f) => shape([...f.state].map((c) => (c === "0" ? null : Number(c)))));
     this.top = Math.max(...film.frames.map((f) => f.q.high)) || 1;
-    this.shown = film.frames.length - 1;
-    const range = {type: "range", min: "0", max: String(this.shown), value: String(this.shown), id: "film-slider"};
+    this.shown = worstFrame(run, film);
+    const [max, value] = [String(film.frames.length - 1), String(this.shown)];
+    const range = {type: "range", min: "0", max, value, id: "film-slider"};
     this.slider = element("input", {...range, "aria-label": "state of the film"});
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
     this.button.addEventListener("click", () => this.play());
