@@ -14,7 +14,7 @@ namespace {
 Summary clad_rail_and_wheel(double wheel) {
   Summary s;
   s.shakedown.bodies.resize(2);
-  s.shakedown.bodies[0] = {"rail", {0.7, 1.05, 1.1, 1.1, 1.2}, "layer", 2.5e-3, 0, {}, {}};
+  s.shakedown.bodies[0] = {"rail", {0.7, 1.15, 1.15, 1.15, 1.2}, "layer", 2.5e-3, 0, {}, {}};
   s.shakedown.bodies[1] = {"wheel", {0.8, wheel, wheel, wheel, 1.3}, "wheel", 0, 0, {}, {}};
   s.fatigue.resize(2);
   s.fatigue[0].body = "rail";
@@ -33,6 +33,13 @@ TEST(Judgement, NamesTheBodyAndTheZoneThatDecide) {
   EXPECT_EQ(yes.decides, "layer of the rail, 2.50 mm deep");
   EXPECT_EQ(yes.zone, "rail: layer");
   EXPECT_EQ(no.zone, "wheel");
+}
+
+TEST(Judgement, AFactorBelowTheScatterOfStrengthsLastsNarrowly) {
+  const Judgement narrow = *judgement_of(clad_rail_and_wheel(1.05));
+  EXPECT_EQ(narrow.lasts, Lasts::narrowly);
+  EXPECT_EQ(lasts_row(narrow.lasts).tone, "open");
+  EXPECT_EQ(judgement_of(clad_rail_and_wheel(1.1))->lasts, Lasts::yes);
 }
 
 TEST(Judgement, OneTrackIsNeitherYesNorNo) {

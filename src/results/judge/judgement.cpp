@@ -12,7 +12,8 @@
 namespace railstrata {
 namespace {
 
-constexpr std::array<LastsRow, 5> kLasts{{{"yes", "Lasts", "good"},
+constexpr std::array<LastsRow, 6> kLasts{{{"yes", "Lasts", "good"},
+                                          {"narrowly", "Lasts narrowly", "open"},
                                           {"in one track only", "Lasts in one track only", "open"},
                                           {"perhaps in one track", "May last in one track", "open"},
                                           {"withheld", "Whether it lasts cannot be said", "open"},
@@ -90,11 +91,14 @@ std::string name_of(const std::string& check) {
   return row ? std::string(row->name) : check;
 }
 
-Lasts lasts_of(Verdict verdict, bool layers_hold) {
+Lasts lasts_of(const BodyShakedown& body, bool layers_hold) {
+  const Verdict verdict = verdict_of(body.factors);
   if (!layers_hold) return Lasts::no;
   if (verdict == Verdict::one_track) return Lasts::one_track;
   if (verdict == Verdict::perhaps_one_track) return Lasts::perhaps_one_track;
-  return verdict_row(verdict).lasts ? Lasts::yes : Lasts::no;
+  if (!verdict_row(verdict).lasts) return Lasts::no;
+  const double factor = std::isnan(body.factors.wandering) ? body.factors.first_yield : body.factors.wandering;
+  return factor < kAmple ? Lasts::narrowly : Lasts::yes;
 }
 
 }  // namespace
@@ -111,7 +115,7 @@ std::optional<Judgement> judgement_of(const Summary& summary) {
   const Verdict verdict = verdict_of(body->factors);
   const std::vector<LayerFailure> layers = layer_failures(summary);
   Judgement out;
-  out.lasts = lasts_of(verdict, layers.empty());
+  out.lasts = lasts_of(*body, layers.empty());
   out.doubts = doubts_of(summary);
   std::vector<std::string> reasons;
   if (layers.empty() || !verdict_row(verdict).lasts) {

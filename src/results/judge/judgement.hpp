@@ -80,7 +80,7 @@ inline std::vector<Verdict> fails_by(const Summary& s) {
 }
 
 // ---- the answer
-enum class Lasts { yes, one_track, perhaps_one_track, withheld, no };
+enum class Lasts { yes, narrowly, one_track, perhaps_one_track, withheld, no };
 
 struct LastsRow {
   std::string_view word;   ///< "does it last?" "yes"
@@ -97,6 +97,9 @@ struct Judgement {
   /// Keys of failed checks and of warnings that rule a "yes" out; a body whose layers and fatigue were not looked at
   std::vector<std::string> doubts;
 };
+/// A load factor below it lasts narrowly: strengths of one steel differ by as much. [EN13674]
+inline constexpr double kAmple = 1.1;
+
 /// Does it last? A "no" stays; any other answer with doubts becomes "withheld". Empty without a strength.
 std::optional<Judgement> judgement_of(const Summary& summary);
 
