@@ -62,6 +62,12 @@ Irregularity rough(int seed) {
   r.seed = seed;
   return with(r);
 }
+Irregularity measured_levels() {
+  RoughnessLevels r;
+  r.wavelengths = {20e-3, 50e-3};
+  r.levels = {0, 20};  // 1 and 10 um
+  return with(r);
+}
 Irregularity points(double smoothing = 0) {
   HeightPoints p;
   p.smoothing = smoothing;
@@ -72,6 +78,18 @@ Irregularity points(double smoothing = 0) {
       p.z.push_back((y > 0 ? 2e-5 : 1e-5) * std::sin(1e-3 * i / 6e-3));
     }
   return with(p);
+}
+
+TEST(RoughnessLevels, EachBandHasTheRootMeanSquareOfItsLevel) {
+  const Irregularity is = measured_levels();
+  const Heights height = std::visit([](const auto& shape) { return shape.height(0, 0.46); }, is.shape);
+  constexpr int kPoints = 200000;
+  constexpr double kStep = 0.5e-3;  // m
+  // squares of bands add up
+  double square = 0;
+  for (int i = 0; i < kPoints; ++i) square += height(kStep * i, 0).z * height(kStep * i, 0).z / kPoints;
+  EXPECT_NEAR(std::sqrt(square), std::sqrt(1e-12 + 100e-12), 0.02e-6);
+  EXPECT_NEAR(std::get<RoughnessLevels>(is.shape).shortest_wave(0.46), 20e-3 / std::pow(2, 1.0 / 6), 1e-12);
 }
 
 TEST(HeightField, ShapesHaveTheirClosedForms) {

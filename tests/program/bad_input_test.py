@@ -90,7 +90,7 @@ class InTheCase(Refusal):
         self.refused(2, ["check", "a" * 5000], "File name too long")
 
     def test_a_file_without_end(self):
-        self.refused(2, ["check", "/dev/zero"], "error: /dev/zero is larger than 4 MiB")
+        self.refused(2, ["check", "/dev/zero"], "error: /dev/zero is larger than 64 MiB")
 
 
 class InProfiles(Refusal):

@@ -95,6 +95,33 @@ TEST(IrregularityCaseFile, FaultsNameTheKeyAndTheRemedy) {
       std::string::npos);
 }
 
+TEST(IrregularityCaseFile, LevelsOfThirdOctavesAreReadFromTheirFile) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "levels.csv") << "Wellenlänge [cm];Pegel [dB]\n2,5;3,5\n2;-1\n";
+  const LoadedCase loaded =
+      parse_case("[[irregularity]]\nkind = \"levels\"\nfile = \"levels.csv\"\n", folder.path() / "a.toml");
+  const auto& read = std::get<RoughnessLevels>(loaded.spec.irregularities.at(0).shape);
+  EXPECT_EQ(read.wavelengths, (std::vector<double>{25e-3, 20e-3}));
+  EXPECT_EQ(read.levels, (std::vector<double>{3.5, -1}));
+  EXPECT_EQ(parse_case(loaded.resolved_toml, "b.toml").resolved_toml, loaded.resolved_toml);
+  EXPECT_NE(refusal_of_entry("kind = \"levels\"\n").find("needs wavelengths"), std::string::npos);
+  EXPECT_NE(refusal_of_entry("kind = \"levels\"\nwavelengths = [\"2 cm\"]\nlevels = [\"1 dB\", \"2 dB\"]\n")
+                .find("2 levels of 1 wavelengths"),
+            std::string::npos);
+}
+
+TEST(IrregularityCaseFile, WhatTheWheelNeverReachesIsRefused) {
+  const std::string rolls = "[transient]\nkind = \"rolling\"\ndistance = \"20 mm\"\n",
+                    hollow = "[[irregularity]]\nlength = \"20 mm\"\ndepth = \"0.2 mm\"\nat = ";
+  EXPECT_EQ(refusal(rolls + hollow + "\"60 mm\"\n"), "taken");
+  EXPECT_NE(refusal(rolls + hollow + "\"-900 mm\"\n").find("lies behind the way of the wheel: it ends at x = -890 mm"),
+            std::string::npos);
+  EXPECT_NE(refusal(rolls + hollow + "\"900 mm\"\n").find("it begins at x = 890 mm, the wheel stops at 20 mm"),
+            std::string::npos);
+  EXPECT_NE(refusal("[run]\npositions = [\"300 mm\"]\n" + hollow + "\"900 mm\"\n").find("the wheel stops at 300 mm"),
+            std::string::npos);
+}
+
 TEST(IrregularityCaseFile, FiniteElementsSayWhatTheyDoNotTake) {
   const auto beyond = [](const std::string& text) {
     std::vector<std::string> keys;

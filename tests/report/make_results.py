@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Result folders for the tests of the report: fem (a wheel on a layered block, 30 mm of rolling), its reference
-fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), sweep, creep, rest and uneven (shipped transients), old (what
-folders held before they had sections and geometry), study (both engines). With --slow, for the slow tests alone, in the
-same folder: fretting, two (two patches), wheel (a layer on the wheel).
+fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), sweep, creep, rest and uneven (shipped transients),
+old (what folders held before they had sections and geometry), study (both engines). With --slow, for the slow tests
+alone, in the same folder: fretting, two (two patches), wheel (a layer on the wheel).
 usage: make_results.py BINARY FOLDER [--slow]"""
 import pathlib
 import shutil

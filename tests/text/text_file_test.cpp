@@ -57,8 +57,8 @@ TEST_F(TextFile, TheRemedyFitsTheFault) {
   EXPECT_EQ(refusal(folder_).remedy, "name the file in it");
   const fs::path large = folder_ / "large.toml";
   std::ofstream(large).close();
-  fs::resize_file(large, (std::size_t{4} << 20) + 1);
-  EXPECT_EQ(refusal(large).remedy, "a text written by hand has a few kilobytes: was another file meant?");
+  fs::resize_file(large, (std::size_t{64} << 20) + 1);
+  EXPECT_EQ(refusal(large).remedy, "tables of measurements have some megabytes: was another file meant?");
 }
 
 TEST_F(TextFile, EmptyFilesAndTheNullDeviceAreEmptyTexts) {

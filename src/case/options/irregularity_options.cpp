@@ -54,7 +54,8 @@ Option row(std::string_view key, std::string_view doc, const Dimension& dimensio
   return option(key, of_kinds<Members...>, doc, dimension, range).where(has<Members...>);
 }
 bool has_middle(const CaseSpec& spec, std::size_t index) {
-  return !std::holds_alternative<Roughness>(spec.irregularities.at(index).shape);
+  const IrregularityShape& shape = spec.irregularities.at(index).shape;
+  return !std::holds_alternative<Roughness>(shape) && !std::holds_alternative<RoughnessLevels>(shape);
 }
 
 const Range kHeightWay{-100, 100};  // m
@@ -92,14 +93,18 @@ std::vector<Option> height_spectrum_options() {
       row<&Roughness::exponent>(
           "exponent", "roughness: exponent e; the spectral density is proportional to the wave number to the power -e",
           kNumber, {0, 10}),
-      row<&Roughness::seed>("seed", "roughness: seed of its random phases", kNumber, {0, 2147483647})};
+      row<&Roughness::seed, &RoughnessLevels::seed>("seed", "roughness, levels: seed of its random phases", kNumber,
+                                                    {0, 2147483647}),
+      row<&RoughnessLevels::wavelengths>("wavelengths", "levels: middles of third-octave bands", kLength, above(0, 2)),
+      row<&RoughnessLevels::levels>("levels", "levels: 20 log10 of the root mean square height in each band over 1 µm",
+                                    kLevel, {-60, 60})};
 }
 
 std::vector<Option> height_point_options() {
   using P = HeightPoints;
-  return {option("file", of_kinds<&P::file>,
-                 "A CSV file with columns x and z, or x, y and z of a grid, with units, relative to the case file; the "
-                 "resolved case contains its values")
+  return {option("file", of_kinds<&P::file, &RoughnessLevels::file>,
+                 "A CSV file with units, relative to the case file, with columns x and z, or x, y and z of a grid; "
+                 "levels: with columns wavelength and level. The resolved case contains its values")
               .where(never),
           row<&P::smoothing>(
               "smoothing", "file: length of the cosine-weighted mean that smooths its heights along x; 0: not smoothed",
@@ -127,6 +132,7 @@ const std::vector<IrregularityKind>& irregularity_kinds() {
                                                  {"flat", {"at", "length"}},
                                                  {"out_of_round", {"depth"}},
                                                  {"roughness", {"rms", "shortest", "longest"}},
+                                                 {"levels", {"wavelengths", "levels"}},
                                                  {"file", {"x", "z"}}};
   assert(all.size() == std::variant_size_v<IrregularityShape>);
   return all;
@@ -141,13 +147,13 @@ OptionTable irregularity_table() {
        option("at", irregularity<&I::at>, "Distance of its middle (waves: a crest; file: x = 0) from the first contact",
               kLength, kHeightWay)
            .where(has_middle),
-       row<&Corrugation::from, &Roughness::from>(
-           "from", "corrugation, roughness: start; the height grows smoothly over the longest wave", kLength,
+       row<&Corrugation::from, &Roughness::from, &RoughnessLevels::from>(
+           "from", "corrugation, roughness, levels: start; the height grows smoothly over the longest wave", kLength,
            kHeightWay),
-       row<&Corrugation::to, &Roughness::to>("to", "corrugation, roughness: end; the height fades in the same way",
-                                             kLength, kHeightWay)},
+       row<&Corrugation::to, &Roughness::to, &RoughnessLevels::to>(
+           "to", "corrugation, roughness, levels: end; the height fades in the same way", kLength, kHeightWay)},
       list_of<&CaseSpec::irregularities>(),
-      {{"file", "x"}, {"file", "y"}, {"file", "z"}}};
+      {{"file", "x"}, {"file", "y"}, {"file", "z"}, {"file", "wavelengths"}, {"file", "levels"}}};
   for (const auto& rows : {height_shape_options(), height_spectrum_options(), height_point_options()})
     append(out.options, rows);
   return out;

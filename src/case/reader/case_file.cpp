@@ -119,8 +119,8 @@ void read_table_file(const std::string& key, std::string& name, LoadedCase& load
 void read_height_files(LoadedCase& loaded, CaseSource& source) {
   CaseSpec& spec = loaded.spec;
   for (std::size_t i = 0; i < spec.irregularities.size(); ++i)
-    if (auto* points = std::get_if<HeightPoints>(&spec.irregularities[i].shape))
-      read_table_file(fmt::format("irregularity.{}.file", i), points->file, loaded, source,
+    if (std::string* const name = file_of_heights(spec.irregularities[i]))
+      read_table_file(fmt::format("irregularity.{}.file", i), *name, loaded, source,
                       [&](const std::string& text, const std::filesystem::path& file) {
                         return read_heights(text, file, spec, i);
                       });

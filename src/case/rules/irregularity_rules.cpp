@@ -12,6 +12,7 @@
 
 #include "core/faults.hpp"
 #include "geometry/height_field.hpp"
+#include "model/rolling_start.hpp"
 #include "options/irregularity_options.hpp"
 #include "options/option_table.hpp"
 #include "tables/column_words.hpp"
@@ -26,6 +27,7 @@ class IrregularityRules {
       : spec_(spec),
         is_(spec.irregularities[index]),
         points_(std::get_if<HeightPoints>(&is_.shape)),
+        levels_(std::get_if<RoughnessLevels>(&is_.shape)),
         kind_(irregularity_kinds().at(is_.shape.index())),
         index_(index),
         source_(source) {}
@@ -36,11 +38,15 @@ class IrregularityRules {
     if (!source_.sound({name_, "geometry.wheel_radius"})) return;
     check_numbers();
     if (points_) check_points(*points_);
+    if (levels_ && levels_->wavelengths.size() != levels_->levels.size())
+      refuse("levels", fmt::format("{} levels of {} wavelengths", levels_->levels.size(), levels_->wavelengths.size()),
+             "give every wavelength one level");
     if (!source_.sound({name_})) return;
     if (const double slope = steepest_slope(is_, spec_.geometry.wheel_radius); slope > kSteepestHeight)
-      refuse(points_ ? "file" : "kind",
+      refuse(points_ || levels_ ? "file" : "kind",
              fmt::format("its steepest slope is {:.2g}, contact takes up to {:g}", slope, kSteepestHeight),
              points_ ? "give more smoothing, or check the units of x and z" : "make it longer, less deep or less high");
+    check_reached();
   }
 
  private:
@@ -63,7 +69,7 @@ class IrregularityRules {
   }
   /// Whether the kind has the key; one that every kind has applies always.
   bool has(const Option& option) const {
-    return option.key == "file" ? points_ != nullptr : !option.applies || option.applies(spec_, index_);
+    return option.key == "file" ? points_ || levels_ : !option.applies || option.applies(spec_, index_);
   }
   std::string its_keys() const {
     std::vector<std::string_view> further;
@@ -85,20 +91,43 @@ class IrregularityRules {
     for (const Option& option : find_table("irregularity")->options) {
       const bool have = given(option);
       if (needed(option) && !have && source_.sound({fmt::format("{}.{}", name_, option.key), name_ + ".file"}))
-        source_.complain(
-            name_, fmt::format("{}: {} needs {}", name_, word(), option.key),
-            points_ ? "give file = \"heights.csv\" with the columns x and z" : fmt::format("add {} = …", option.key));
+        source_.complain(name_, fmt::format("{}: {} needs {}", name_, word(), option.key),
+                         points_   ? "give file = \"heights.csv\" with the columns x and z"
+                         : levels_ ? "give file = \"levels.csv\" with the columns wavelength and level"
+                                   : fmt::format("add {} = …", option.key));
       if (have && !has(option)) refuse(option.key, fmt::format("{} has no {}", word(), option.key), its_keys());
     }
   }
 
   void check_numbers() {
     const auto* rough = std::get_if<Roughness>(&is_.shape);
-    const auto* waves = std::get_if<Corrugation>(&is_.shape);
-    if (const WaveStretch* s = rough ? static_cast<const WaveStretch*>(rough) : waves)
-      if (s->from && s->to && !(*s->from < *s->to)) refuse("to", "must lie beyond from", "exchange them");
+    const WaveStretch* const stretch = std::visit(
+        []<class Kind>(const Kind& kind) -> const WaveStretch* {
+          if constexpr (std::is_base_of_v<WaveStretch, Kind>) return &kind;
+          return nullptr;
+        },
+        is_.shape);
+    if (stretch && stretch->from && stretch->to && !(*stretch->from < *stretch->to))
+      refuse("to", "must lie beyond from", "exchange them");
     if (rough && !(*rough->shortest < *rough->longest))
       refuse("longest", "must be longer than shortest", "exchange them");
+  }
+
+  /// Something of it lies where the wheel rolls, from x = 0 on.
+  void check_reached() {
+    constexpr double kFelt = 0.1;  // m, from the middle of the contact
+    const double end = end_of_way(spec_);
+    const Extent extent = extent_of(is_);
+    if (is_.on == BodyId::wheel || (extent.to > -kFelt && extent.from < end + kFelt)) return;
+    const bool behind = extent.to <= -kFelt;
+    source_.complain(name_,
+                     fmt::format("{} lies {} the way of the wheel: it {} at x = {}, the wheel {} at {}", name_,
+                                 behind ? "behind" : "beyond", behind ? "ends" : "begins",
+                                 format_quantity(behind ? extent.to : extent.from, dimension::kLength),
+                                 behind ? "starts" : "stops", format_quantity(behind ? 0 : end, dimension::kLength)),
+                     behind ? "put it farther on (at, from)"
+                            : "put it nearer (at, from), or let the wheel roll farther (transient.distance, "
+                              "run.positions)");
   }
 
   void check_points(const HeightPoints& p) {
@@ -123,7 +152,8 @@ class IrregularityRules {
 
   const CaseSpec& spec_;
   const Irregularity& is_;
-  const HeightPoints* points_;  // of a file
+  const HeightPoints* points_;     // of a file
+  const RoughnessLevels* levels_;  // likewise
   const IrregularityKind& kind_;
   std::size_t index_;
   CaseSource& source_;
@@ -154,6 +184,12 @@ void require_fine_enough(const CaseSpec& spec, double size, const char* what, co
     if (const auto fault = too_coarse(spec, i, size, what, key)) throw CaseError(std::vector<Diagnostic>{*fault});
 }
 
+std::string* file_of_heights(Irregularity& irregularity) {
+  if (auto* points = std::get_if<HeightPoints>(&irregularity.shape)) return &points->file;
+  if (auto* levels = std::get_if<RoughnessLevels>(&irregularity.shape)) return &levels->file;
+  return nullptr;
+}
+
 std::string read_heights(const std::string& text, const std::filesystem::path& file, CaseSpec& spec,
                          std::size_t index) {
   constexpr double kTurns = 100;
@@ -161,20 +197,22 @@ std::string read_heights(const std::string& text, const std::filesystem::path& f
   const Option angle{
       "angle", nullptr, "", dimension::kAngle, {-2 * kTurns * std::numbers::pi, 2 * kTurns * std::numbers::pi}};
   const OptionTable& options = *find_table("irregularity");
-  UnitTableForm form{{}, {{"x", "angle"}}, "heights", "x [mm], z [um]"};
+  const bool levels = std::holds_alternative<RoughnessLevels>(spec.irregularities.at(index).shape);
+  UnitTableForm form{{}, {{"x", "angle"}}, "heights", levels ? "wavelength [mm], level [dB]" : "x [mm], z [um]"};
   const Option *x = nullptr, *z = nullptr;
   for (const Option& option : options.options) {
     if (!std::holds_alternative<std::vector<double>*>(option.slot(spec, index))) continue;
+    if (option.applies && !option.applies(spec, index)) continue;
     form.columns.push_back({&option, option.key});
     for (const std::string_view word : words_of(option.key)) form.columns.push_back({&option, word});
     if (option.key == std::string_view("x")) x = &option;
     if (option.key == std::string_view("z")) z = &option;
   }
-  if (spec.irregularities.at(index).on == BodyId::wheel) {
+  if (z && spec.irregularities.at(index).on == BodyId::wheel) {
     form.columns.push_back({&angle, "angle"});
     form.columns.push_back({z, "runout"});
   }
-  form.chainage = "x";
+  if (x) form.chainage = "x";
   const UnitTable table = read_unit_table(text, file, form);
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const bool turned = table.columns[k] == &angle;

@@ -31,6 +31,13 @@ const std::vector<std::string_view>& words_of(std::string_view key) {
       {"traction_coefficient", {"Kraftschluss", "Coefficient d'adhérence", "Adhesionskoefficient", "牵引系数"}},
       {"time", {"Zeit", "Temps", "Tid", "时间"}},
       {"distance", {"Weg", "Distance", "Sträcka", "里程", "Kilometrierung", "Chainage"}},
+      {"frequency", {"Frequenz", "fréquence", "frekvens", "频率"}},
+      {"receptance", {"Rezeptanz", "réceptance", "receptans", "位移导纳"}},
+      {"mobility", {"Admittanz", "mobilité", "mobilitet", "速度导纳"}},
+      {"accelerance", {"Akzeleranz", "accélérance", "accelerans", "加速度导纳"}},
+      {"phase", {"fas", "相位"}},
+      {"wavelengths", {"wavelength", "Wellenlänge", "longueur d'onde", "Våglängd", "波长"}},
+      {"levels", {"level", "Pegel", "niveau", "nivå", "粗糙度级"}},
       {"x", {"Weg", "Distance", "Sträcka", "Chainage", "里程"}},
       {"z", {"Höhe", "Hauteur", "Höjd", "height", "高度"}}};
   const auto found = words.find(key);

@@ -13,8 +13,8 @@
 namespace railstrata {
 namespace {
 
-constexpr std::size_t kLargest = std::size_t{4} << 20;  // bytes; more than is written by hand
-constexpr int kPatience = 2000;                         // ms, until a writer opens a named pipe
+constexpr std::size_t kLargest = std::size_t{64} << 20;  // bytes; a measured kilometre every millimetre has 20 MB
+constexpr int kPatience = 2000;                          // ms, until a writer opens a named pipe
 constexpr int kForEver = -1;
 
 [[noreturn]] void refuse_unreadable(const std::filesystem::path& file, int reason, const std::string& remedy) {
@@ -48,7 +48,7 @@ std::string read_text_file(const std::filesystem::path& file, const std::string&
       refuse_unreadable(file, reason, remedy);
     if (text.size() > kLargest)
       throw CaseError(fmt::format("{} is larger than {} MiB", file.string(), kLargest >> 20),
-                      "a text written by hand has a few kilobytes: was another file meant?");
+                      "tables of measurements have some megabytes: was another file meant?");
   }
   if (silent && text.empty())
     throw CaseError(fmt::format("{} is a named pipe, and nothing writes into it", file.string()),

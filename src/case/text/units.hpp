@@ -12,10 +12,10 @@
 
 namespace railstrata {
 
-/// Exponents of kilogram, metre, second, plane angle, kelvin, square root of a metre and hardness number. All zero: a
-/// plain number.
+/// Exponents of kilogram, metre, second, plane angle, kelvin, square root of a metre, hardness number and decibel. All
+/// zero: a plain number.
 struct Dimension {
-  std::array<int, 7> exponents{};
+  std::array<int, 8> exponents{};
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
@@ -32,6 +32,10 @@ inline constexpr Dimension kToughness{1, -1, -2, 0, 0, 1};  ///< "15 MPa √m"
 inline constexpr Dimension kConductivity{1, 1, -3, 0, -1}, kHeatCapacity{0, 2, -2, 0, -1}, kTemperature{0, 0, 0, 0, 1};
 /// Vickers hardness, in HV; "300 HBW" is 300 / 0.95 HV, good to 5 % up to 450 HV. [ISO18265]
 inline constexpr Dimension kHardness{0, 0, 0, 0, 0, 0, 1};
+/// Of a roughness over 1 µm, in dB. [EN15610]
+inline constexpr Dimension kLevel{0, 0, 0, 0, 0, 0, 0, 1};
+/// Displacement, velocity and acceleration over force.
+inline constexpr Dimension kReceptance{-1, 0, 2, 0}, kMobility{-1, 0, 1, 0}, kAccelerance{-1, 0, 0, 0};
 inline constexpr Dimension kRotation{0, 0, -1, 1};  ///< of a spindle
 /// An inclination, kept as its tangent; written "1:40", "1/40", "25 mrad", "1.4 deg" or as the bare tangent.
 inline constexpr Dimension kSlope{0, 0, 0, 1};

@@ -26,12 +26,13 @@ namespace railstrata {
 namespace {
 
 struct CheckOptions {
-  bool mesh = false;           ///< --mesh
-  bool receptance = false;     ///< --receptance
-  double largest = 3000;       ///< --largest frequency of a receptance, Hz
-  std::string time = "0.1 s";  ///< --time: how long a blow is followed
-  bool beam = false;           ///< --beam: without finite elements
-  std::string as;              ///< --as: what a profile file is of
+  bool mesh = false;                            ///< --mesh
+  bool receptance = false;                      ///< --receptance
+  double largest = 3000;                        ///< --largest frequency of a receptance, Hz
+  std::string time = "0.1 s";                   ///< --time: how long a blow is followed
+  bool beam = false;                            ///< --beam: without finite elements
+  std::vector<std::filesystem::path> measured;  ///< --measured
+  std::string as;                               ///< --as: what a profile file is of
 };
 
 /// Every tenth row from the first: at rest, 100 Hz, 200 Hz, …
@@ -60,9 +61,12 @@ ExitCode check_receptance(const CheckOptions& wanted, const CommandOptions& opti
   answer_interrupt_with("\nstopped: nothing was written\n");
   const double time = blow_time(wanted.time);
   std::vector<BlowEnergy> blows;
+  std::vector<MeasuredReceptance> measured;
+  for (const std::filesystem::path& file : wanted.measured) measured.push_back(read_receptance(file));
   const Receptance receptance = with_places(loaded, [&] {
     const Model model = build_model(loaded.spec, loaded.folder());
     Receptance all = beam_receptances(model, receptance_frequencies(wanted.largest));
+    all.measured = measured;
     if (wanted.beam) return all;
     const Waiting waiting("blows of a hammer");
     blows = add_hammer_receptances(model, time, {}, all);
@@ -85,6 +89,7 @@ ExitCode check_receptance(const CheckOptions& wanted, const CommandOptions& opti
     fmt::print("{}\n", json.dump(2));
   } else {
     print_table(receptance, table);
+    for (const std::string& words : differences_in_words(receptance)) fmt::print("measured: {}\n", words);
   }
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
@@ -217,6 +222,10 @@ CommandWork declare_check(CLI::App& sub, CommandOptions& options) {
   sub.add_option("--as", own->as, "With a profile file: rail or wheel (default: by its ending or shape)")
       ->check(CLI::IsMember({"rail", "wheel"}));
   sub.add_flag("--beam", own->beam, "With --receptance: the beam alone, at once, without finite elements")
+      ->needs(receptance);
+  sub.add_option("--measured", own->measured,
+                 "With --receptance: tables of measurements to hold it against, with columns frequency [Hz], one of "
+                 "receptance [nm/N], mobility [m/(s N)] and accelerance [m/(s^2 N)], and phase [deg] if known")
       ->needs(receptance);
   add_no_report(sub, options);
   return [own, &options] { return command_check(*own, options); };

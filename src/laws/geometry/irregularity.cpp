@@ -17,6 +17,10 @@ struct HeightWave {
   double number, amplitude, phase;  // rad/m, m, rad
 };
 
+double random_phase(int seed, int wave) {
+  return 2 * kPi * uniform_number(mixed(static_cast<std::uint64_t>(seed)) + static_cast<std::uint64_t>(wave));
+}
+
 std::vector<HeightWave> waves_of(const Roughness& r) {
   std::vector<HeightWave> out;
   const double ratio = std::pow(*r.longest / *r.shortest, 1.0 / kWaves);
@@ -24,12 +28,44 @@ std::vector<HeightWave> waves_of(const Roughness& r) {
   for (int n = 0; n < kWaves; ++n) {
     const double k = 2 * kPi / *r.longest * std::pow(ratio, n + 0.5), band = std::pow(k, 1 - r.exponent);
     power += band;
-    out.push_back(
-        {k, std::sqrt(2 * band),
-         2 * kPi * uniform_number(mixed(static_cast<std::uint64_t>(r.seed)) + static_cast<std::uint64_t>(n))});
+    out.push_back({k, std::sqrt(2 * band), random_phase(r.seed, n)});
   }
   for (HeightWave& w : out) w.amplitude *= *r.rms / std::sqrt(power);
   return out;
+}
+
+const double kHalfBand = std::pow(2, 1.0 / 6);  // ratio of a third-octave band's end and its middle
+
+std::vector<HeightWave> waves_of(const RoughnessLevels& r) {
+  constexpr int kOfBand = 10;
+  constexpr double kReference = 1e-6;  // m
+  std::vector<HeightWave> out;
+  for (std::size_t band = 0; band < r.wavelengths.size(); ++band) {
+    const double amplitude = kReference * std::pow(10, r.levels[band] / 20) * std::sqrt(2.0 / kOfBand);
+    for (int n = 0; n < kOfBand; ++n) {
+      const double within = std::pow(kHalfBand, 2 * (n + 0.5) / kOfBand - 1);
+      out.push_back(
+          {2 * kPi / r.wavelengths[band] * within, amplitude, random_phase(r.seed, static_cast<int>(out.size()))});
+    }
+  }
+  return out;
+}
+
+SurfaceHeight sum_of(const std::vector<HeightWave>& waves, double x) {
+  SurfaceHeight sum;
+  for (const HeightWave& w : waves) {
+    const SurfaceHeight h = cosine_wave(w.amplitude, w.number, x + w.phase / w.number);
+    sum = {sum.z + h.z, sum.along + h.along};
+  }
+  return sum;
+}
+
+/// As long as slopes of random waves are looked for.
+Sampled of_waves(Extent range, double longest) {
+  constexpr int kLongestWaves = 20;
+  if (!std::isfinite(range.from)) range.from = std::isfinite(range.to) ? range.to - kLongestWaves * longest : 0;
+  range.to = std::min(range.to, range.from + kLongestWaves * longest);
+  return {range, {0.0}};
 }
 
 /// Mean with weights 1 + cos(2 pi d/length) of the points' shares of the way.
@@ -124,23 +160,26 @@ SurfaceHeight WaveStretch::eased(double x, double over, SurfaceHeight h) const {
 }
 
 Heights Roughness::height(double, double) const {
-  return [*this, waves = waves_of(*this)](double x, double) {
-    SurfaceHeight sum;
-    for (const HeightWave& w : waves) {
-      const SurfaceHeight h = cosine_wave(w.amplitude, w.number, x + w.phase / w.number);
-      sum = {sum.z + h.z, sum.along + h.along};
-    }
-    return eased(x, *longest, sum);
+  return [*this, waves = waves_of(*this)](double x, double) { return eased(x, *longest, sum_of(waves, x)); };
+}
+
+Sampled Roughness::sampled(double at) const { return of_waves(extent(at), *longest); }
+
+Heights RoughnessLevels::height(double, double) const {
+  return [*this, over = longest_wave(), waves = waves_of(*this)](double x, double) {
+    return eased(x, over, sum_of(waves, x));
   };
 }
 
-Sampled Roughness::sampled(double at) const {
-  constexpr int kLongestWaves = 20;
-  Extent range = extent(at);
-  if (!std::isfinite(range.from)) range.from = std::isfinite(range.to) ? range.to - kLongestWaves * *longest : 0;
-  range.to = std::min(range.to, range.from + kLongestWaves * *longest);
-  return {range, {0.0}};
+double RoughnessLevels::shortest_wave(double) const {
+  return *std::min_element(wavelengths.begin(), wavelengths.end()) / kHalfBand;
 }
+
+double RoughnessLevels::longest_wave() const {
+  return *std::max_element(wavelengths.begin(), wavelengths.end()) * kHalfBand;
+}
+
+Sampled RoughnessLevels::sampled(double at) const { return of_waves(extent(at), longest_wave()); }
 
 Heights HeightPoints::height(double at, double) const {
   return [at, lines = lines_of(*this)](double way, double aside) {

@@ -178,6 +178,19 @@ struct Roughness : WaveStretch {
   Sampled sampled(double at) const;
 };
 
+/// Roughness as it is measured: levels L of third-octave bands of the wavelength, 20 log10(r/1 µm) of the root mean
+/// square r in the band [EN15610]. Ten cosines of random phases in each band, eased over the longest wave.
+struct RoughnessLevels : WaveStretch {
+  std::string file;                         ///< empty once it is read into the bands
+  std::vector<double> wavelengths, levels;  ///< m, in the middle of a band; dB over 1 µm
+  int seed = 1;
+
+  Heights height(double, double) const;
+  double shortest_wave(double) const;
+  double longest_wave() const;
+  Sampled sampled(double at) const;
+};
+
 /// Heights at points, in x by cubics through them (slopes of their neighbours), in y linear; beyond the first and the
 /// last of them their heights go on.
 struct HeightPoints : AnyKind {
@@ -191,7 +204,8 @@ struct HeightPoints : AnyKind {
   Sampled sampled(double at) const;
 };
 
-using IrregularityShape = std::variant<Indentation, Corrugation, Dip, Step, Flat, OutOfRound, Roughness, HeightPoints>;
+using IrregularityShape =
+    std::variant<Indentation, Corrugation, Dip, Step, Flat, OutOfRound, Roughness, RoughnessLevels, HeightPoints>;
 
 /// One of them, as a case has it; lengths in metres.
 struct Irregularity {

@@ -13,13 +13,15 @@
 #include "record/output_file.hpp"
 #include "report/page.hpp"
 #include "rules/support.hpp"
+#include "tables/column_words.hpp"
+#include "tables/unit_table.hpp"
+#include "text/text_file.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kFrequencyStep = 10;  // Hz
 constexpr double kAtRest = 0.5;        // Hz, in place of 0: an endless beam is at rest nowhere
-constexpr double kDecibelZero = 1e-9;  // m/N, of a chart's decibels
 
 struct ForcePlace {
   const char *name, *shown;
@@ -27,7 +29,7 @@ struct ForcePlace {
 };
 constexpr ForcePlace kForcePlaces[] = {{"midspan", "midspan", 0.5}, {"sleeper", "over a sleeper", 0}};
 
-double decibels(std::complex<double> value) { return 20 * std::log10(std::abs(value) / kDecibelZero); }
+double decibels(std::complex<double> value) { return 20 * std::log10(std::abs(value)); }
 
 ReportSeries receptance_line(const Receptance& r, const ReceptanceCurve& curve, bool dashed,
                              double (*value)(std::complex<double>)) {
@@ -40,11 +42,35 @@ ReportSeries receptance_line(const Receptance& r, const ReceptanceCurve& curve, 
 }
 
 ReportChart receptance_chart(const Receptance& r, const char* id, const char* title, const char* y,
-                             double (*value)(std::complex<double>)) {
+                             double (*value)(std::complex<double>), bool of_phase = false) {
   ReportChart out{id, title, "", "frequency, Hz", y, {}};
+  out.log = of_phase ? "x" : "xy";
   for (const ReceptanceCurve& c : r.curves)
     out.series.push_back(receptance_line(r, c, c.name.starts_with("beam"), value));
+  for (const MeasuredReceptance& m : r.measured) {
+    if (of_phase && !m.has_phase) continue;
+    ReportSeries line{.name = m.name, .x = m.frequency, .y = {}, .markers = false, .dash = "dot"};
+    for (const std::complex<double>& v : m.values) line.y.push_back(value(v));
+    out.series.push_back(std::move(line));
+  }
   return out;
+}
+
+/// dB, root mean square over the measured frequencies that the curve has; NaN without any.
+double difference_in_decibels(const Receptance& r, const ReceptanceCurve& curve, const MeasuredReceptance& m) {
+  double sum = 0;
+  int places = 0;
+  for (std::size_t i = 0; i < m.frequency.size(); ++i) {
+    const auto after = std::lower_bound(r.frequency.begin() + 1, r.frequency.end(), m.frequency[i]);
+    if (after == r.frequency.end() || m.frequency[i] < r.frequency[1]) continue;
+    const auto k = std::max<std::ptrdiff_t>(after - r.frequency.begin(), 2);
+    const double share = (m.frequency[i] - r.frequency[k - 1]) / (r.frequency[k] - r.frequency[k - 1]);
+    const double computed =
+        (1 - share) * decibels(curve.values[k - 1]) + share * decibels(curve.values[static_cast<std::size_t>(k)]);
+    sum += std::pow(decibels(m.values[i]) - computed, 2);
+    ++places;
+  }
+  return places == 0 ? std::nan("") : std::sqrt(sum / places);
 }
 
 /// Integral of values e^(-i omega t) dt, samples of the time steps.
@@ -67,6 +93,59 @@ ReceptanceCurve over_force(const ForcePlace& place, const char* of, const BlowRe
 }
 
 }  // namespace
+
+MeasuredReceptance read_receptance(const std::filesystem::path& file) {
+  const auto number = [](const char* key, const Dimension& dimension, const Range& range) {
+    return Option{key, nullptr, "", dimension, range};
+  };
+  constexpr double kMost = 1e6;  // of any of them, SI
+  const Option frequency = number("frequency", dimension::kRate, {1e-3, 1e6}),
+               phase = number("phase", dimension::kAngle, {-1e4, 1e4});
+  const Option over_force[] = {number("receptance", dimension::kReceptance, {0, kMost}),
+                               number("mobility", dimension::kMobility, {0, kMost}),
+                               number("accelerance", dimension::kAccelerance, {0, kMost})};
+  UnitTableForm form{{{&frequency, "frequency"}, {&phase, "phase"}},
+                     {{"receptance", "mobility", "accelerance"}},
+                     "a measured receptance",
+                     "frequency [Hz]; receptance [nm/N]; phase [deg]"};
+  for (const Option& o : over_force) form.columns.push_back({&o, o.key});
+  for (const UnitTableForm::Column& c : std::vector(form.columns))
+    for (const std::string_view word : words_of(c.key)) form.columns.push_back({c.option, word});
+  const UnitTable table = read_unit_table(read_text_file(file, "name a CSV file"), file, form);
+  MeasuredReceptance out{file.filename().string(), {}, {}, table.has("phase")};
+  const auto column =
+      std::find_if(std::begin(over_force), std::end(over_force), [&](const Option& o) { return table.has(o.key); });
+  if (!table.has("frequency") || column == std::end(over_force))
+    refuse_in_table(file, table.line, "no columns of frequency and receptance, mobility or accelerance",
+                    fmt::format("begin with {}", form.example));
+  for (const UnitTable::Row& row : table.rows) {
+    double f = 0, modulus = 0, angle = 0;
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      const double value = row.cells[k].number.value();
+      (table.columns[k] == &frequency ? f : table.columns[k] == &phase ? angle : modulus) = value;
+    }
+    if (!(modulus > 0)) refuse_in_table(file, row.line, "nothing moves under this force", "leave the row out");
+    // a time derivative is i omega
+    const std::complex<double> per_motion(0, 2 * std::numbers::pi * f);
+    const auto derivatives = static_cast<int>(column - std::begin(over_force));
+    out.frequency.push_back(f);
+    out.values.push_back(std::polar(modulus, angle) / std::pow(per_motion, derivatives));
+  }
+  return out;
+}
+
+std::vector<std::string> differences_in_words(const Receptance& r) {
+  std::vector<std::string> out;
+  for (const MeasuredReceptance& m : r.measured) {
+    std::vector<std::string> from;
+    for (const ReceptanceCurve& c : r.curves)
+      if (const double dB = difference_in_decibels(r, c, m); std::isfinite(dB))
+        from.push_back(fmt::format("{:.1f} dB from {}", dB, c.shown));
+    out.push_back(from.empty() ? fmt::format("{} has no frequency that was computed", m.name)
+                               : fmt::format("{} is {} (root mean square)", m.name, fmt::join(from, ", ")));
+  }
+  return out;
+}
 
 std::vector<double> receptance_frequencies(double largest) {
   std::vector<double> out{0};
@@ -136,7 +215,7 @@ std::vector<std::string> resonances(const Receptance& r) {
   std::vector<std::string> out;
   const std::vector<std::complex<double>>& u = r.curves.back().values;
   for (std::size_t k = 1; k + 1 < u.size(); ++k) {
-    bool peak = true;
+    bool peak = std::abs(u[k]) > std::abs(u[k - 1]) && std::abs(u[k]) > std::abs(u[k + 1]);
     for (std::size_t j = 1; j < u.size() && peak; ++j)
       if (j != k && r.frequency[j] > r.frequency[k] / kBeside && r.frequency[j] < r.frequency[k] * kBeside)
         peak = std::abs(u[j]) < std::abs(u[k]);
@@ -156,9 +235,13 @@ void write_receptance_page(const std::filesystem::path& page, const std::string&
   Report report;
   report.title = fmt::format("{}: receptance", title);
   report.answers = {receptance_answer(r)};
-  report.charts.push_back(receptance_chart(r, "modulus", "Receptance", "|u/F|, dB of 1 nm/N", decibels));
-  report.charts.push_back(receptance_chart(r, "phase", "Phase", "degrees",
-                                           [](std::complex<double> v) { return unit::kDegrees.factor * std::arg(v); }));
+  for (const std::string& words : differences_in_words(r)) report.answers.push_back({"plain", "Measured", words});
+  report.charts.push_back(receptance_chart(r, "modulus", "Receptance", "|u/F|, nm/N", [](std::complex<double> v) {
+    return unit::kNanometresPerNewton.factor * std::abs(v);
+  }));
+  report.charts.push_back(receptance_chart(
+      r, "phase", "Phase", "degrees", [](std::complex<double> v) { return unit::kDegrees.factor * std::arg(v); },
+      true));
   ReportChart& modulus = report.charts.front();
   modulus.note = fmt::format(
       "Vertical force on the rail. beam: endless, loss factor 0.01; rail: finite elements, mean of the section by "

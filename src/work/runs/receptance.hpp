@@ -19,11 +19,26 @@ struct ReceptanceCurve {
   std::vector<std::complex<double>> values;  ///< m/N, by frequency
 };
 
+/// A measurement to hold them against.
+struct MeasuredReceptance {
+  std::string name;                          ///< of its file
+  std::vector<double> frequency;             ///< Hz, above 0
+  std::vector<std::complex<double>> values;  ///< m/N
+  bool has_phase = false;
+};
+
 struct Receptance {
   std::vector<double> frequency;  ///< Hz, 0 first: at rest
   double pinned_pinned = 0;       ///< Hz, of the beam
   std::vector<ReceptanceCurve> curves;
+  std::vector<MeasuredReceptance> measured = {};
 };
+
+/// A table with the columns frequency, one of receptance, mobility and accelerance (displacement, velocity,
+/// acceleration over force), and phase where it was measured. Throws CaseError with file, line and remedy.
+MeasuredReceptance read_receptance(const std::filesystem::path& file);
+/// Root mean square difference of each measurement and each curve in decibels over the frequencies of both, in words.
+std::vector<std::string> differences_in_words(const Receptance& receptance);
 
 /// Up to `largest` [Hz], every 10 Hz.
 std::vector<double> receptance_frequencies(double largest);

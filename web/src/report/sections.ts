@@ -112,8 +112,8 @@ function mind(notes: Check[]): HTMLElement|null {
   return element("p", {class: "minded"}, `Notes: ${[...worst.values()].map(text).join("; ")}.`);
 }
 
-/// The answers, in green, amber or red, the checks below them in a line; without an answer the checks alone. What failed
-/// stands open, the checks that hold and the notes on demand.
+/// The answers, in green, amber or red, the checks below them in a line; without an answer the checks alone. What
+/// failed stands open, the checks that hold and the notes on demand.
 export function verdict(report: Report): HTMLElement {
   const judged = report.checks.filter((c) => c.judged);
   const failed = judged.filter((c) => !c.ok);
@@ -136,9 +136,7 @@ export function verdict(report: Report): HTMLElement {
   ];
   const rest = folded.length ? details(folded.join(", "), checksTable(report, [...holds, ...notes])) : null;
   const open = failed.length ? checksTable(report, failed) : null;
-  return element(
-      "section", attributes, ...answers, heading, warning(failed), open,
-      mind(notes), rest);
+  return element("section", attributes, ...answers, heading, warning(failed), open, mind(notes), rest);
 }
 
 interface Inside {

@@ -1,5 +1,6 @@
 // A wheel over heights of the rail or its own: first what it rolled over, then what that did.
-import {note, part, element} from "../dom";
+import {element, note, part} from "../dom";
+
 import {frame, type Figure} from "../figures";
 import type {Span, Values} from "../types";
 import type {Run} from "./data";
@@ -29,7 +30,8 @@ function heights(runs: Run[], window: Span): Figure {
     y,
     colour: (t) => t.series[n % t.series.length],
     hover: "at %{x:.1f} mm\n%{y:.1f} µm",
-  }] : [];
+  }]
+                                                                                                      : [];
   const series = runs.flatMap((run, k) => {
     const h = run.geometry!.heights!;
     return [...lineOf(run, "rail", h.rail_um, 2 * k), ...lineOf(run, "wheel", h.wheel_um, 2 * k + 1)];
