@@ -6,7 +6,6 @@
 
 #include "bem/rows_difference.hpp"
 #include "bem/solve_bem.hpp"
-#include "core/faults.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {
@@ -99,10 +98,16 @@ TEST_F(Sections, HaveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.field.q_x, three.field.q_x);
 }
 
-TEST_F(Sections, RefuseLayersThatEndNextToThePatch) {
-  spec_.layers = {layer_of(3e-3, 4)};
-  spec_.layers[0].width = 20e-3;
-  EXPECT_THROW(solved(spec_, 1e-3), CaseError);
+// The difference in full, with stations as near as the cells and waves as short, against the smooth one.
+TEST_F(Sections, InFullAgreeWithTheSmoothDifferenceWhereALayerEndsFarAway) {
+  spec_.layers = {layer_of(3e-3, 2)};
+  const BemResult smooth = solved(spec_, 1e-3);
+  spec_.layers[0].width = 22e-3;
+  const BemResult in_full = solved(spec_, 1e-3);
+  EXPECT_NE(in_full.field.p, smooth.field.p);
+  EXPECT_NEAR(in_full.patch.largest_pressure / smooth.patch.largest_pressure, 1, 2e-3);
+  EXPECT_NEAR(in_full.approach / smooth.approach, 1, 5e-3);
+  EXPECT_NEAR(in_full.rigid_slip.x / smooth.rigid_slip.x, 1, 2e-2);
 }
 
 /// Creepage of free rolling over that of half-spaces.
@@ -135,6 +140,14 @@ TEST(SlowSections, AgreeWithAnIndependentProgram) {
     if (row.thickness > 0) spec.layers = {layer_of(row.thickness, row.ratio)};
     EXPECT_NEAR(solved(spec, 0.25e-3).patch.largest_pressure / (row.p_max * 1e6), 1, 2e-3) << row.thickness;
   }
+}
+
+/// 3 mm at 4 E0 of 10.5 mm: the independent program on cells of 0.5 mm.
+TEST(SlowSections, OfANarrowLayerAgreeWithAnIndependentProgram) {
+  CaseSpec spec = paper_case(ContactBodies::sections);
+  spec.layers = {layer_of(3e-3, 4)};
+  spec.layers[0].width = 10.5e-3;
+  EXPECT_NEAR(solved(spec, 0.5e-3).patch.largest_pressure / 1311.6e6, 1, 2e-3);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ std::string describe(const NormalTarget& target) {
 }
 
 void gap_and_influence(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                       InfluenceCache& cache, CasePatch& patch) {
+                       ContactBodies bodies, InfluenceCache& cache, CasePatch& patch) {
   patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, patch.grid);
   if (options.rail_surface) {
     patch.surface = options.rail_surface(patch.grid);
@@ -61,17 +61,17 @@ void gap_and_influence(const CaseSpec& spec, const Placement& placement, const B
       if (patch.profile.gap[k] < ProfileGap::kNoSurface) patch.profile.gap[k] += patch.surface.sinking[k];
   }
   const double film = patch.contact.third_body.flexibility();
-  patch.influence = spec.bem.bodies == ContactBodies::half_spaces
+  patch.influence = bodies == ContactBodies::half_spaces
                         ? cache.get(patch.wheel, patch.rail, patch.grid, film)
                         : cache.get(patch.wheel, patch.rail, patch.grid, film, {spec, placement});
 }
 
 void fit_grid(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, const PatchRoom& room,
-              const BemOptions& options, InfluenceCache& cache, CasePatch& patch) {
+              const BemOptions& options, ContactBodies bodies, InfluenceCache& cache, CasePatch& patch) {
   const int most_x = most_cells(options, options.cell), most_y = most_cells(options, across_of(options));
   for (int grown = 0;; ++grown) {
     PatchGrid& g = patch.grid;
-    gap_and_influence(spec, placement, options, cache, patch);
+    gap_and_influence(spec, placement, options, bodies, cache, patch);
     keep_to_room(g, room, patch.profile.gap);
     patch.frictionless = solve_normal(*patch.influence, g, gap_after(patch, 0), target, options.rolling.normal);
     const Touches edge = touches(g, patch.frictionless.pressure);
@@ -274,7 +274,10 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
   CasePatch patch = bodies_of(spec);
   patch.grid = first_grid(spec, placement, options, target, room);
   InfluenceCache own;
-  fit_grid(spec, placement, target, room, options, options.cache ? *options.cache : own, patch);
+  InfluenceCache& cache = options.cache ? *options.cache : own;
+  fit_grid(spec, placement, target, room, options, ContactBodies::half_spaces, cache, patch);
+  if (spec.bem.bodies != ContactBodies::half_spaces)  // on the grid of half-spaces: sections take seconds
+    fit_grid(spec, placement, target, room, options, spec.bem.bodies, cache, patch);
   set_problem(spec, placement, target, patch);
   return patch;
 }
@@ -284,7 +287,7 @@ CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Place
   CasePatch patch = bodies_of(spec);
   patch.grid = grid;
   InfluenceCache own;
-  gap_and_influence(spec, placement, options, options.cache ? *options.cache : own, patch);
+  gap_and_influence(spec, placement, options, spec.bem.bodies, options.cache ? *options.cache : own, patch);
   keep_to_room(grid, room, patch.profile.gap);
   set_problem(spec, placement, target, patch);
   return patch;

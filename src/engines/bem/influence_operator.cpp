@@ -250,11 +250,10 @@ std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSp
   const std::shared_ptr<const InfluenceOperator> flat = get(wheel, rail, g, film);
   const auto& [spec, placement] = sections;
   const RigidContact& contact = placement.contact;
-  const double half_width = 0.5 * g.ny * g.dy;
-  const PlacedRemainder of_rail{sections_->get(spec, placement, BodyId::rail, rail, half_width),
+  const PlacedRemainder of_rail{sections_->get(spec, placement, BodyId::rail, rail, g),
                                 rail_to_model(placement.track, placement.rail.at(contact.rail_s).position),
                                 contact.angle},
-      of_wheel{sections_->get(spec, placement, BodyId::wheel, wheel, half_width),
+      of_wheel{sections_->get(spec, placement, BodyId::wheel, wheel, g),
                placement.wheel.at(contact.wheel_s).position - Vec2{0, spec.geometry.wheel_radius},
                contact.angle - contact.roll};
   return std::make_shared<const InfluenceOperator>(*flat, std::make_shared<const RowsDifference>(of_rail, of_wheel, g),

@@ -77,6 +77,7 @@ std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vect
   std::vector<Matrix> out;
   for (std::size_t k = 0; k < section.k.size(); ++k)
     out.push_back(turn.transpose() * section.at[k] * turn - plane.transpose() * body.half_space[k] * plane);
+  if (body.in_full) return out;
   Matrix last = out.back();  // but of the coupling of x with the others, which is odd in k
   last.topRightCorner(m, 2 * m).setZero();
   last.bottomLeftCorner(2 * m, m).setZero();
@@ -102,62 +103,80 @@ std::vector<Matrix> at_waves(const std::vector<Matrix>& values, const std::vecto
 
 }  // namespace
 
-RowsDifference::RowsDifference(const PlacedRemainder& rail, const PlacedRemainder& wheel, const PatchGrid& grid)
-    : nx_(grid.nx), ny_(grid.ny), cell_area_(grid.cell_area()) {
+RowsDifference::Part RowsDifference::part_of(const PlacedRemainder& placed, const PatchGrid& grid) {
   std::vector<double> stations, rows;
+  for (int j = 0; j < grid.ny; ++j) rows.push_back(grid.y(j));
   const int half = std::max(2, static_cast<int>(std::ceil(0.5 * grid.ny * grid.dy / kStationsOfRows)));
   for (int m = -half; m <= half; ++m) stations.push_back(m * kStationsOfRows);
-  for (int j = 0; j < ny_; ++j) rows.push_back(grid.y(j));
-  shares_ = shares_of(stations, rows);
-
-  const std::vector<double>& known = rail.remainder->section.k;
-  const WaveQuadrature waves = wave_quadrature(known.front(), known.back(), (nx_ + 1) * grid.dx);
-  const std::vector<Matrix> of_rail = at_waves(difference_at(rail, stations), known, waves.k);
-  auto of_wheel =
-      std::make_shared<Kernel>(at_waves(difference_at(wheel, stations), wheel.remainder->section.k, waves.k));
-  auto pair = std::make_shared<Kernel>();
-  for (std::size_t q = 0; q < waves.k.size(); ++q) pair->push_back(of_rail[q] + (*of_wheel)[q]);
-
+  if (placed.remainder->in_full) stations = rows;
+  Part out;
+  out.shares = shares_of(stations, rows);
+  const std::vector<double>& known = placed.remainder->section.k;
+  const WaveQuadrature waves = wave_quadrature(known.front(), known.back(), (grid.nx + 1) * grid.dx);
+  out.kernel = std::make_shared<const Kernel>(at_waves(difference_at(placed, stations), known, waves.k));
   const auto count = static_cast<Eigen::Index>(waves.k.size());
-  weight_ = Eigen::Map<const Eigen::VectorXd>(waves.weight.data(), count) / std::numbers::pi;
-  cosines_.resize(count, nx_ + 1);
-  sines_.resize(count, nx_ + 1);
-  for (Eigen::Index q = 0; q < count; ++q)
-    for (int i = 0; i <= nx_; ++i) {
-      cosines_(q, i) = std::cos(waves.k[static_cast<std::size_t>(q)] * i * grid.dx);
-      sines_(q, i) = std::sin(waves.k[static_cast<std::size_t>(q)] * i * grid.dx);
+  const Eigen::Index n = out.shares.rows(), middle = 2 * n + n / 2;
+  out.weight.resize(count);
+  out.cosines.resize(count, grid.nx + 1);
+  out.sines.resize(count, grid.nx + 1);
+  for (Eigen::Index q = 0; q < count; ++q) {
+    const double k = waves.k[static_cast<std::size_t>(q)], half_cell = 0.5 * k * grid.dx;
+    out.weight[q] = waves.weight[static_cast<std::size_t>(q)] * std::sin(half_cell) / (half_cell * std::numbers::pi);
+    for (int i = 0; i <= grid.nx; ++i) {
+      out.cosines(q, i) = std::cos(k * i * grid.dx);
+      out.sines(q, i) = std::sin(k * i * grid.dx);
     }
-  const Eigen::Index middle = 2 * (2 * half + 1) + half;
-  for (Eigen::Index q = 0; q < count; ++q) rigid_ += weight_[q] * (*pair)[static_cast<std::size_t>(q)](middle, middle);
-  pair_ = std::move(pair);
-  wheel_ = std::move(of_wheel);
+  }
+  const auto smooth = std::upper_bound(waves.k.begin(), waves.k.end(), SectionRemainder::kSmoothTo) - waves.k.begin();
+  const auto at_middle = [&](Eigen::Index q) { return (*out.kernel)[static_cast<std::size_t>(q)](middle, middle); };
+  const double local = placed.remainder->in_full ? at_middle(smooth - 1) : 0;
+  for (Eigen::Index q = 0; q < smooth; ++q) out.rigid += out.weight[q] * (at_middle(q) - local);
+  return out;
+}
+
+RowsDifference::RowsDifference(const PlacedRemainder& rail, const PlacedRemainder& wheel, const PatchGrid& grid)
+    : nx_(grid.nx), ny_(grid.ny), cell_area_(grid.cell_area()), pair_{part_of(rail, grid)} {
+  wheel_ = part_of(wheel, grid);
+  rigid_ = pair_[0].rigid + wheel_.rigid;
+  if (rail.remainder->in_full != wheel.remainder->in_full) {
+    pair_.push_back(wheel_);
+    return;
+  }
+  auto both = std::make_shared<Kernel>(*pair_[0].kernel);
+  for (std::size_t q = 0; q < both->size(); ++q) (*both)[q] += (*wheel_.kernel)[q];
+  pair_[0].kernel = std::move(both);
 }
 
 std::shared_ptr<const RowsDifference> RowsDifference::part(int first_y, int nx, int ny) const {
   auto out = std::make_shared<RowsDifference>(*this);
   out->nx_ = nx;
   out->ny_ = ny;
-  out->shares_ = shares_.middleCols(first_y, ny);
-  out->cosines_ = cosines_.leftCols(nx + 1);
-  out->sines_ = sines_.leftCols(nx + 1);
+  const auto cut = [&](Part& part) {
+    part.shares = Matrix(part.shares.middleCols(first_y, ny));
+    part.cosines = Matrix(part.cosines.leftCols(nx + 1));
+    part.sines = Matrix(part.sines.leftCols(nx + 1));
+  };
+  std::for_each(out->pair_.begin(), out->pair_.end(), cut);
+  cut(out->wheel_);
   return out;
 }
 
 void RowsDifference::add(const In& in, const Out& out, int rows) const {
-  add(*pair_, in, out, rows);
+  for (const Part& part : pair_) add(part, in, out, rows);
   if (!in[2] || !out[2]) return;
   const double whole = rigid_ * cell_area_ * Eigen::Map<const Eigen::VectorXd>(in[2], ny_ * nx_).sum();
   Eigen::Map<Eigen::VectorXd>(out[2], ny_ * rows).array() -= whole;
 }
 
-void RowsDifference::add(const Kernel& kernel, const In& in, const Out& out, int rows) const {
-  const Eigen::Index n = shares_.rows(), count = weight_.size();
+void RowsDifference::add(const Part& part, const In& in, const Out& out, int rows) const {
+  const auto& [shares, cosines, sines, weight, kernel, rigid] = part;
+  const Eigen::Index n = shares.rows(), count = weight.size();
   std::array<Matrix, 3> real, imaginary, u_real, u_imaginary;
   for (std::size_t a = 0; a < 3; ++a) {
     if (in[a]) {
-      const Matrix force = cell_area_ * shares_ * Eigen::Map<const Matrix>(in[a], ny_, nx_);
-      real[a] = force * cosines_.leftCols(nx_).transpose();
-      imaginary[a] = -force * sines_.leftCols(nx_).transpose();
+      const Matrix force = cell_area_ * shares * Eigen::Map<const Matrix>(in[a], ny_, nx_);
+      real[a] = force * cosines.leftCols(nx_).transpose();
+      imaginary[a] = -force * sines.leftCols(nx_).transpose();
       if (a == 0) {  // Q = q_x/i
         std::swap(real[a], imaginary[a]);
         imaginary[a] *= -1;
@@ -172,10 +191,10 @@ void RowsDifference::add(const Kernel& kernel, const In& in, const Out& out, int
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; out[a] && b < 3; ++b) {
         if (!in[b]) continue;
-        const auto block = kernel[static_cast<std::size_t>(q)].block(static_cast<Eigen::Index>(a) * n,
-                                                                     static_cast<Eigen::Index>(b) * n, n, n);
-        u_real[a].col(q) += weight_[q] * (block * real[b].col(q));
-        u_imaginary[a].col(q) += weight_[q] * (block * imaginary[b].col(q));
+        const auto block = (*kernel)[static_cast<std::size_t>(q)].block(static_cast<Eigen::Index>(a) * n,
+                                                                        static_cast<Eigen::Index>(b) * n, n, n);
+        u_real[a].col(q) += weight[q] * (block * real[b].col(q));
+        u_imaginary[a].col(q) += weight[q] * (block * imaginary[b].col(q));
       }
   for (std::size_t a = 0; a < 3; ++a) {
     if (!out[a]) continue;
@@ -183,8 +202,8 @@ void RowsDifference::add(const Kernel& kernel, const In& in, const Out& out, int
       std::swap(u_real[a], u_imaginary[a]);
       u_real[a] *= -1;
     }
-    const Matrix u = u_real[a] * cosines_.leftCols(rows) - u_imaginary[a] * sines_.leftCols(rows);
-    Eigen::Map<Matrix>(out[a], ny_, rows) += shares_.transpose() * u;
+    const Matrix u = u_real[a] * cosines.leftCols(rows) - u_imaginary[a] * sines.leftCols(rows);
+    Eigen::Map<Matrix>(out[a], ny_, rows) += shares.transpose() * u;
   }
 }
 

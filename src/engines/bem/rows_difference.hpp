@@ -2,8 +2,8 @@
 // Influence of the real bodies' sections less that of the half-spaces: between rows of cells, smooth along and across.
 //
 // With displacements (U, u_y, u_n) and tractions (Q, q_y, p) of the wave k, u_x = i U e^{ikx}, the difference of a
-// body is a real symmetric matrix D(k) between stations across the surface. Less D at the largest k, the mesh's own
-// local error,
+// body is a real symmetric matrix D(k) between stations across the surface. Less D at the largest k where it is smooth,
+// the mesh's own local error,
 //   u(x) = 1/pi Re ∫ D(k) τ(k) e^{ikx} dk,   τ(k) = sum over the cells of force e^{-ikx},
 // by a fixed quadrature in k: no periods, no images.
 #include <Eigen/Core>
@@ -38,7 +38,7 @@ class RowsDifference {
   void add(const In& in, const Out& out, int rows) const;
   /// The wheel's own displacement into it by p, with the approach of the whole.
   void add_of_wheel(const double* p, double* u_n, int rows) const {
-    add(*wheel_, {nullptr, nullptr, p}, {nullptr, nullptr, u_n}, rows);
+    add(wheel_, {nullptr, nullptr, p}, {nullptr, nullptr, u_n}, rows);
   }
   /// Rows first_y to first_y + ny of the grid.
   std::shared_ptr<const RowsDifference> part(int first_y, int nx, int ny) const;
@@ -46,14 +46,21 @@ class RowsDifference {
  private:
   using Kernel =
       std::vector<Eigen::MatrixXd>;  ///< of each wave number of the quadrature; index direction * n + station
-  void add(const Kernel& kernel, const In& in, const Out& out, int rows) const;
+  /// A kernel with what its stations and waves ask for.
+  struct Part {
+    Eigen::MatrixXd shares;          ///< stations x rows: of a row's force and displacement
+    Eigen::MatrixXd cosines, sines;  ///< wave numbers x cells along x
+    Eigen::VectorXd weight;          ///< of the quadrature and of a cell's wave, over pi, 1/m
+    std::shared_ptr<const Kernel> kernel;
+    double rigid = 0;  ///< m/N, approach of the body as a whole
+  };
+  static Part part_of(const PlacedRemainder& placed, const PatchGrid& grid);
+  void add(const Part& part, const In& in, const Out& out, int rows) const;
 
   int nx_, ny_;
   double cell_area_;
-  Eigen::MatrixXd shares_;           ///< stations x rows: of a row's force and displacement
-  Eigen::MatrixXd cosines_, sines_;  ///< wave numbers x cells along x
-  Eigen::VectorXd weight_;           ///< of the quadrature, over pi, 1/m
-  std::shared_ptr<const Kernel> pair_, wheel_;
+  std::vector<Part> pair_;  ///< of both bodies, or of each
+  Part wheel_;
   double rigid_ = 0;  ///< m/N, approach of the bodies as a whole
 };
 

@@ -1,35 +1,71 @@
 #include "bem/section_remainder.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-
-#include "core/faults.hpp"
+#include <numbers>
+#include <optional>
 
 namespace railstrata {
 
 namespace {
 
-constexpr double kStation = 2e-3;  // m, from one to the next
+constexpr double kStation = 2e-3;  // m, from one to the next of a smooth difference
 constexpr double kPlace = 4e-3;    // m, to which the middle of the stations is rounded: contacts nearby share a section
-constexpr int kWaves = 16;
-constexpr double kSmallest = 1, kLargest = 500;  // 1/m, of the wave numbers: with elements as wide as the stations
+constexpr double kSmallest = 1;    // 1/m, of the wave numbers
+constexpr double kLogStep = 0.415;   // from one wave number to the next
+constexpr double kFinest = 0.25e-3;  // m, of stations
 
-MeshSizes sizes_for(double half_width) {
+/// How fine a section is looked at: elements are as wide as its stations.
+struct SectionSizes {
+  MeshSizes mesh;
+  double place = 0;    ///< m, arc length of the middle of the stations
+  double largest = 0;  ///< 1/m, of the wave numbers
+};
+
+SectionSizes smooth_sizes(double place, double half_width) {
   const double across = kStation * std::ceil((half_width + kStation + 0.5 * kPlace) / kStation);
-  return {.element = kStation, .fine_width = 2 * across, .fine_depth = 8e-3, .coarse_ratio = 3, .largest = 12e-3};
+  return {{.element = kStation, .fine_width = 2 * across, .fine_depth = 8e-3, .coarse_ratio = 3, .largest = 12e-3},
+          place,
+          SectionRemainder::kSmoothTo};
+}
+
+/// Stations as near as the rows of cells, one of them at the edge; waves down to the length of a cell.
+SectionSizes sizes_in_full(double place, double edge, const PatchGrid& grid) {
+  const double station = std::max(grid.dy, kFinest);
+  const double across = station * std::ceil((0.5 * grid.ny * grid.dy + 2 * station + 0.5 * kPlace) / station);
+  return {
+      {.element = station, .fine_width = 2 * across, .fine_depth = 8 * station, .coarse_ratio = 3, .largest = 12e-3},
+      edge + station * std::round((place - edge) / station),
+      2 * std::numbers::pi / std::max(grid.dx, kFinest)};
+}
+
+/// Arc length of the nearest side of a layer within the reach of the stations.
+std::optional<double> nearest_side(const CaseSpec& spec, const Profile& profile, BodyId body, double place,
+                                   double reach) {
+  std::optional<double> nearest;
+  for (const LayerSpec& layer : spec.layers)
+    for (const double y : {-0.5 * layer.width, 0.5 * layer.width}) {
+      if (layer.on != body || y <= profile.y_min() || y >= profile.y_max()) continue;
+      const double s = profile.s_at_y(y), distance = std::abs(s - place);
+      if (distance < (nearest ? std::abs(*nearest - place) : reach)) nearest = s;
+    }
+  return nearest;
 }
 
 /// What the section depends on: the case's numbers, and the profile by its points.
-std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, BodyId body, double place,
-                           const MeshSizes& sizes) {
+std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, BodyId body, const SectionSizes& sizes) {
   constexpr int kPoints = 400;
   const bool wheel = body == BodyId::wheel;
   const Profile& profile = wheel ? placement.wheel : placement.rail;
   const GeometrySpec& g = spec.geometry;
   const MaterialSpec& m = wheel ? spec.wheel_material : spec.rail_material;
-  std::vector<double> key{static_cast<double>(wheel), place, sizes.fine_width, m.young, m.poisson};
+  std::vector<double> key{static_cast<double>(wheel),
+                          sizes.place,
+                          sizes.mesh.element,
+                          sizes.mesh.fine_width,
+                          sizes.largest,
+                          m.young,
+                          m.poisson};
   if (wheel) {
     const WheelSection& w = g.wheel_section;
     key.insert(key.end(), {static_cast<double>(g.wheel_shape), g.wheel_radius, w.rim_thickness, w.web_thickness,
@@ -50,27 +86,21 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
   return key;
 }
 
-/// The half-space's layers, off which the section is taken, are endless.
-void refuse_narrow_layers(const CaseSpec& spec, const Profile& profile, BodyId body, double place,
-                          const MeshSizes& sizes) {
-  const double y = profile.at(place).position.y, reach = std::abs(y) + 0.5 * sizes.fine_width;
-  for (std::size_t i = 0; i < spec.layers.size(); ++i)
-    if (spec.layers[i].on == body && 0.5 * spec.layers[i].width < reach)
-      throw CaseError(fmt::format("sections need layers that reach {:.0f} mm beyond the contact: a width of {:.0f} mm",
-                                  0.5e3 * sizes.fine_width, 2e3 * reach),
-                      "give a larger width, or bem.bodies = \"half_spaces\"", fmt::format("layer.{}.width", i));
+std::vector<double> wave_numbers(double largest) {
+  const int last = static_cast<int>(std::ceil(std::log(largest / kSmallest) / kLogStep));
+  std::vector<double> k;
+  for (int i = 0; i <= last; ++i) k.push_back(kSmallest * std::pow(largest / kSmallest, 1.0 * i / last));
+  return k;
 }
 
 std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                                     const LayeredHalfSpace& half_space, double place,
-                                                     const MeshSizes& sizes) {
+                                                     const LayeredHalfSpace& half_space, const SectionSizes& sizes) {
   const bool wheel = body == BodyId::wheel;
-  refuse_narrow_layers(spec, wheel ? placement.wheel : placement.rail, body, place, sizes);
-  const MeshedSection meshed = meshed_section(spec, placement, body, place, sizes);
+  const MeshedSection meshed = meshed_section(spec, placement, body, sizes.place, sizes.mesh);
   SectionRemainder out;
-  out.radius = wheel ? spec.geometry.wheel_radius - placement.wheel.at(place).position.z : 0;
-  std::vector<double> k;
-  for (int i = 0; i < kWaves; ++i) k.push_back(kSmallest * std::pow(kLargest / kSmallest, i / (kWaves - 1.0)));
+  out.radius = wheel ? spec.geometry.wheel_radius - placement.wheel.at(sizes.place).position.z : 0;
+  out.in_full = sizes.largest > SectionRemainder::kSmoothTo;
+  const std::vector<double> k = wave_numbers(sizes.largest);
   const QuadraticSection mesh = quadratic_section(meshed.body);
   out.section = section_compliance(mesh, section_stiffness(mesh, meshed.materials, out.radius), 1, k);
   out.half_space =
@@ -81,17 +111,20 @@ std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const
 }  // namespace
 
 std::shared_ptr<const SectionRemainder> SectionStore::get(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                                          const LayeredHalfSpace& half_space, double half_width) {
+                                                          const LayeredHalfSpace& half_space, const PatchGrid& grid) {
   constexpr std::size_t kEntries = 16;
-  const RigidContact& contact = placement.contact;
-  const double place = kPlace * std::round((body == BodyId::wheel ? contact.wheel_s : contact.rail_s) / kPlace);
-  const MeshSizes sizes = sizes_for(half_width);
-  std::vector<double> key = key_of(spec, placement, body, place, sizes);
+  const bool wheel = body == BodyId::wheel;
+  const double place = kPlace * std::round((wheel ? placement.contact.wheel_s : placement.contact.rail_s) / kPlace);
+  SectionSizes sizes = smooth_sizes(place, 0.5 * grid.ny * grid.dy);
+  if (const auto side =
+          nearest_side(spec, wheel ? placement.wheel : placement.rail, body, place, 0.5 * sizes.mesh.fine_width))
+    sizes = sizes_in_full(place, *side, grid);
+  std::vector<double> key = key_of(spec, placement, body, sizes);
   const std::lock_guard lock(mutex_);
   for (const Entry& entry : entries_)
     if (entry.key == key) return entry.remainder;
   if (entries_.size() == kEntries) entries_.erase(entries_.begin());
-  auto made = remainder_of(spec, placement, body, half_space, place, sizes);
+  auto made = remainder_of(spec, placement, body, half_space, sizes);
   entries_.push_back({std::move(key), made});
   return made;
 }

@@ -4,13 +4,16 @@
 #include <mutex>
 #include <vector>
 
+#include "bem/patch_grid.hpp"
 #include "model/model.hpp"
 #include "section/section_compliance.hpp"
 
 namespace railstrata {
 
 struct SectionRemainder {
+  static constexpr double kSmoothTo = 500;  ///< 1/m, the largest wave number of a remainder that is smooth across
   double radius = 0;                        ///< m, of a wheel where the stations are; 0: a rail
+  bool in_full = false;  ///< a layer ends near the patch: stations as near as rows of cells, waves as short as cells
   SectionCompliance section;                ///< in the axes of the model; stations of a wheel relative to its axle
   std::vector<Eigen::MatrixXd> half_space;  ///< half_space_compliance of the same stations
 };
@@ -18,10 +21,10 @@ struct SectionRemainder {
 /// Remainders of sections that were asked for before. Safe to share between threads.
 class SectionStore {
  public:
-  /// Of the section with its foot or bore held, around the contact, at least `half_width` [m] to both sides where the
-  /// running surface is as wide. half_space: its layers. Throws CaseError where the section cannot be meshed.
+  /// Of the section with its foot or bore held, around the contact, at least as wide as the grid where the running
+  /// surface is. half_space: its layers. Throws CaseError where the section cannot be meshed.
   std::shared_ptr<const SectionRemainder> get(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                              const LayeredHalfSpace& half_space, double half_width);
+                                              const LayeredHalfSpace& half_space, const PatchGrid& grid);
 
  private:
   struct Entry {

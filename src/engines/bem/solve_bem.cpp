@@ -284,7 +284,10 @@ BemResult bem_result(const CaseSpec& spec, const Placement& placement, const Pat
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   require_support(spec.run.rolling ? uses::kSteadyRolling : uses::kHalfSpaces, spec);
-  std::vector<SharedLoad> solved = loaded_wheel(spec, placement, options);
+  InfluenceCache own;
+  BemOptions kept = options;
+  if (!kept.cache) kept.cache = &own;
+  std::vector<SharedLoad> solved = loaded_wheel(spec, placement, kept);
   for (const SharedLoad& one : solved) {
     if (one.patches.size() > 1 && spec.bem.bodies == ContactBodies::sections)
       throw CaseError("sections: the wheel touches at several places, which sections do not join",
