@@ -41,6 +41,7 @@ const std::map<std::string, Overrides>& examples() {
         "geometry.rail_profile=flat", "geometry.cant=0"}},
       {"geometry.line_length", {"geometry.line_length=20 mm"}},
       {"bem.bodies", {"bem.bodies=sections"}},
+      {"bem.normals", {"bem.normals=local"}},
       {"geometry.wheel_profile", {"geometry.wheel_profile=LMA"}},
       {"geometry.rail_profile", {"geometry.rail_profile=CN60"}},
       {"an arc or a plane below a wheel with a flange", {"geometry.rail_profile=\"arc:R=300 mm\""}},

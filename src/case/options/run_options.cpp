@@ -101,7 +101,12 @@ OptionTable bem_table() {
                "spin_angle",
                "Contact angle used for the lateral slip due to spin. local: the surface angle at each point of the "
                "patch; patch: the angle of the contact plane",
-               {{"local", SpinAngle::local}, {"patch", SpinAngle::patch}})}};
+               {{"local", SpinAngle::local}, {"patch", SpinAngle::patch}}),
+           choice_at<&C::bem, &BemSpec::normals>(
+               "normals",
+               "Directions of gap, pressure and traction. plane: those of the contact plane; local: in each row of "
+               "cells those of the surfaces there, with cells by arc length across, for conformal contact",
+               {{"plane", ContactNormals::plane}, {"local", ContactNormals::local}})}};
 }
 
 OptionTable passes_table() {

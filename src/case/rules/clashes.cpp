@@ -158,7 +158,7 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
     kUnreached{"life.until", [](const C&c) { return c.life.first_cracks.value_or(0) > c.life.until; },
                "a rail that is not followed so far"},
     kElastic{"run.plasticity = false", [](const C&c) { return !c.run.plasticity && c.life.until == 0; }},
-    kLayerEnds{"layer.from | layer.to"}, kSections{"bem.bodies = \"sections\""},
+    kLayerEnds{"layer.from | layer.to"}, kSections{"bem.bodies = \"sections\""}, kLocal{"bem.normals = \"local\""},
     kGivingInterface{"layer.interface_normal_stiffness | layer.interface_shear_stiffness"},
     kRollingColumns{
         "transient.creepage | transient.lateral_creepage | transient.spin | transient.at_distance | "
@@ -179,6 +179,7 @@ constexpr const char *kOneOut = "take one of them out", *kOut = "take it out",
                      *kCpu = "give run.device = \"cpu\"",
                      *kPoint = "leave it out, or give geometry.contact = \"point\"";
 constexpr const char* kOfHalfSpaces = "it is implemented for half-spaces";
+constexpr const char* kOfPlane = "it is implemented for the contact plane";
 constexpr const char* kOfBonded = "plastic strain is followed in bonded layers";
 constexpr const char *kStraight = "its wheel rolls straight on and level", *kAcross = "all places across are the same",
                      *kUnknown = "displacements of distant points are not known in plane strain",
@@ -386,6 +387,19 @@ constexpr Clash kClashes[] = {
      "steady rolling needs a rail and a wheel that are the same all along",
      "take it out; half-spaces roll over it with transient.kind = \"rolling\", the finite elements with `railstrata "
      "run`"},
+    {kLocal, excludes, kSections, "sections meet in the contact plane", kOneOut, kInHalfSpaces},
+    {kLocal, excludes, "transient.kind", kOfPlane, kOneOut, kInHalfSpaces},
+    {kLocal, excludes, "run.rolling = false", kOfPlane, kOneOut, kInHalfSpaces},
+    {kLocal, excludes, kLine, kOfPlane, kOneOut, kInHalfSpaces},
+    {kLocal, excludes, "geometry.rail_radius", kOfPlane, kOneOut, kInHalfSpaces},
+    {kLocal, excludes, "drive.lateral_traction_coefficient", "part of the lateral force is pressure", kOneOut,
+     kInHalfSpaces},
+    {kLocal, excludes, uses::kStates, kOfPlane, kByBem},
+    {kLocal, excludes, uses::kCollective, kOfPlane, kByBem},
+    {kLocal, excludes, uses::kPasses, kOfPlane, kByBem},
+    {kLocal, excludes, uses::kCreepTable, kOfPlane, kByBem},
+    {kLocal, excludes, uses::kContactResult, kOfPlane, "export a case with bem.normals = \"plane\""},
+    {kLocal, excludes, uses::kExplorer, kOfPlane, kByBem},
     {kSections, excludes, "transient.kind", "sections are solved in steady rolling", kOneOut, kInHalfSpaces},
     {kSections, excludes, "run.rolling = false", "sections are solved in steady rolling", kOneOut, kInHalfSpaces},
     {kSections, excludes, kLine, "sections meet in patches", kOneOut, kInHalfSpaces},

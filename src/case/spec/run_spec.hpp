@@ -79,10 +79,17 @@ enum class ContactBodies {
   sections  ///< the rail's and the wheel's own, alike along rolling (bem/rows_difference.hpp)
 };
 
+/// Directions in which the surfaces of the half-space engine meet.
+enum class ContactNormals {
+  plane,  ///< those of the contact plane
+  local   ///< of each row of cells its own, with cells by arc length: conformal contact (bem/profile_gap.hpp)
+};
+
 struct BemSpec {
   ContactBodies bodies = ContactBodies::half_spaces;
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
   SpinAngle spin_angle = SpinAngle::local;
+  ContactNormals normals = ContactNormals::plane;
 };
 
 }  // namespace railstrata

@@ -54,7 +54,10 @@ std::string describe(const NormalTarget& target) {
 
 void gap_and_influence(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                        ContactBodies bodies, InfluenceCache& cache, CasePatch& patch) {
-  patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, patch.grid);
+  const auto gap = spec.bem.normals == ContactNormals::local ? &local_gap : &profile_gap;
+  patch.profile = gap(placement.wheel, placement.rail, placement.track, placement.contact, patch.grid);
+  patch.contact.turn.clear();
+  for (const RowPlane& row : patch.profile.rows) patch.contact.turn.push_back(row.angle - placement.contact.angle);
   if (options.rail_surface) {
     patch.surface = options.rail_surface(patch.grid);
     for (std::size_t k = 0; k < patch.profile.gap.size(); ++k)
@@ -64,6 +67,8 @@ void gap_and_influence(const CaseSpec& spec, const Placement& placement, const B
   patch.influence = bodies == ContactBodies::half_spaces
                         ? cache.get(patch.wheel, patch.rail, patch.grid, film)
                         : cache.get(patch.wheel, patch.rail, patch.grid, film, {spec, placement});
+  if (!patch.contact.turn.empty())
+    patch.influence = std::make_shared<const InfluenceOperator>(*patch.influence, patch.contact.turn);
 }
 
 void fit_grid(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, const PatchRoom& room,
@@ -73,7 +78,8 @@ void fit_grid(const CaseSpec& spec, const Placement& placement, const NormalTarg
     PatchGrid& g = patch.grid;
     gap_and_influence(spec, placement, options, bodies, cache, patch);
     keep_to_room(g, room, patch.profile.gap);
-    patch.frictionless = solve_normal(*patch.influence, g, gap_after(patch, 0), target, options.rolling.normal);
+    patch.frictionless =
+        solve_normal(*patch.influence, g, gap_after(patch, 0), target, options.rolling.normal, {}, patch.contact.turn);
     const Touches edge = touches(g, patch.frictionless.pressure);
     if (!edge.x && !edge.y) {
       if (grown > 0)
@@ -119,14 +125,19 @@ CasePatch bodies_of(const CaseSpec& spec) {
   return patch;
 }
 
+/// Of a cell on the rail.
+Vec2 point_of(const CasePatch& patch, const RigidContact& contact, std::size_t cell) {
+  const std::size_t row = cell % static_cast<std::size_t>(patch.grid.ny);
+  if (!patch.profile.rows.empty()) return patch.profile.rows[row].point;
+  const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
+  return contact.point + patch.grid.y_of(cell) * tangent + patch.profile.rail_height[cell] * normal;
+}
+
 /// Coefficients over y of the rail's own profile.
 Plane friction_across(const CaseSpec& spec, const Placement& placement, const CasePatch& patch) {
   Plane out(patch.grid.size());
-  const RigidContact& c = placement.contact;
-  const Vec2 tangent{std::cos(c.angle), std::sin(c.angle)}, normal{-tangent.z, tangent.y};
   for (std::size_t k = 0; k < out.size(); ++k) {
-    const double t = patch.grid.y_of(k);
-    const Vec2 on_rail = model_to_rail(placement.track, c.point + t * tangent + patch.profile.rail_height[k] * normal);
+    const Vec2 on_rail = model_to_rail(placement.track, point_of(patch, placement.contact, k));
     out[k] = over_table(spec.friction.lateral_table, on_rail.y);
   }
   return out;
@@ -191,9 +202,10 @@ Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidCo
   for (int j = 0; j < grid.ny; ++j) {
     const int low = std::max(j - 1, 0), high = std::min(j + 1, grid.ny - 1);
     if (!present(low) || !present(j) || !present(high)) continue;
-    const double angle = contact.angle + std::atan((middle(high) - middle(low)) / ((high - low) * grid.dy));
     RigidContact here = contact;
-    here.angle = angle;
+    here.angle = profile.rows.empty()
+                     ? contact.angle + std::atan((middle(high) - middle(low)) / ((high - low) * grid.dy))
+                     : profile.rows[static_cast<std::size_t>(j)].angle;
     spin[static_cast<std::size_t>(j)] = wheel_spin(here) - wheel_spin(contact);
   }
   return spin;
@@ -296,9 +308,8 @@ CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Place
 void place_cells(const CasePatch& patch, const RigidContact& contact, ContactField& field) {
   const PatchGrid& g = patch.grid;
   field.resize(g.ny, g.nx);
-  const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
   for (std::size_t k = 0; k < g.size(); ++k) {
-    const Vec2 point = contact.point + g.y_of(k) * tangent + patch.profile.rail_height[k] * normal;
+    const Vec2 point = point_of(patch, contact, k);
     field.x[k] = g.x_of(k);
     field.y[k] = point.y;
     field.z[k] = point.z;

@@ -91,6 +91,28 @@ InfluenceOperator::InfluenceOperator(const InfluenceOperator& whole, int nx, int
   }
   make_spectra(table_, !whole.nx_hat_.empty());
   if (whole.rows_) rows_ = whole.rows_->part(first_y, nx, ny);
+  if (!whole.turns()) return;
+  const auto rows_of = [&](const Plane& by_row) {
+    return Plane(by_row.begin() + first_y, by_row.begin() + first_y + ny);
+  };
+  set_turns(rows_of(whole.cosine_), rows_of(whole.sine_));
+}
+
+InfluenceOperator::InfluenceOperator(const InfluenceOperator& flat, const Plane& turn)
+    : fft_(flat.nx(), flat.ny()), film_(flat.film_), table_(flat.table_) {
+  make_spectra(table_, !flat.nx_hat_.empty());
+  Plane cosine, sine;
+  for (const double angle : turn) {
+    cosine.push_back(std::cos(angle));
+    sine.push_back(std::sin(angle));
+  }
+  set_turns(cosine, sine);
+}
+
+void InfluenceOperator::set_turns(const Plane& cosine, const Plane& sine) {
+  cosine_ = cosine;
+  sine_ = sine;
+  for (std::size_t k = 0; k < nn_hat_.size(); ++k) mean_hat_.push_back(0.5 * (nn_hat_[k] + yy_hat_[k]));
 }
 
 InfluenceOperator::InfluenceOperator(const InfluenceOperator& flat, std::shared_ptr<const RowsDifference> rows,
@@ -106,7 +128,7 @@ InfluenceOperator::InfluenceOperator(const InfluenceOperator& flat, std::shared_
 
 std::shared_ptr<const InfluenceOperator> InfluenceOperator::part(int nx, int ny, int first_y) const {
   constexpr std::size_t kMost = 16;
-  if (!rows_) first_y = 0;
+  if (!rows_ && !turns()) first_y = 0;
   const std::lock_guard lock(parts_mutex_);
   for (const Part& part : parts_)
     if (part.op->nx() == nx && part.op->ny() == ny && part.first_y == first_y) return part.op;
@@ -147,8 +169,35 @@ void InfluenceOperator::make_spectra(std::vector<RectangleInfluence> table, bool
   }
 }
 
+void InfluenceOperator::add_component(const Plane& by_row, const double* in, const std::vector<double>& spectrum,
+                                      double* out, int rows) const {
+  Plane own = plane_of(nx()), moved = plane_of(rows);
+  for (std::size_t k = 0; k < own.size(); ++k) own[k] = by_row[k % by_row.size()] * in[k];
+  fft_.apply({own.data()}, {moved.data()}, rows, ScalarProduct{spectrum.data()});
+  for (std::size_t k = 0; k < moved.size(); ++k) out[k] += by_row[k % by_row.size()] * moved[k];
+}
+
+Plane InfluenceOperator::across_turns(const double* in, int rows) const {
+  Plane along = plane_of(nx()), up = along, moved_along = plane_of(rows), moved_up = moved_along;
+  for (std::size_t k = 0; k < along.size(); ++k) {
+    along[k] = cosine_[k % cosine_.size()] * in[k];
+    up[k] = sine_[k % sine_.size()] * in[k];
+  }
+  fft_.apply({along.data()}, {moved_along.data()}, rows, ScalarProduct{mean_hat_.data()});
+  fft_.apply({up.data()}, {moved_up.data()}, rows, ScalarProduct{mean_hat_.data()});
+  for (std::size_t k = 0; k < moved_along.size(); ++k)
+    moved_along[k] = sine_[k % sine_.size()] * moved_along[k] - cosine_[k % cosine_.size()] * moved_up[k];
+  return moved_along;
+}
+
 void InfluenceOperator::normal(const double* p, double* u_n) const {
   stop_if_requested();
+  if (turns()) {
+    std::fill_n(u_n, static_cast<std::size_t>(nx()) * cosine_.size(), 0.0);
+    add_component(cosine_, p, nn_hat_, u_n, nx());
+    add_component(sine_, p, nn_hat_, u_n, nx());
+    return;
+  }
   fft_.apply({p}, {u_n}, nx(), ScalarProduct{nn_hat_.data()});
   if (rows_) rows_->add({nullptr, nullptr, p}, {nullptr, nullptr, u_n}, nx());
 }
@@ -157,8 +206,18 @@ void InfluenceOperator::precondition_normal(const double* u_n, double* p) const 
   fft_.apply({u_n}, {p}, nx(), ScalarProduct{inv_nn_.data()});
 }
 
+void InfluenceOperator::turned_tangential(const double* q_x, const double* q_y, double* u_x, double* u_y,
+                                          int rows) const {
+  Plane along = plane_of(nx());
+  for (std::size_t k = 0; k < along.size(); ++k) along[k] = cosine_[k % cosine_.size()] * q_y[k];
+  fft_.apply({q_x, along.data()}, {u_x, u_y}, rows, SymmetricProduct{xx_hat_.data(), xy_hat_.data(), yy_hat_.data()});
+  for (std::size_t k = 0; k < plane_of(rows).size(); ++k) u_y[k] *= cosine_[k % cosine_.size()];
+  add_component(sine_, q_y, yy_hat_, u_y, rows);
+}
+
 void InfluenceOperator::tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const {
   stop_if_requested();
+  if (turns()) return turned_tangential(q_x, q_y, u_x, u_y, rows);
   fft_.apply({q_x, q_y}, {u_x, u_y}, rows, SymmetricProduct{xx_hat_.data(), xy_hat_.data(), yy_hat_.data()});
   if (rows_) rows_->add({q_x, q_y, nullptr}, {u_x, u_y, nullptr}, rows);
 }
@@ -198,6 +257,7 @@ PlanePair InfluenceOperator::tangential_from_pressure(const Plane& p, int rows) 
                    b[k] = -ny_hat_[i] * ip;
                  }
                });
+  if (turns()) add_scaled(u.y, -1, across_turns(p.data(), rows));
   if (!rows_) return u;
   rows_->add({nullptr, nullptr, p.data()}, {u.x.data(), u.y.data(), nullptr}, rows);
   add_stretch_of_wheel(p, u.x);
@@ -215,6 +275,7 @@ Plane InfluenceOperator::normal_from_traction(const Plane& q_x, const Plane& q_y
                    a[k] = times_i(nx_hat_[i] * a[k] + ny_hat_[i] * b[k]);
                  }
                });
+  if (turns()) add_scaled(u, 1, across_turns(q_y.data(), nx()));
   if (rows_) rows_->add({q_x.data(), q_y.data(), nullptr}, {nullptr, nullptr, u.data()}, nx());
   return u;
 }

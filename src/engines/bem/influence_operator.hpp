@@ -32,13 +32,18 @@ class InfluenceOperator {
   InfluenceOperator(const InfluenceOperator& flat, std::shared_ptr<const RowsDifference> rows,
                     const SurfaceCompliance& wheel, double curvature, double dx, double dy);
 
+  /// The same of rows that turn: `turn` is the angle of each row's normal, rad, [j], and rows follow each other by arc
+  /// length. A traction moves the surface along its own direction, wherever that is looked at; pressure and traction
+  /// across couple by the mean of their influences.
+  InfluenceOperator(const InfluenceOperator& flat, const Plane& turn);
+
   int nx() const { return fft_.nx(); }
   int ny() const { return fft_.ny(); }
   /// Displacement at (i dx, 0), i = 0 or 1, from the centre of a cell under unit traction.
   const RectangleInfluence& of_one_cell(int i) const { return near_[i]; }
   double film() const { return film_; }  ///< m/Pa
   /// Normal and tangential problems interact: not for half-spaces of equal bodies.
-  bool couples() const { return rows_ || !nx_hat_.empty(); }
+  bool couples() const { return rows_ || !nx_hat_.empty() || turns(); }
 
   /// Normal elastic displacement u_n = u_z'(rail) + u_z'(wheel) by pressure, each into its body: nx x ny.
   void normal(const double* p, double* u_n) const;
@@ -62,6 +67,14 @@ class InfluenceOperator {
  private:
   InfluenceOperator(const InfluenceOperator& whole, int nx, int ny, int first_y);
   void make_spectra(std::vector<RectangleInfluence> table, bool couples);
+  bool turns() const { return !cosine_.empty(); }
+  void set_turns(const Plane& cosine, const Plane& sine);
+  void turned_tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const;
+  /// by_row times the scalar product of by_row times `in`, which is added to out.
+  void add_component(const Plane& by_row, const double* in, const std::vector<double>& spectrum, double* out,
+                     int rows) const;
+  /// ∑ of sin(turn_i - turn_j) times the mean influence, index i of the rows of the result.
+  Plane across_turns(const double* in, int rows) const;
   void add_stretch_of_wheel(const Plane& p, Plane& u_x) const;
   PlaneFft fft_;
   double film_;
@@ -78,7 +91,9 @@ class InfluenceOperator {
   std::vector<double> inv_nn_, inv_xx_, inv_xy_, inv_yy_;
   std::shared_ptr<const RowsDifference> rows_;  // null: half-spaces
   std::vector<double> wheel_nn_hat_;
-  double turn_ = 0;  // of the wheel's surface over a cell, rad
+  Plane cosine_, sine_;           // of each row's turn; empty: a plane
+  std::vector<double> mean_hat_;  // of nn and yy, of rows that turn
+  double turn_ = 0;               // of the wheel's surface over a cell, rad
 };
 
 /// The bodies whose sections are meant, in the plane of `placement`; both are kept by reference during a call.

@@ -23,6 +23,10 @@ class ActiveSetSolver {
   ActiveSetSolver(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap, NormalTarget target,
                   const NormalOptions& options)
       : influence_(influence), grid_(grid), gap_(gap), target_(target), options_(options) {}
+  /// Of p cos(turn), u_n/cos(turn) and gap/cos(turn), for which the problem is as without turns.
+  void turn_rows(const Plane& turn) {
+    for (std::size_t i = 0; i < n_; ++i) cosine_.push_back(std::cos(turn[i % turn.size()]));
+  }
 
   NormalSolution solve(const Plane& start) {
     if (start.empty())
@@ -49,7 +53,7 @@ class ActiveSetSolver {
   /// Sharpens the tolerance for a start that is close already.
   void follow(double scale) {
     if (options_.share_of_first >= 1) return;
-    influence_.normal(p_.data(), displacement_.data());
+    product(p_, displacement_);
     ++iterations_;
     const double first = compute_residual() / scale;
     tolerance_ = std::min(tolerance_, std::max(NormalOptions::kRoundOff, options_.share_of_first * first));
@@ -73,7 +77,7 @@ class ActiveSetSolver {
         throw CaseError("the bodies do not touch at this approach", "increase the approach or the load",
                         "vehicle.approach");
       set_pressure(lowest + 0.5 * (*target_.approach - lowest));
-      influence_.normal(p_.data(), displacement_.data());
+      product(p_, displacement_);
       scale_by(p_, (*target_.approach - lowest) / *std::max_element(displacement_.begin(), displacement_.end()));
       return;
     }
@@ -81,7 +85,7 @@ class ActiveSetSolver {
     for (int i = 0; i < 4; ++i) {
       set_pressure(level);
       scale_by(p_, *target_.load / (sum(p_) * grid_.cell_area()));
-      influence_.normal(p_.data(), displacement_.data());
+      product(p_, displacement_);
       ++iterations_;
       const double slope = displacement_slope();
       if (!(std::abs(slope - 1) > 0.1)) return;
@@ -145,6 +149,14 @@ class ActiveSetSolver {
     add_scaled(z, -sum(z) / ones_sum_, ones_);
   }
 
+  void product(const Plane& p, Plane& u) const {
+    if (cosine_.empty()) return influence_.normal(p.data(), u.data());
+    Plane pressure = p;
+    for (std::size_t i = 0; i < n_; ++i) pressure[i] /= cosine_[i];
+    influence_.normal(pressure.data(), u.data());
+    for (std::size_t i = 0; i < n_; ++i) u[i] /= cosine_[i];
+  }
+
   void precondition(const Plane& r, Plane& z) const {
     influence_.precondition_normal(r.data(), z.data());
     for_cells(n_, [&](std::size_t i) { z[i] = active_[i] ? z[i] : 0.0; });
@@ -188,7 +200,7 @@ class ActiveSetSolver {
       ones_sum_ = sum(ones_);
       add_scaled(p_, (*target_.load / grid_.cell_area() - sum(p_)) / ones_sum_, ones_);
     }
-    influence_.normal(p_.data(), displacement_.data());
+    product(p_, displacement_);
     ++iterations_;
     double left = compute_residual(), previous = 0;
     const double goal = std::max({0.3 * floor, reduce * left, 0.5 * round_off()});
@@ -199,7 +211,7 @@ class ActiveSetSolver {
       const double rho = dot(residual_, z_), beta = previous > 0 ? rho / previous : 0.0;
       previous = rho;
       for_cells(n_, [&](std::size_t i) { d_[i] = z_[i] + beta * d_[i]; });
-      influence_.normal(d_.data(), Ad_.data());
+      product(d_, Ad_);
       ++iterations_;
       const double bent = dot(d_, Ad_);
       if (!(rho > 0 && bent > 0)) break;  // what is left is round-off
@@ -254,6 +266,7 @@ class ActiveSetSolver {
   // of the conjugate gradients; ones_: preconditioned indicator of active cells
   Plane residual_ = p_, z_ = p_, d_ = p_, Ad_ = p_, ones_ = p_;
   Mask active_ = Mask(n_);
+  Plane cosine_;  // of the rows' turns, in each cell; empty: none
   double tolerance_ = options_.tolerance;
   double approach_ = 0, ones_sum_ = 1;
   int iterations_ = 0;
@@ -262,11 +275,22 @@ class ActiveSetSolver {
 }  // namespace
 
 NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap,
-                            NormalTarget target, const NormalOptions& options, const Plane& start) {
+                            NormalTarget target, const NormalOptions& options, const Plane& start, const Plane& turn) {
   assert(target.load.has_value() != target.approach.has_value());
   if (target.load && !(*target.load > 0))
     throw CaseError("the load must press the bodies together", "give a positive load", "vehicle.wheel_load");
-  return ActiveSetSolver(influence, grid, gap, target, options).solve(start);
+  if (turn.empty()) return ActiveSetSolver(influence, grid, gap, target, options).solve(start);
+  const auto scaled = [&](Plane plane, int power) {
+    for (std::size_t i = 0; i < plane.size(); ++i) plane[i] *= std::pow(std::cos(turn[i % turn.size()]), power);
+    return plane;
+  };
+  const Plane over_cosine = scaled(gap, -1);
+  ActiveSetSolver solver(influence, grid, over_cosine, target, options);
+  solver.turn_rows(turn);
+  NormalSolution s = solver.solve(scaled(start, 1));
+  s.pressure = scaled(std::move(s.pressure), -1);
+  s.gap = scaled(std::move(s.gap), 1);
+  return s;
 }
 
 NormalInverse::NormalInverse(const InfluenceOperator& influence, const Plane& pressure)

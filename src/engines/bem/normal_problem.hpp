@@ -37,11 +37,14 @@ struct NormalSolution {
   bool touches_edge = false;  ///< a cell of the outermost ring carries pressure: the grid is too small
 };
 
+/// turn: of each row's normal against the approach and the load, rad, [j]; empty: none. With it the gap is along the
+/// normals, a rigid approach is delta cos(turn) there, and the load ∑ p cos(turn) dA.
 /// gap: undeformed distance of the bodies in each cell [m], any origin; the caller adds to it the normal elastic
 /// displacement by a tangential traction (dissimilar bodies). start: pressure of a similar problem, or empty. Throws
 /// NumericalError when the iteration does not end.
 NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap,
-                            NormalTarget target, const NormalOptions& options = {}, const Plane& start = {});
+                            NormalTarget target, const NormalOptions& options = {}, const Plane& start = {},
+                            const Plane& turn = {});
 
 /// The pressure in cells in contact that makes a displacement there; each is cheaper than those before.
 class NormalInverse {

@@ -185,7 +185,7 @@ ProfileGap gap_to(const WheelSection& wheel_curve, const Profile& rail, const Tr
   const HeightOverPlane wheel_height(wheel_curve, contact.wheel_s, farthest_of(grid));
   std::vector<typename HeightOverPlane<WheelSection>::Reach> reach;
   for (int i = 0; i < grid.nx; ++i) reach.push_back(wheel_height.reach(grid.x(i)));
-  ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size()), {}};
+  ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size()), {}, {}};
   if (rail_curve.turns()) out.rail_radius.resize(grid.size());
   const bool mirrors = wheel_curve.symmetric() && std::abs(grid.x(0) + grid.x(grid.nx - 1)) < 1e-9 * grid.dx;
   for_each_if(threads_pay_for(grid.size()), grid.ny, [&](int j) {
@@ -231,6 +231,41 @@ ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeo
   return gap_to(rolled, rail, track, contact, grid, [&](Vec2 point) {
     return rolled.wheel.from_axle({point.y - contact.wheel_offset_y, point.z - contact.wheel_offset_z});
   });
+}
+
+ProfileGap local_gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& contact,
+                     const PatchGrid& grid) {
+  ProfileGap out{Plane(grid.size(), ProfileGap::kNoSurface), Plane(grid.size()), Plane(grid.size()), {}, {}};
+  const auto within = [](const Profile& profile, double s) { return s > profile.s_min() && s < profile.s_max(); };
+  for (int j = 0; j < grid.ny; ++j) {
+    RigidContact here = contact;  // arcs of the two surfaces agree where the gap is small
+    here.rail_s += grid.y(j);
+    here.wheel_s += grid.y(j);
+    const bool present = within(rail, here.rail_s) && within(wheel, here.wheel_s);
+    if (present) {
+      const ProfilePoint on_rail = rail.at(here.rail_s);
+      const Vec2 of_rail = rail_to_model(track, on_rail.tangent), of_wheel = wheel.at(here.wheel_s).tangent;
+      here.point = rail_to_model(track, on_rail.position);
+      here.angle = 0.5 * (std::atan2(of_rail.z, of_rail.y) + std::atan2(of_wheel.z, of_wheel.y) + contact.roll);
+    } else {
+      here.point = out.rows.empty() ? contact.point : out.rows.back().point;
+      here.angle = out.rows.empty() ? contact.angle : out.rows.back().angle;
+    }
+    out.rows.push_back({here.point, here.angle});
+    if (!present) continue;
+    PatchGrid row = grid;
+    row.ny = 1;
+    row.y0 = 0;
+    const ProfileGap own = profile_gap(wheel, rail, track, here, row);
+    for (int i = 0; i < grid.nx; ++i) {
+      const auto from = static_cast<std::size_t>(i);
+      const std::size_t to = grid.index(i, j);
+      out.gap[to] = own.gap[from];
+      out.rail_height[to] = own.rail_height[from];
+      out.radius[to] = own.radius[from];
+    }
+  }
+  return out;
 }
 
 }  // namespace railstrata

@@ -117,6 +117,24 @@ double largest_difference(const Plane& a, const Plane& b) {
 
 bool without_traction(const RollingSolution& s) { return s.tangential.state.empty(); }
 
+/// What traction across bears of the load, less what it adds to it, N: of rows that turn.
+double load_on_traction(const PatchGrid& grid, const Plane& turn, const Plane& q_y) {
+  double sum = 0;
+  for (std::size_t k = 0; k < q_y.size() && !turn.empty(); ++k) sum += q_y[k] * std::sin(turn[k % turn.size()]);
+  return sum * grid.cell_area();
+}
+
+/// The forces of rows that turn, along the axes of the contact plane.
+void set_resultants(const PatchGrid& grid, const Plane& turn, RollingSolution& s) {
+  double across = 0;
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    const double angle = turn[k % turn.size()];
+    across += s.tangential.q_y[k] * std::cos(angle) + s.normal.pressure[k] * std::sin(angle);
+  }
+  s.tangential.force_y = across * grid.cell_area();
+  s.normal.load -= load_on_traction(grid, turn, s.tangential.q_y);
+}
+
 /// Takes the next solution of one of the two problems; its iterations are added to those before.
 template <class Solution>
 void replace(Solution& old, Solution next) {
@@ -141,12 +159,14 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
   }
   double change = kFirst;
   const auto pressure = [&](const Plane& from) {
+    NormalTarget target = contact.target;
+    if (target.load && !without_traction(s)) *target.load += load_on_traction(grid, contact.turn, s.tangential.q_y);
     NormalOptions close_enough = options.normal;
     close_enough.tolerance = std::max(close_enough.tolerance, kGapPerPressure * kSharper * change);
     return solve_normal(
         influence, grid,
         without_traction(s) ? contact.gap : gap_with_displacement_by_traction(influence, contact.gap, s.tangential),
-        contact.target, close_enough, from);
+        target, close_enough, from, contact.turn);
   };
   s.normal = pressure(start ? start->normal.pressure : Plane{});
   for (s.outer_iterations = 1; s.outer_iterations <= options.max_outer; ++s.outer_iterations) {
@@ -161,7 +181,10 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
     }
     replace(s.tangential, solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal),
                                            further, first ? nullptr : &s.tangential));
-    if (settled) return s;
+    if (settled) {
+      if (!contact.turn.empty()) set_resultants(grid, contact.turn, s);
+      return s;
+    }
     NormalSolution next = pressure(s.normal.pressure);
     change = std::max(kSharper * change,
                       largest_difference(next.pressure, s.normal.pressure) / largest_of(s.normal.pressure));
@@ -173,7 +196,7 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
 /// At the temperature of `contact`.
 RollingSolution solve_as_warm(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
                               const RollingOptions& options, const RollingSolution* start) {
-  if (influence.couples()) return solve_coupled(influence, grid, contact, options, start);
+  if (influence.couples() || !contact.turn.empty()) return solve_coupled(influence, grid, contact, options, start);
   RollingSolution s;
   s.normal = solve_normal(influence, grid, contact.gap, contact.target, options.normal,
                           start ? start->normal.pressure : Plane{});

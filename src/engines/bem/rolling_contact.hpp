@@ -17,7 +17,8 @@ namespace railstrata {
 
 /// `before` of the conditions is the displacement by pressure and traction.
 struct RollingContact : RollingConditions {
-  Plane gap;  ///< m
+  Plane gap;   ///< m
+  Plane turn;  ///< of solve_normal; traction across is along each row's own tangent then
   NormalTarget target;
   double friction = 0.3;
   Plane local_friction;             ///< in each cell, replaces `friction`; empty: uniform

@@ -161,7 +161,7 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const P
   Warnings out(s.run.engine);
   const PatchMeasures& patch = s.contact.patch;
   out.above("few_cells_over_patch", element / shorter_axis(patch));
-  out.above("patch_spans_angle", around.edges.angle_spanned);
+  if (spec.bem.normals == ContactNormals::plane) out.above("patch_spans_angle", around.edges.angle_spanned);
   out.above("patch_large_against_radius",
             std::max(around.edges.half_width_over_radius, 0.5 * patch.length * around.curvature_rolling));
   out.above("patch_near_edge", around.edges.edge_share, fmt::format(", here {}", around.edges.edge));
