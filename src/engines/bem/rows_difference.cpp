@@ -54,33 +54,65 @@ WaveQuadrature wave_quadrature(double lowest, double highest, double reach) {
 }
 
 /// D of a body at its wave numbers, between the stations t of the contact plane.
-std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t) {
-  const SectionRemainder& body = *placed.remainder;
+std::vector<Matrix> difference_at(const PlacedRemainder& placed, const SectionRemainder& body,
+                                  const std::vector<double>& t) {
   const SectionCompliance& section = body.section;
   const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)}, down{along.z, -along.y};
   std::vector<double> own;
   for (const Vec2 p : section.stations) own.push_back(dot(p - placed.contact, along));
   const Matrix shares = shares_of(own, t);
-  const auto n = static_cast<Eigen::Index>(own.size()), m = static_cast<Eigen::Index>(t.size());
-  Matrix turn = Matrix::Zero(3 * n, 3 * m);  // from forces (x, y, normal) at t to those along the section's axes
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < m; ++j) {
-      turn(3 * i, j) = shares(i, j);
-      turn(3 * i + 1, m + j) = along.y * shares(i, j);
-      turn(3 * i + 2, m + j) = along.z * shares(i, j);
-      turn(3 * i + 1, 2 * m + j) = down.y * shares(i, j);
-      turn(3 * i + 2, 2 * m + j) = down.z * shares(i, j);
-    }
-  Matrix plane = Matrix::Zero(3 * n, 3 * m);  // the half-space has the plane's axes
-  for (Eigen::Index a = 0; a < 3; ++a)
-    for (Eigen::Index i = 0; i < n; ++i) plane.row(3 * i + a).segment(a * m, m) = shares.row(i);
+  Eigen::Index first = 0, last = shares.rows() - 1;  // of the stations that count
+  while (shares.row(first).isZero(0)) ++first;
+  while (shares.row(last).isZero(0)) --last;
+  const Eigen::Index n = last - first + 1, m = shares.cols();
+  const Matrix near = shares.middleRows(first, n);
+  Eigen::Matrix3d axes;  // rows: the plane's in those of the section
+  axes << 1, 0, 0, 0, along.y, along.z, 0, down.y, down.z;
   std::vector<Matrix> out;
-  for (std::size_t k = 0; k < section.k.size(); ++k)
-    out.push_back(turn.transpose() * section.at[k] * turn - plane.transpose() * body.half_space[k] * plane);
-  Matrix last = out.back();  // but of the coupling of x with the others, which is odd in k
-  last.topRightCorner(m, 2 * m).setZero();
-  last.bottomLeftCorner(2 * m, m).setZero();
-  for (Matrix& rest : out) rest -= last;
+  Matrix turned(3 * n, 3 * n);
+  for (std::size_t k = 0; k < section.k.size(); ++k) {
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const Eigen::Index row = 3 * (first + i), column = 3 * (first + j);
+        const Eigen::Matrix3d d = axes * section.at[k].block<3, 3>(row, column) * axes.transpose() -
+                                  body.half_space[k].block<3, 3>(row, column);
+        for (Eigen::Index a = 0; a < 3; ++a)
+          for (Eigen::Index b = 0; b < 3; ++b) turned(a * n + i, b * n + j) = d(a, b);
+      }
+    Matrix& at = out.emplace_back(3 * m, 3 * m);
+    for (Eigen::Index a = 0; a < 3; ++a)
+      for (Eigen::Index b = 0; b < 3; ++b)
+        at.block(a * m, b * m, m, m) = near.transpose() * turned.block(a * n, b * n, n, n) * near;
+  }
+  Matrix last_k = out.back();  // but of the coupling of x with the others, which is odd in k
+  last_k.topRightCorner(m, 2 * m).setZero();
+  last_k.bottomLeftCorner(2 * m, m).setZero();
+  for (Matrix& rest : out) rest -= last_k;
+  return out;
+}
+
+/// Of the sections that are kept on both sides of the contact.
+std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t) {
+  std::vector<Matrix> sum;
+  for (const RemainderShare& kept : placed.kept) {
+    const std::vector<Matrix> own = difference_at(placed, *kept.remainder, t);
+    sum.resize(own.size(), Matrix::Zero(own.front().rows(), own.front().cols()));
+    for (std::size_t k = 0; k < own.size(); ++k) sum[k] += kept.share * own[k];
+  }
+  return sum;
+}
+
+/// The wheel's SectionCompliance::by_rotation at t, downwards.
+Eigen::VectorXd by_rotation_at(const PlacedRemainder& placed, const std::vector<double>& t) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(t.size()));
+  const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)};
+  for (const RemainderShare& kept : placed.kept) {
+    const SectionCompliance& section = kept.remainder->section;
+    std::vector<double> own;
+    for (const Vec2 p : section.stations) own.push_back(dot(p - placed.contact, along));
+    out += kept.share * shares_of(own, t).transpose() *
+           Eigen::Map<const Eigen::VectorXd>(section.by_rotation.data(), static_cast<Eigen::Index>(own.size()));
+  }
   return out;
 }
 
@@ -109,12 +141,12 @@ RowsDifference::RowsDifference(const PlacedRemainder& rail, const PlacedRemainde
   for (int m = -half; m <= half; ++m) stations.push_back(m * kStationsOfRows);
   for (int j = 0; j < ny_; ++j) rows.push_back(grid.y(j));
   shares_ = shares_of(stations, rows);
+  by_rotation_ = by_rotation_at(wheel, rows);
 
-  const std::vector<double>& known = rail.remainder->section.k;
+  const std::vector<double>& known = rail.kept.front().remainder->section.k;
   const WaveQuadrature waves = wave_quadrature(known.front(), known.back(), (nx_ + 1) * grid.dx);
   const std::vector<Matrix> of_rail = at_waves(difference_at(rail, stations), known, waves.k);
-  auto of_wheel =
-      std::make_shared<Kernel>(at_waves(difference_at(wheel, stations), wheel.remainder->section.k, waves.k));
+  auto of_wheel = std::make_shared<Kernel>(at_waves(difference_at(wheel, stations), known, waves.k));
   auto pair = std::make_shared<Kernel>();
   for (std::size_t q = 0; q < waves.k.size(); ++q) pair->push_back(of_rail[q] + (*of_wheel)[q]);
 
@@ -127,8 +159,12 @@ RowsDifference::RowsDifference(const PlacedRemainder& rail, const PlacedRemainde
       cosines_(q, i) = std::cos(waves.k[static_cast<std::size_t>(q)] * i * grid.dx);
       sines_(q, i) = std::sin(waves.k[static_cast<std::size_t>(q)] * i * grid.dx);
     }
-  const Eigen::Index middle = 2 * (2 * half + 1) + half;
-  for (Eigen::Index q = 0; q < count; ++q) rigid_ += weight_[q] * (*pair)[static_cast<std::size_t>(q)](middle, middle);
+  for (Eigen::Index q = 0; q < count; ++q)
+    for (Eigen::Index a = 0; a < 3; ++a)
+      for (Eigen::Index b = 0; b < 3; ++b)
+        if ((a == 0) == (b == 0))
+          rigid_(a, b) +=
+              weight_[q] * (*pair)[static_cast<std::size_t>(q)](a * (2 * half + 1) + half, b * (2 * half + 1) + half);
   pair_ = std::move(pair);
   wheel_ = std::move(of_wheel);
 }
@@ -145,9 +181,13 @@ std::shared_ptr<const RowsDifference> RowsDifference::part(int first_y, int nx, 
 
 void RowsDifference::add(const In& in, const Out& out, int rows) const {
   add(*pair_, in, out, rows);
-  if (!in[2] || !out[2]) return;
-  const double whole = rigid_ * cell_area_ * Eigen::Map<const Eigen::VectorXd>(in[2], ny_ * nx_).sum();
-  Eigen::Map<Eigen::VectorXd>(out[2], ny_ * rows).array() -= whole;
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();
+  for (std::size_t a = 0; a < 3; ++a)
+    if (in[a])
+      load[static_cast<Eigen::Index>(a)] = cell_area_ * Eigen::Map<const Eigen::VectorXd>(in[a], ny_ * nx_).sum();
+  const Eigen::Vector3d whole = rigid_ * load;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (out[a]) Eigen::Map<Eigen::VectorXd>(out[a], ny_ * rows).array() -= whole[static_cast<Eigen::Index>(a)];
 }
 
 void RowsDifference::add(const Kernel& kernel, const In& in, const Out& out, int rows) const {

@@ -19,7 +19,7 @@ namespace railstrata {
 
 /// A body in the contact plane.
 struct PlacedRemainder {
-  std::shared_ptr<const SectionRemainder> remainder;
+  std::vector<RemainderShare> kept;
   Vec2 contact;      ///< m, the origin of the contact plane where the stations are given
   double angle = 0;  ///< rad, of the plane
 };
@@ -32,14 +32,16 @@ class RowsDifference {
 
   RowsDifference(const PlacedRemainder& rail, const PlacedRemainder& wheel, const PatchGrid& grid);
 
-  /// Adds displacements by tractions: signs as InfluenceOperator's. rows: of the outputs along x. Normal ones by
-  /// pressure without the approach of the bodies as a whole, which is that in the middle by the load there: an approach
-  /// stays that of half-spaces.
+  /// Adds displacements by tractions: signs as InfluenceOperator's. rows: of the outputs along x. Without the motion of
+  /// the bodies as a whole, which is that in the middle by the load there: an approach and a shift stay those of
+  /// half-spaces.
   void add(const In& in, const Out& out, int rows) const;
   /// The wheel's own displacement into it by p, with the approach of the whole.
   void add_of_wheel(const double* p, double* u_n, int rows) const {
     add(*wheel_, {nullptr, nullptr, p}, {nullptr, nullptr, u_n}, rows);
   }
+  /// Displacement of the wheel's rows towards the axle by a squared angular velocity, m s².
+  const Eigen::VectorXd& by_rotation() const { return by_rotation_; }
   /// Rows first_y to first_y + ny of the grid.
   std::shared_ptr<const RowsDifference> part(int first_y, int nx, int ny) const;
 
@@ -52,9 +54,10 @@ class RowsDifference {
   double cell_area_;
   Eigen::MatrixXd shares_;           ///< stations x rows: of a row's force and displacement
   Eigen::MatrixXd cosines_, sines_;  ///< wave numbers x cells along x
-  Eigen::VectorXd weight_;           ///< of the quadrature, over pi, 1/m
+  Eigen::VectorXd by_rotation_;
+  Eigen::VectorXd weight_;  ///< of the quadrature, over pi, 1/m
   std::shared_ptr<const Kernel> pair_, wheel_;
-  double rigid_ = 0;  ///< m/N, approach of the bodies as a whole
+  Eigen::Matrix3d rigid_ = Eigen::Matrix3d::Zero();  ///< m/N, motion of the bodies as a whole by forces
 };
 
 }  // namespace railstrata

@@ -11,13 +11,15 @@ namespace railstrata {
 
 namespace {
 
-constexpr double kStation = 2e-3;  // m, from one to the next
-constexpr double kPlace = 4e-3;    // m, to which the middle of the stations is rounded: contacts nearby share a section
+constexpr double kStation = 2e-3;   // m, from one to the next
+constexpr double kPlace = 4e-3;     // m, from the middle of a kept section to the next
+constexpr double kOneAlone = 0.25;  // of kPlace: so far on both sides of its middle a section is alone
 constexpr int kWaves = 16;
 constexpr double kSmallest = 1, kLargest = 500;  // 1/m, of the wave numbers: with elements as wide as the stations
 
 MeshSizes sizes_for(double half_width) {
-  const double across = kStation * std::ceil((half_width + kStation + 0.5 * kPlace) / kStation);
+  const double farthest = (1 - kOneAlone) * kPlace,
+               across = kPlace * std::ceil((half_width + kStation + farthest) / kPlace);
   return {.element = kStation, .fine_width = 2 * across, .fine_depth = 8e-3, .coarse_ratio = 3, .largest = 12e-3};
 }
 
@@ -80,12 +82,13 @@ std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const
 
 }  // namespace
 
-std::shared_ptr<const SectionRemainder> SectionStore::get(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                                          const LayeredHalfSpace& half_space, double half_width) {
-  constexpr std::size_t kEntries = 16;
-  const RigidContact& contact = placement.contact;
-  const double place = kPlace * std::round((body == BodyId::wheel ? contact.wheel_s : contact.rail_s) / kPlace);
+std::shared_ptr<const SectionRemainder> SectionStore::at(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                                         const LayeredHalfSpace& half_space, double place,
+                                                         double half_width) {
+  constexpr std::size_t kEntries = 64;
   const MeshSizes sizes = sizes_for(half_width);
+  const Profile& profile = body == BodyId::wheel ? placement.wheel : placement.rail;
+  place = std::clamp(place, profile.s_min(), profile.s_max());
   std::vector<double> key = key_of(spec, placement, body, place, sizes);
   const std::lock_guard lock(mutex_);
   for (const Entry& entry : entries_)
@@ -94,6 +97,18 @@ std::shared_ptr<const SectionRemainder> SectionStore::get(const CaseSpec& spec, 
   auto made = remainder_of(spec, placement, body, half_space, place, sizes);
   entries_.push_back({std::move(key), made});
   return made;
+}
+
+std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                              const LayeredHalfSpace& half_space, double half_width) {
+  const RigidContact& contact = placement.contact;
+  const double places = (body == BodyId::wheel ? contact.wheel_s : contact.rail_s) / kPlace,
+               before = std::floor(places);
+  const double further = std::clamp((places - before - kOneAlone) / (1 - 2 * kOneAlone), 0.0, 1.0);
+  std::vector<RemainderShare> out;
+  for (const auto& [step, share] : {std::pair{0.0, 1 - further}, std::pair{1.0, further}})
+    if (share > 0) out.push_back({at(spec, placement, body, half_space, kPlace * (before + step), half_width), share});
+  return out;
 }
 
 }  // namespace railstrata

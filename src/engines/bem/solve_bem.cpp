@@ -286,9 +286,6 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   require_support(spec.run.rolling ? uses::kSteadyRolling : uses::kHalfSpaces, spec);
   std::vector<SharedLoad> solved = loaded_wheel(spec, placement, options);
   for (const SharedLoad& one : solved) {
-    if (one.patches.size() > 1 && spec.bem.bodies == ContactBodies::sections)
-      throw CaseError("sections: the wheel touches at several places, which sections do not join",
-                      "move the wheel (geometry.lateral_shift), or give bem.bodies = \"half_spaces\"", "bem.bodies");
     if (one.patches.size() > 1 && !spec.irregularities.empty())
       throw CaseError("irregularity: a wheel that touches at several places needs a rail and a wheel without heights",
                       "take it out, or move the wheel (geometry.lateral_shift) until it touches at one place",
