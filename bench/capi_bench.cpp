@@ -30,9 +30,10 @@ double cpu_seconds() {
 
 #define RAILS "[geometry]\nlateral_shift = \"0 mm\"\n"
 #define EUROPEAN RAILS "wheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\n"
+#define SECTIONS RAILS "[bem]\nbodies = \"sections\"\n"
 #define LAYER "[[layer]]\nthickness = \"2 mm\"\nyoung_ratio = 2\n"
 constexpr const char *kPlain = RAILS, *kEuropean = EUROPEAN, *kLayered = RAILS LAYER,
-                     *kEuropeanLayered = EUROPEAN LAYER;
+                     *kEuropeanLayered = EUROPEAN LAYER, *kSections = SECTIONS, *kSectionsLayered = SECTIONS LAYER;
 
 struct Sweep {
   const char* text = kPlain;
@@ -102,6 +103,9 @@ SWEEP(layered_warm, {kLayered, true});
 SWEEP(layered_cold, {kLayered, false});
 SWEEP(european_layered_warm, {kEuropeanLayered, true});
 SWEEP(european_layered_cold, {kEuropeanLayered, false});
+SWEEP(sections_warm, {kSections, true});
+SWEEP(sections_cold, {kSections, false});
+SWEEP(sections_layered_warm, {kSectionsLayered, true});
 SWEEP(yaw_1e6_warm, {kPlain, true, 1e-6});
 SWEEP(yaw_warm, {kPlain, true, 5e-3});
 SWEEP(european_yaw_warm, {kEuropean, true, 5e-3});
@@ -198,6 +202,8 @@ void run_of_wheelset(benchmark::State& state, const char* text) {
   BENCHMARK_CAPTURE(run_of_wheelset, name, text)->Unit(benchmark::kMillisecond)->Iterations(1)
 WHEELSET(plain, kPlain);
 WHEELSET(layered, kLayered);
+WHEELSET(sections, kSections);
+WHEELSET(sections_layered, kSectionsLayered);
 WHEELSET(european, kEuropean);
 WHEELSET(european_layered, kEuropeanLayered);
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "bem/case_patch.hpp"
-#include "bem/half_space_pair.hpp"
 #include "bem/rolling_contact.hpp"
 #include "geometry/profile_names.hpp"
+#include "half_space_pair.hpp"
 
 namespace railstrata {
 namespace {

@@ -126,7 +126,8 @@ Deviations deviations(const std::vector<const char*>& overrides, int states) {
 const std::vector<const char*> kUniform{"layer.0.young_ratio=1"}, kStiffLayer{};
 const std::vector<const char*> kGivingInterface{"layer.0.interface_normal_stiffness=20000 MPa/mm",
                                                 "layer.0.interface_shear_stiffness=5000 MPa/mm"};
-const std::vector<const char*> kCases[] = {kUniform, kStiffLayer, kGivingInterface, kEuropean};
+const std::vector<const char*> kSections{"bem.bodies=sections"};
+const std::vector<const char*> kCases[] = {kUniform, kStiffLayer, kGivingInterface, kEuropean, kSections};
 
 TEST(CDerivatives, AreTheSlopesOfNewSolutions) {
   for (const auto& overrides : kCases) {

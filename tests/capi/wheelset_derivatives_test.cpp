@@ -130,6 +130,17 @@ TEST(WheelsetDerivatives, OfPlacesInOnePlaneAreThoseOfColdSolutions) {
   for (const Input& input : kPressed) expect_differences(set, cold, state, input);
 }
 
+TEST(WheelsetDerivatives, OfSectionsAreThoseOfColdSolutions) {
+  const std::string text = std::string(kChineseCase) + "[bem]\nbodies = \"sections\"\n";
+  Set set(text), cold(text);
+  sharpen(set, 1e-8);
+  sharpen(cold, 1e-11);
+  const rs_wheelset_state state = running(2e-3, 1e-3);
+  ASSERT_EQ(set.solve(state), RS_OK) << set.error.message;
+  for (const Input& input : {kMotions[0], kMotions[1], kMotions[4], kMotions[9], kLoaded[0]})
+    expect_differences(set, cold, state, input);
+}
+
 TEST(WheelsetDerivatives, UnderACladOnSpringsAreThoseOfColdSolutions) {
   const std::string text = clad_on_springs("20000", "5000");
   Set set(text), cold(text);

@@ -163,6 +163,10 @@ StripMiddle strip_middle(const Placement& p, double closeness) {
 
 }  // namespace
 
+RailSection section_below_head(const GeometrySpec& g, const Profile& rail) {
+  return rail_section(rail.name(), track_preset_of(g.track, g.wheel_profile, g.rail_profile).kind);
+}
+
 Placement place(const CaseSpec& spec, const std::filesystem::path& folder, const Profile* worn) {
   const GeometrySpec& g = spec.geometry;
   std::vector<std::string> notes;
@@ -251,10 +255,6 @@ void require_sound_mesh(const SweptBody& body, BodyId id, const CaseSpec& spec) 
                     "{:g} mm) and mesh.fine_width (now {:g} mm)",
                     shape, 1e3 * m.fine_depth, 1e3 * m.fine_width.value_or(kFineWidth)));
   }
-}
-
-RailSection section_below_head(const GeometrySpec& g, const Profile& rail) {
-  return rail_section(rail.name(), track_preset_of(g.track, g.wheel_profile, g.rail_profile).kind);
 }
 
 /// Of the rail beyond the fine range; on a track as long as its bays ask for.

@@ -23,6 +23,9 @@ struct Placement {
   std::vector<std::string> doubts = {};  ///< profile_doubts
 };
 
+/// What stands below the head of the case's rail.
+RailSection section_below_head(const GeometrySpec& geometry, const Profile& rail);
+
 /// Built-in names are tried first, then files relative to `folder`. rail: instead of the case's, if not null. Throws
 /// CaseError.
 Placement place(const CaseSpec& spec, const std::filesystem::path& folder, const Profile* rail = nullptr);

@@ -276,9 +276,13 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   contact.lateral_share = lateral_friction_share(spec);
   fill_heat(spec, patch, estimate);
   contact.speed = spec.drive.speed;
-  if (spec.bem.bodies == ContactBodies::sections)
-    patch.notes.push_back(
-        "the contact has the sections of rail and wheel; stresses below the surface are those of half-spaces");
+  if (!patch.influence->stretches()) return;
+  const Plane stretch = patch.influence->stretch_by_rotation(contact.speed);
+  patch.notes.push_back(fmt::format(
+      "the contact has the sections of rail and wheel; stresses below the surface are those of half-spaces; "
+      "centrifugal force widens the wheel by {:.1e} of its radius, by which creepages along the rail would "
+      "be larger",
+      -stretch[stretch.size() / 2]));
 }
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,

@@ -58,6 +58,35 @@ bool ContactDerivatives::linear() const {
          !VaryingBound::needed(TangentialProblem{c, {}, {}, {}});
 }
 
+/// What the influence of the place beside, of sections, changes in gap and slip under the tractions of the solution.
+void ContactDerivatives::carry_influence(CasePatch& there) const {
+  const InfluenceOperator &own = *patch_.influence, &other = *there.influence;
+  if (!other.stretches()) return;
+  const PatchGrid& g = patch_.grid;
+  const Plane& p = solved_.solution.normal.pressure;
+  const TangentialSolution& t = solved_.solution.tangential;
+  RollingContact& asked = there.contact;
+  asked.extra_slip.x.resize(g.size(), 0.0);
+  asked.extra_slip.y.resize(g.size(), 0.0);
+  for (const auto& [op, sign] : {std::pair{&other, 1.0}, std::pair{&own, -1.0}}) {
+    Plane u_n(g.size());
+    op->normal(p.data(), u_n.data());
+    add_scaled(asked.gap, sign, u_n);
+    if (t.state.empty()) continue;
+    add_scaled(asked.gap, sign, op->normal_from_traction(t.q_x, t.q_y));
+    PlanePair u = op->tangential(t.q_x, t.q_y, g.nx + 1);
+    const PlanePair by_p = op->tangential_from_pressure(p, g.nx + 1);
+    add_scaled(u.x, 1, by_p.x);
+    add_scaled(u.y, 1, by_p.y);
+    const Plane stretch = op->stretch_of_wheel(p, g.nx + 1);
+    const auto ahead = static_cast<std::size_t>(g.ny);
+    for (std::size_t k = 0; k < g.size(); ++k) {
+      asked.extra_slip.x[k] += sign * ((u.x[k + ahead] - u.x[k]) / g.dx + 0.5 * (stretch[k] + stretch[k + ahead]));
+      asked.extra_slip.y[k] += sign * (u.y[k + ahead] - u.y[k]) / g.dx;
+    }
+  }
+}
+
 ContactDerivatives::Beside ContactDerivatives::beside(const PlacedCase& there, double descent) const {
   const bool here = &there.placement == &placement_ && descent == one_.descent();
   const OnePatch one = here ? one_.in_case(there.spec) : lowered(there.spec, there.placement, descent);
@@ -68,6 +97,7 @@ ContactDerivatives::Beside ContactDerivatives::beside(const PlacedCase& there, d
     set_problem(there.spec, one.placement(), {{}, one.own_approach()}, out.patch);
   } else {
     out.patch = one.lay_on(solved_.grid, {{}, one.own_approach()}, options_);
+    carry_influence(out.patch);
   }
   one.drive(there.spec.vehicle.load(), out.patch.contact);
   return out;

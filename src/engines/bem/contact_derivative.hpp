@@ -64,6 +64,7 @@ class ContactDerivatives {
     RigidContact plane;
   };
   Beside beside(const PlacedCase& there, double descent) const;
+  void carry_influence(CasePatch& there) const;
   OnePatch lowered(const CaseSpec& spec, const Placement& placement, double descent) const;
   RollingDerivatives& rolling();
   PlaneTractions tractions_in(const CasePatch& patch, const RigidContact& plane) const;

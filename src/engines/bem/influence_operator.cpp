@@ -70,7 +70,7 @@ struct SymmetricProduct {
   }
 };
 
-// Spectra of tables that are odd in x or y are imaginary; their imaginary parts are kept (nx_hat_, ny_hat_).
+// Spectra of tables that are odd in x or y are imaginary; their imaginary parts are kept (nx, ny).
 Complex times_i(Complex z) { return {-z.imag(), z.real()}; }
 
 }  // namespace
@@ -89,8 +89,7 @@ InfluenceOperator::InfluenceOperator(const InfluenceOperator& whole, int nx, int
     const auto row = whole.table_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * columns_of_whole);
     table_.insert(table_.end(), row, row + static_cast<std::ptrdiff_t>(columns));
   }
-  make_spectra(table_, !whole.nx_hat_.empty());
-  if (whole.rows_) rows_ = whole.rows_->part(first_y, nx, ny);
+  make_spectra(table_, !whole.spectra_->nx.empty());
   if (!whole.turns()) return;
   const auto rows_of = [&](const Plane& by_row) {
     return Plane(by_row.begin() + first_y, by_row.begin() + first_y + ny);
@@ -99,8 +98,11 @@ InfluenceOperator::InfluenceOperator(const InfluenceOperator& whole, int nx, int
 }
 
 InfluenceOperator::InfluenceOperator(const InfluenceOperator& flat, const Plane& turn)
-    : fft_(flat.nx(), flat.ny()), film_(flat.film_), table_(flat.table_) {
-  make_spectra(table_, !flat.nx_hat_.empty());
+    : fft_(flat.nx(), flat.ny()),
+      film_(flat.film_),
+      near_{flat.near_[0], flat.near_[1]},
+      table_(flat.table_),
+      spectra_(flat.spectra_) {
   Plane cosine, sine;
   for (const double angle : turn) {
     cosine.push_back(std::cos(angle));
@@ -112,19 +114,20 @@ InfluenceOperator::InfluenceOperator(const InfluenceOperator& flat, const Plane&
 void InfluenceOperator::set_turns(const Plane& cosine, const Plane& sine) {
   cosine_ = cosine;
   sine_ = sine;
-  for (std::size_t k = 0; k < nn_hat_.size(); ++k) mean_hat_.push_back(0.5 * (nn_hat_[k] + yy_hat_[k]));
+  for (std::size_t k = 0; k < spectra_->nn.size(); ++k) mean_hat_.push_back(0.5 * (spectra_->nn[k] + spectra_->yy[k]));
 }
 
-InfluenceOperator::InfluenceOperator(const InfluenceOperator& flat, std::shared_ptr<const RowsDifference> rows,
-                                     const SurfaceCompliance& wheel, double curvature, double dx, double dy)
-    : fft_(flat.nx(), flat.ny()),
-      film_(flat.film_),
-      table_(flat.table_),
+InfluenceOperator::InfluenceOperator(std::shared_ptr<const InfluenceOperator> flat,
+                                     std::shared_ptr<const RowsDifference> rows,
+                                     std::shared_ptr<const InfluenceOperator> wheel, double curvature)
+    : fft_(flat->nx(), flat->ny()),
+      film_(flat->film_),
+      near_{flat->near_[0], flat->near_[1]},
+      spectra_(flat->spectra_),
+      flat_(std::move(flat)),
+      wheel_(std::move(wheel)),
       rows_(std::move(rows)),
-      turn_(curvature * dx) {
-  make_spectra(table_, !flat.nx_hat_.empty());
-  wheel_nn_hat_ = fft_.spectrum(component(influence_table(wheel, fft_, dx, dy, false), &RectangleInfluence::nn), 1, 1);
-}
+      curvature_(curvature) {}
 
 std::shared_ptr<const InfluenceOperator> InfluenceOperator::part(int nx, int ny, int first_y) const {
   constexpr std::size_t kMost = 16;
@@ -133,7 +136,13 @@ std::shared_ptr<const InfluenceOperator> InfluenceOperator::part(int nx, int ny,
   for (const Part& part : parts_)
     if (part.op->nx() == nx && part.op->ny() == ny && part.first_y == first_y) return part.op;
   if (parts_.size() == kMost) parts_.erase(parts_.begin());
-  parts_.push_back({first_y, std::shared_ptr<const InfluenceOperator>(new InfluenceOperator(*this, nx, ny, first_y))});
+  std::shared_ptr<const InfluenceOperator> made;
+  if (rows_)
+    made = std::make_shared<const InfluenceOperator>(flat_->part(nx, ny, 0), rows_->part(first_y, nx, ny),
+                                                     wheel_->part(nx, ny, 0), curvature_);
+  else
+    made = std::shared_ptr<const InfluenceOperator>(new InfluenceOperator(*this, nx, ny, first_y));
+  parts_.push_back({first_y, std::move(made)});
   return parts_.back().op;
 }
 
@@ -141,32 +150,34 @@ void InfluenceOperator::make_spectra(std::vector<RectangleInfluence> table, bool
   table[0].xx += film_;
   table[0].yy += film_;
   using I = RectangleInfluence;
+  Spectra s;
   near_[0] = table[0];
   near_[1] = table[fft_.my() / 2 + 1];  // the table has index j + (my/2 + 1) i
-  nn_hat_ = fft_.spectrum(component(table, &I::nn), 1, 1);
-  xx_hat_ = fft_.spectrum(component(table, &I::xx), 1, 1);
-  xy_hat_ = fft_.spectrum(component(table, &I::xy), -1, -1);
-  yy_hat_ = fft_.spectrum(component(table, &I::yy), 1, 1);
+  s.nn = fft_.spectrum(component(table, &I::nn), 1, 1);
+  s.xx = fft_.spectrum(component(table, &I::xx), 1, 1);
+  s.xy = fft_.spectrum(component(table, &I::xy), -1, -1);
+  s.yy = fft_.spectrum(component(table, &I::yy), 1, 1);
   if (couples) {
-    nx_hat_ = fft_.spectrum(component(table, &I::nx), -1, 1);
-    ny_hat_ = fft_.spectrum(component(table, &I::ny), 1, -1);
+    s.nx = fft_.spectrum(component(table, &I::nx), -1, 1);
+    s.ny = fft_.spectrum(component(table, &I::ny), 1, -1);
   }
   // Inverses wave by wave on the periodic grid. The mean wave and, near Poisson's ratio 1/2 or for thin soft layers,
   // the determinant can come close to zero there, though the operator itself is positive: floors keep the inverses
   // positive definite, which the solvers need; how exact they are only changes the number of iterations.
   const std::size_t n = fft_.spectrum_size();
-  for (auto* v : {&inv_nn_, &inv_xx_, &inv_xy_, &inv_yy_}) v->assign(n, 0.0);
+  for (auto* v : {&s.inv_nn, &s.inv_xx, &s.inv_xy, &s.inv_yy}) v->assign(n, 0.0);
   const double points = static_cast<double>(fft_.mx()) * fft_.my(), scale = 1 / (points * points);
-  const double floor_nn = 1e-6 * *std::max_element(nn_hat_.begin(), nn_hat_.end());
+  const double floor_nn = 1e-6 * *std::max_element(s.nn.begin(), s.nn.end());
   for (std::size_t k = 0; k < n; ++k) {
-    inv_nn_[k] = scale / std::max(nn_hat_[k], floor_nn);
-    const double trace = 0.5 * (xx_hat_[k] + yy_hat_[k]);
+    s.inv_nn[k] = scale / std::max(s.nn[k], floor_nn);
+    const double trace = 0.5 * (s.xx[k] + s.yy[k]);
     if (trace <= 0) continue;  // padding columns of the last block
-    const double det = std::max(xx_hat_[k] * yy_hat_[k] - xy_hat_[k] * xy_hat_[k], 1e-3 * trace * trace);
-    inv_xx_[k] = scale * yy_hat_[k] / det;
-    inv_xy_[k] = -scale * xy_hat_[k] / det;
-    inv_yy_[k] = scale * xx_hat_[k] / det;
+    const double det = std::max(s.xx[k] * s.yy[k] - s.xy[k] * s.xy[k], 1e-3 * trace * trace);
+    s.inv_xx[k] = scale * s.yy[k] / det;
+    s.inv_xy[k] = -scale * s.xy[k] / det;
+    s.inv_yy[k] = scale * s.xx[k] / det;
   }
+  spectra_ = std::make_shared<const Spectra>(std::move(s));
 }
 
 void InfluenceOperator::add_component(const Plane& by_row, const double* in, const std::vector<double>& spectrum,
@@ -194,31 +205,33 @@ void InfluenceOperator::normal(const double* p, double* u_n) const {
   stop_if_requested();
   if (turns()) {
     std::fill_n(u_n, static_cast<std::size_t>(nx()) * cosine_.size(), 0.0);
-    add_component(cosine_, p, nn_hat_, u_n, nx());
-    add_component(sine_, p, nn_hat_, u_n, nx());
+    add_component(cosine_, p, spectra_->nn, u_n, nx());
+    add_component(sine_, p, spectra_->nn, u_n, nx());
     return;
   }
-  fft_.apply({p}, {u_n}, nx(), ScalarProduct{nn_hat_.data()});
+  fft_.apply({p}, {u_n}, nx(), ScalarProduct{spectra_->nn.data()});
   if (rows_) rows_->add({nullptr, nullptr, p}, {nullptr, nullptr, u_n}, nx());
 }
 
 void InfluenceOperator::precondition_normal(const double* u_n, double* p) const {
-  fft_.apply({u_n}, {p}, nx(), ScalarProduct{inv_nn_.data()});
+  fft_.apply({u_n}, {p}, nx(), ScalarProduct{spectra_->inv_nn.data()});
 }
 
 void InfluenceOperator::turned_tangential(const double* q_x, const double* q_y, double* u_x, double* u_y,
                                           int rows) const {
   Plane along = plane_of(nx());
   for (std::size_t k = 0; k < along.size(); ++k) along[k] = cosine_[k % cosine_.size()] * q_y[k];
-  fft_.apply({q_x, along.data()}, {u_x, u_y}, rows, SymmetricProduct{xx_hat_.data(), xy_hat_.data(), yy_hat_.data()});
+  fft_.apply({q_x, along.data()}, {u_x, u_y}, rows,
+             SymmetricProduct{spectra_->xx.data(), spectra_->xy.data(), spectra_->yy.data()});
   for (std::size_t k = 0; k < plane_of(rows).size(); ++k) u_y[k] *= cosine_[k % cosine_.size()];
-  add_component(sine_, q_y, yy_hat_, u_y, rows);
+  add_component(sine_, q_y, spectra_->yy, u_y, rows);
 }
 
 void InfluenceOperator::tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const {
   stop_if_requested();
   if (turns()) return turned_tangential(q_x, q_y, u_x, u_y, rows);
-  fft_.apply({q_x, q_y}, {u_x, u_y}, rows, SymmetricProduct{xx_hat_.data(), xy_hat_.data(), yy_hat_.data()});
+  fft_.apply({q_x, q_y}, {u_x, u_y}, rows,
+             SymmetricProduct{spectra_->xx.data(), spectra_->xy.data(), spectra_->yy.data()});
   if (rows_) rows_->add({q_x, q_y, nullptr}, {u_x, u_y, nullptr}, rows);
 }
 
@@ -229,50 +242,51 @@ PlanePair InfluenceOperator::tangential(const Plane& q_x, const Plane& q_y, int 
 }
 
 void InfluenceOperator::precondition_tangential(const double* u_x, const double* u_y, double* q_x, double* q_y) const {
-  fft_.apply({u_x, u_y}, {q_x, q_y}, nx(), SymmetricProduct{inv_xx_.data(), inv_xy_.data(), inv_yy_.data()});
+  fft_.apply({u_x, u_y}, {q_x, q_y}, nx(),
+             SymmetricProduct{spectra_->inv_xx.data(), spectra_->inv_xy.data(), spectra_->inv_yy.data()});
 }
 
-// A ring whose surface moves by u_n towards the axle is shorter: a particle's velocity along the surface loses u_n over
-// the radius beside the gradient of its displacement along it. As a displacement: that integrated along x.
-void InfluenceOperator::add_stretch_of_wheel(const Plane& p, Plane& u_x) const {
-  Plane inward(u_x.size());
-  const auto n = static_cast<std::size_t>(ny());
-  const int rows = static_cast<int>(u_x.size() / n);
-  fft_.apply({p.data()}, {inward.data()}, rows, ScalarProduct{wheel_nn_hat_.data()});
-  rows_->add_of_wheel(p.data(), inward.data(), rows);
-  Plane sum(n, 0.0);
-  for (std::size_t k = n; k < u_x.size(); ++k) u_x[k] += sum[k % n] += 0.5 * turn_ * (inward[k - n] + inward[k]);
+Plane InfluenceOperator::stretch_of_wheel(const Plane& p, int rows) const {
+  Plane out = plane_of(rows);
+  wheel_->fft_.apply({p.data()}, {out.data()}, rows, ScalarProduct{wheel_->spectra_->nn.data()});
+  rows_->add_of_wheel(p.data(), out.data(), rows);
+  for (double& inward : out) inward *= curvature_;
+  return out;
+}
+
+Plane InfluenceOperator::stretch_by_rotation(double speed) const {
+  const double turned = speed * curvature_;
+  const Eigen::VectorXd stretch = curvature_ * turned * turned * rows_->by_rotation();
+  return {stretch.begin(), stretch.end()};
 }
 
 PlanePair InfluenceOperator::tangential_from_pressure(const Plane& p, int rows) const {
   PlanePair u{plane_of(rows), plane_of(rows)};
-  if (!nx_hat_.empty())
+  if (!spectra_->nx.empty())
     fft_.apply({p.data()}, {u.x.data(), u.y.data()}, rows,
                [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
                  Complex *a = z[0], *b = z[1];
                  for (int k = 0; k < count; ++k) {
                    const std::size_t i = first + static_cast<std::size_t>(k);
                    const Complex ip = times_i(a[k]);
-                   a[k] = -nx_hat_[i] * ip;
-                   b[k] = -ny_hat_[i] * ip;
+                   a[k] = -spectra_->nx[i] * ip;
+                   b[k] = -spectra_->ny[i] * ip;
                  }
                });
   if (turns()) add_scaled(u.y, -1, across_turns(p.data(), rows));
-  if (!rows_) return u;
-  rows_->add({nullptr, nullptr, p.data()}, {u.x.data(), u.y.data(), nullptr}, rows);
-  add_stretch_of_wheel(p, u.x);
+  if (rows_) rows_->add({nullptr, nullptr, p.data()}, {u.x.data(), u.y.data(), nullptr}, rows);
   return u;
 }
 
 Plane InfluenceOperator::normal_from_traction(const Plane& q_x, const Plane& q_y) const {
   Plane u = plane_of(nx());
-  if (!nx_hat_.empty())
+  if (!spectra_->nx.empty())
     fft_.apply({q_x.data(), q_y.data()}, {u.data()}, nx(),
                [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
                  Complex *a = z[0], *b = z[1];
                  for (int k = 0; k < count; ++k) {
                    const std::size_t i = first + static_cast<std::size_t>(k);
-                   a[k] = times_i(nx_hat_[i] * a[k] + ny_hat_[i] * b[k]);
+                   a[k] = times_i(spectra_->nx[i] * a[k] + spectra_->ny[i] * b[k]);
                  }
                });
   if (turns()) add_scaled(u, 1, across_turns(q_y.data(), nx()));
@@ -285,22 +299,31 @@ InfluenceCache::InfluenceCache() : sections_(std::make_shared<SectionStore>()) {
 std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSpace& wheel,
                                                              const LayeredHalfSpace& rail, const PatchGrid& g,
                                                              double film) {
+  return flat(wheel, &rail, g, film);
+}
+
+std::shared_ptr<const InfluenceOperator> InfluenceCache::flat(const LayeredHalfSpace& wheel,
+                                                              const LayeredHalfSpace* rail, const PatchGrid& g,
+                                                              double film) {
   constexpr std::size_t kEntries = 32;
   SurfaceCompliance pair;
   {
     const std::lock_guard lock(mutex_);
     for (auto it = entries_.begin(); it != entries_.end(); ++it) {
-      if (!same(it->wheel, wheel) || !same(it->rail, rail)) continue;
+      if (!same(it->wheel, wheel) || it->rail.has_value() != (rail != nullptr) || (rail && !same(*it->rail, *rail)))
+        continue;
       pair = it->pair;
       if (!same_cells(it->grid, g) || it->film != film) continue;
       entries_.splice(entries_.begin(), entries_, it);
       return it->op;
     }
   }
-  if (pair.empty()) pair = combined_compliance(layered_compliance(wheel), layered_compliance(rail));
+  if (pair.empty())
+    pair = rail ? combined_compliance(layered_compliance(wheel), layered_compliance(*rail)) : layered_compliance(wheel);
   auto op = std::make_shared<const InfluenceOperator>(pair, g.nx, g.ny, g.dx, g.dy, film, g.line);
   const std::lock_guard lock(mutex_);
-  entries_.push_front({wheel, rail, g, film, std::move(pair), op});
+  entries_.push_front(
+      {wheel, rail ? std::optional<LayeredHalfSpace>(*rail) : std::nullopt, g, film, std::move(pair), op});
   if (entries_.size() > kEntries) entries_.pop_back();
   return op;
 }
@@ -308,7 +331,6 @@ std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSp
 std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSpace& wheel,
                                                              const LayeredHalfSpace& rail, const PatchGrid& g,
                                                              double film, const SectionsAsked& sections) {
-  const std::shared_ptr<const InfluenceOperator> flat = get(wheel, rail, g, film);
   const auto& [spec, placement] = sections;
   const RigidContact& contact = placement.contact;
   const PlacedRemainder of_rail{sections_->get(spec, placement, BodyId::rail, rail, g),
@@ -317,9 +339,9 @@ std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSp
       of_wheel{sections_->get(spec, placement, BodyId::wheel, wheel, g),
                placement.wheel.at(contact.wheel_s).position - Vec2{0, spec.geometry.wheel_radius},
                contact.angle - contact.roll};
-  return std::make_shared<const InfluenceOperator>(*flat, std::make_shared<const RowsDifference>(of_rail, of_wheel, g),
-                                                   layered_compliance(wheel),
-                                                   std::cos(of_wheel.angle) / contact.rolling_radius, g.dx, g.dy);
+  return std::make_shared<const InfluenceOperator>(
+      flat(wheel, &rail, g, film), std::make_shared<const RowsDifference>(of_rail, of_wheel, g),
+      flat(wheel, nullptr, g, 0), std::cos(of_wheel.angle) / contact.rolling_radius);
 }
 
 }  // namespace railstrata

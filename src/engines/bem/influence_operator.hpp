@@ -4,6 +4,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "bem/patch_grid.hpp"
@@ -28,9 +29,9 @@ class InfluenceOperator {
   InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film = 0,
                     bool line = false);
 
-  /// The same with what the sections of the bodies add. wheel: its compliance; curvature: of its surface along x, 1/m.
-  InfluenceOperator(const InfluenceOperator& flat, std::shared_ptr<const RowsDifference> rows,
-                    const SurfaceCompliance& wheel, double curvature, double dx, double dy);
+  /// The same with what the sections of the bodies add. wheel: alone; curvature: of its surface along x, 1/m.
+  InfluenceOperator(std::shared_ptr<const InfluenceOperator> flat, std::shared_ptr<const RowsDifference> rows,
+                    std::shared_ptr<const InfluenceOperator> wheel, double curvature);
 
   /// The same of rows that turn: `turn` is the angle of each row's normal, rad, [j], and rows follow each other by arc
   /// length. A traction moves the surface along its own direction, wherever that is looked at; pressure and traction
@@ -43,7 +44,7 @@ class InfluenceOperator {
   const RectangleInfluence& of_one_cell(int i) const { return near_[i]; }
   double film() const { return film_; }  ///< m/Pa
   /// Normal and tangential problems interact: not for half-spaces of equal bodies.
-  bool couples() const { return rows_ || !nx_hat_.empty() || turns(); }
+  bool couples() const { return rows_ || !spectra_->nx.empty() || turns(); }
 
   /// Normal elastic displacement u_n = u_z'(rail) + u_z'(wheel) by pressure, each into its body: nx x ny.
   void normal(const double* p, double* u_n) const;
@@ -54,17 +55,27 @@ class InfluenceOperator {
   PlanePair tangential_from_pressure(const Plane& p, int rows) const;
   /// Normal elastic displacement by tangential tractions.
   Plane normal_from_traction(const Plane& q_x, const Plane& q_y) const;
+  /// Of sections: slip along x, over V, of a wheel whose surface moves by u_n towards the axle and so is shorter, u_n
+  /// over its radius. Pressure and weights of slip change places (Betti).
+  bool stretches() const { return wheel_ != nullptr; }
+  Plane stretch_of_wheel(const Plane& p, int rows) const;
+  /// The same by centrifugal force at this speed [m/s], of each row of cells: below 0, the wheel widens.
+  Plane stretch_by_rotation(double speed) const;
 
   /// Approximate inverses of `normal` and `tangential`: the inverses on the periodic grid, symmetric positive definite.
   void precondition_normal(const double* u_n, double* p) const;
   void precondition_tangential(const double* u_x, const double* u_y, double* q_x, double* q_y) const;
 
   /// The same pair and cells for planes of nx x ny, at most as many: made once for each size and kept, up to some.
-  /// first_y: their first row of this one's, which sections ask for; of displacements along the plane by tractions
-  /// along it alone there.
+  /// first_y: their first row of this one's, which sections and rows that turn ask for.
   std::shared_ptr<const InfluenceOperator> part(int nx, int ny, int first_y) const;
 
  private:
+  /// Of tables that are odd in x or y imaginary parts (nx, ny); inverses of the periodic grid.
+  struct Spectra {
+    std::vector<double> nn, xx, xy, yy, nx, ny;
+    std::vector<double> inv_nn, inv_xx, inv_xy, inv_yy;
+  };
   InfluenceOperator(const InfluenceOperator& whole, int nx, int ny, int first_y);
   void make_spectra(std::vector<RectangleInfluence> table, bool couples);
   bool turns() const { return !cosine_.empty(); }
@@ -75,7 +86,6 @@ class InfluenceOperator {
                      int rows) const;
   /// ∑ of sin(turn_i - turn_j) times the mean influence, index i of the rows of the result.
   Plane across_turns(const double* in, int rows) const;
-  void add_stretch_of_wheel(const Plane& p, Plane& u_x) const;
   PlaneFft fft_;
   double film_;
   Plane plane_of(int rows) const { return Plane(static_cast<std::size_t>(rows) * static_cast<std::size_t>(ny())); }
@@ -87,13 +97,12 @@ class InfluenceOperator {
     std::shared_ptr<const InfluenceOperator> op;
   };
   mutable std::vector<Part> parts_;
-  std::vector<double> nn_hat_, xx_hat_, xy_hat_, yy_hat_, nx_hat_, ny_hat_;  // nx, ny: imaginary parts
-  std::vector<double> inv_nn_, inv_xx_, inv_xy_, inv_yy_;
-  std::shared_ptr<const RowsDifference> rows_;  // null: half-spaces
-  std::vector<double> wheel_nn_hat_;
-  Plane cosine_, sine_;           // of each row's turn; empty: a plane
-  std::vector<double> mean_hat_;  // of nn and yy, of rows that turn
-  double turn_ = 0;               // of the wheel's surface over a cell, rad
+  std::shared_ptr<const Spectra> spectra_;
+  Plane cosine_, sine_;                                    // of each row's turn; empty: a plane
+  std::vector<double> mean_hat_;                           // of nn and yy, of rows that turn
+  std::shared_ptr<const InfluenceOperator> flat_, wheel_;  // null: half-spaces
+  std::shared_ptr<const RowsDifference> rows_;
+  double curvature_ = 0;
 };
 
 /// The bodies whose sections are meant, in the plane of `placement`; both are kept by reference during a call.
@@ -114,8 +123,12 @@ class InfluenceCache {
                                                const PatchGrid& grid, double film, const SectionsAsked& sections);
 
  private:
+  /// rail: null: of the wheel alone.
+  std::shared_ptr<const InfluenceOperator> flat(const LayeredHalfSpace& wheel, const LayeredHalfSpace* rail,
+                                                const PatchGrid& grid, double film);
   struct Entry {
-    LayeredHalfSpace wheel, rail;
+    LayeredHalfSpace wheel;
+    std::optional<LayeredHalfSpace> rail;
     PatchGrid grid;
     double film;
     SurfaceCompliance pair;

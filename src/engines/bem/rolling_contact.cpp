@@ -38,6 +38,16 @@ void add_displacement_by_pressure(const InfluenceOperator& influence, const Patc
   }
 }
 
+/// Adds half the stretch of the wheel at the end or, a cell ahead, the beginning of a step: mean over the step.
+void add_half_stretch(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure,
+                      std::size_t ahead, PlanePair& slip) {
+  if (!influence.stretches()) return;
+  const Plane stretch = influence.stretch_of_wheel(pressure, grid.nx + 1);
+  slip.x.resize(grid.size(), 0.0);
+  slip.y.resize(grid.size(), 0.0);
+  for (std::size_t i = 0; i < grid.size(); ++i) slip.x[i] += 0.5 * stretch[i + ahead];
+}
+
 /// Flexibility of the film beyond the operator's, mean over the first cells of the rows [m/Pa].
 double film_at_edge(const PatchGrid& grid, const TangentialProblem& t) {
   double sum = 0;
@@ -95,7 +105,10 @@ Plane traction_bound(const RollingContact& contact, const Plane& pressure) {
 TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
                                   const RollingContact& contact, const NormalSolution& normal) {
   TangentialProblem t{contact, traction_bound(contact, normal.pressure), films(contact, normal.pressure), {}};
+  const auto row = static_cast<std::size_t>(grid.ny);
   if (influence.couples()) add_displacement_by_pressure(influence, grid, normal.pressure, t);
+  if (t.kind != RollingKind::shift) add_half_stretch(influence, grid, normal.pressure, 0, t.extra_slip);
+  if (t.kind == RollingKind::steady) add_half_stretch(influence, grid, normal.pressure, row, t.extra_slip);
   if (contact.leading_edge == LeadingEdge::sub_cell) cut_leading_cells(influence, grid, normal, t);
   return t;
 }
@@ -274,6 +287,7 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
                       RollingContact& contact) {
   roll_on_one_cell(influence, grid, before.tangential, contact);
   add_history_by_pressure(influence, grid, before.normal.pressure, static_cast<std::size_t>(grid.ny), contact.before);
+  add_half_stretch(influence, grid, before.normal.pressure, static_cast<std::size_t>(grid.ny), contact.extra_slip);
   if (contact.heat) contact.flux_before = flux_before(grid, before);
 }
 

@@ -55,6 +55,7 @@ struct RollingDerivatives::System {
   struct Adjoint;
   void solve_tractions(const Plane& wanted, Adjoint& a);
   Plane bound_weights(const Plane& wanted, const Adjoint& a);
+  Plane stretch_weights(const Plane& of_slip) const;
   void solve_pressure(const Plane& of_p, const Plane& bound, Adjoint& a);
   Weights taken(Adjoint a, Weights out) const;
   Weights weights_of(const Plane& of_p, const Plane& of_q);
@@ -144,6 +145,20 @@ Plane RollingDerivatives::System::bound_weights(const Plane& wanted, const Adjoi
   return out;
 }
 
+/// Of the stretch in each cell, which is a rigid slip by its mean over the step.
+Plane RollingDerivatives::System::stretch_weights(const Plane& of_slip) const {
+  const auto ahead = static_cast<std::size_t>(grid.ny);
+  Plane slip(of_slip.begin(), of_slip.begin() + static_cast<std::ptrdiff_t>(n));
+  for (const LeadingCell& first : here.given.leading) {
+    slip[first.index] += first.weight * of_slip[first.index];
+    slip[first.index + ahead] -= first.weight * of_slip[first.index];
+  }
+  Plane out = slip;
+  for (std::size_t i = ahead; i < n; ++i) out[i] += slip[i - ahead];
+  scale_by(out, 0.5);
+  return out;
+}
+
 void RollingDerivatives::System::solve_pressure(const Plane& of_p, const Plane& bound, Adjoint& a) {
   Plane wanted(n);
   influence.normal(a.empty.data(), wanted.data());
@@ -153,6 +168,7 @@ void RollingDerivatives::System::solve_pressure(const Plane& of_p, const Plane& 
     add_scaled(wanted, -1,
                influence.normal_from_traction({a.displacement.begin(), half}, {half, a.displacement.end()}));
   }
+  if (influence.stretches()) add_scaled(wanted, 1, influence.stretch_of_wheel(stretch_weights(a.slip), grid.nx));
   for (std::size_t i = 0; i < n; ++i)
     wanted[i] = pressure[i] > 0 ? wanted[i] + problem.traction_bound[i] / pressure[i] * bound[i] : 0.0;
   a.length_n = std::max(a.length_n, std::sqrt(dot(wanted, wanted)));

@@ -54,34 +54,72 @@ WaveQuadrature wave_quadrature(double lowest, double highest, double reach) {
 }
 
 /// D of a body at its wave numbers, between the stations t of the contact plane.
-std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t) {
-  const SectionRemainder& body = *placed.remainder;
+std::vector<Matrix> difference_at(const PlacedRemainder& placed, const SectionRemainder& body,
+                                  const std::vector<double>& t) {
   const SectionCompliance& section = body.section;
   const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)}, down{along.z, -along.y};
   std::vector<double> own;
   for (const Vec2 p : section.stations) own.push_back(dot(p - placed.contact, along));
   const Matrix shares = shares_of(own, t);
-  const auto n = static_cast<Eigen::Index>(own.size()), m = static_cast<Eigen::Index>(t.size());
-  Matrix turn = Matrix::Zero(3 * n, 3 * m);  // from forces (x, y, normal) at t to those along the section's axes
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < m; ++j) {
-      turn(3 * i, j) = shares(i, j);
-      turn(3 * i + 1, m + j) = along.y * shares(i, j);
-      turn(3 * i + 2, m + j) = along.z * shares(i, j);
-      turn(3 * i + 1, 2 * m + j) = down.y * shares(i, j);
-      turn(3 * i + 2, 2 * m + j) = down.z * shares(i, j);
-    }
-  Matrix plane = Matrix::Zero(3 * n, 3 * m);  // the half-space has the plane's axes
-  for (Eigen::Index a = 0; a < 3; ++a)
-    for (Eigen::Index i = 0; i < n; ++i) plane.row(3 * i + a).segment(a * m, m) = shares.row(i);
+  Eigen::Index first = 0, last = shares.rows() - 1;  // of the stations that count
+  while (shares.row(first).isZero(0)) ++first;
+  while (shares.row(last).isZero(0)) --last;
+  const Eigen::Index n = last - first + 1, m = shares.cols();
+  const Matrix near = shares.middleRows(first, n);
+  Eigen::Matrix3d axes;  // rows: the plane's in those of the section
+  axes << 1, 0, 0, 0, along.y, along.z, 0, down.y, down.z;
   std::vector<Matrix> out;
-  for (std::size_t k = 0; k < section.k.size(); ++k)
-    out.push_back(turn.transpose() * section.at[k] * turn - plane.transpose() * body.half_space[k] * plane);
+  Matrix turned(3 * n, 3 * n);
+  for (std::size_t k = 0; k < section.k.size(); ++k) {
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const Eigen::Index row = 3 * (first + i), column = 3 * (first + j);
+        const Eigen::Matrix3d d = axes * section.at[k].block<3, 3>(row, column) * axes.transpose() -
+                                  body.half_space[k].block<3, 3>(row, column);
+        for (Eigen::Index a = 0; a < 3; ++a)
+          for (Eigen::Index b = 0; b < 3; ++b) turned(a * n + i, b * n + j) = d(a, b);
+      }
+    Matrix& at = out.emplace_back(3 * m, 3 * m);
+    for (Eigen::Index a = 0; a < 3; ++a)
+      for (Eigen::Index b = 0; b < 3; ++b)
+        at.block(a * m, b * m, m, m) = near.transpose() * turned.block(a * n, b * n, n, n) * near;
+  }
   if (body.in_full) return out;
-  Matrix last = out.back();  // but of the coupling of x with the others, which is odd in k
-  last.topRightCorner(m, 2 * m).setZero();
-  last.bottomLeftCorner(2 * m, m).setZero();
-  for (Matrix& rest : out) rest -= last;
+  Matrix last_k = out.back();  // but of the coupling of x with the others, which is odd in k
+  last_k.topRightCorner(m, 2 * m).setZero();
+  last_k.bottomLeftCorner(2 * m, m).setZero();
+  for (Matrix& rest : out) rest -= last_k;
+  return out;
+}
+
+/// Of the sections that are kept on both sides of the contact.
+std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t) {
+  std::vector<Matrix> sum;
+  for (const RemainderShare& kept : placed.kept) {
+    const std::vector<Matrix> own = difference_at(placed, *kept.remainder, t);
+    sum.resize(own.size(), Matrix::Zero(own.front().rows(), own.front().cols()));
+    for (std::size_t k = 0; k < own.size(); ++k) sum[k] += kept.share * own[k];
+  }
+  return sum;
+}
+
+/// The wheel's SectionCompliance::by_rotation at t, downwards.
+Eigen::VectorXd by_rotation_at(const PlacedRemainder& placed, const std::vector<double>& t) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(t.size()));
+  const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)};
+  for (const RemainderShare& kept : placed.kept) {
+    const SectionCompliance& section = kept.remainder->section;
+    std::vector<double> own;
+    for (const Vec2 p : section.stations) own.push_back(dot(p - placed.contact, along));
+    out += kept.share * shares_of(own, t).transpose() *
+           Eigen::Map<const Eigen::VectorXd>(section.by_rotation.data(), static_cast<Eigen::Index>(own.size()));
+  }
+  return out;
+}
+
+std::vector<double> rows_of(const PatchGrid& grid) {
+  std::vector<double> out;
+  for (int j = 0; j < grid.ny; ++j) out.push_back(grid.y(j));
   return out;
 }
 
@@ -104,18 +142,18 @@ std::vector<Matrix> at_waves(const std::vector<Matrix>& values, const std::vecto
 }  // namespace
 
 RowsDifference::Part RowsDifference::part_of(const PlacedRemainder& placed, const PatchGrid& grid) {
-  std::vector<double> stations, rows;
-  for (int j = 0; j < grid.ny; ++j) rows.push_back(grid.y(j));
+  const SectionRemainder& body = *placed.kept.front().remainder;
+  std::vector<double> stations;
+  const std::vector<double> rows = rows_of(grid);
   const int half = std::max(2, static_cast<int>(std::ceil(0.5 * grid.ny * grid.dy / kStationsOfRows)));
   for (int m = -half; m <= half; ++m) stations.push_back(m * kStationsOfRows);
-  if (placed.remainder->in_full) stations = rows;
+  if (body.in_full) stations = rows;
   Part out;
   out.shares = shares_of(stations, rows);
-  const std::vector<double>& known = placed.remainder->section.k;
+  const std::vector<double>& known = body.section.k;
   const WaveQuadrature waves = wave_quadrature(known.front(), known.back(), (grid.nx + 1) * grid.dx);
   out.kernel = std::make_shared<const Kernel>(at_waves(difference_at(placed, stations), known, waves.k));
   const auto count = static_cast<Eigen::Index>(waves.k.size());
-  const Eigen::Index n = out.shares.rows(), middle = 2 * n + n / 2;
   out.weight.resize(count);
   out.cosines.resize(count, grid.nx + 1);
   out.sines.resize(count, grid.nx + 1);
@@ -128,17 +166,29 @@ RowsDifference::Part RowsDifference::part_of(const PlacedRemainder& placed, cons
     }
   }
   const auto smooth = std::upper_bound(waves.k.begin(), waves.k.end(), SectionRemainder::kSmoothTo) - waves.k.begin();
-  const auto at_middle = [&](Eigen::Index q) { return (*out.kernel)[static_cast<std::size_t>(q)](middle, middle); };
-  const double local = placed.remainder->in_full ? at_middle(smooth - 1) : 0;
+  const auto at_middle = [&](Eigen::Index q) {
+    const Matrix& kernel = (*out.kernel)[static_cast<std::size_t>(q)];
+    const Eigen::Index n = out.shares.rows();
+    Eigen::Matrix3d own = Eigen::Matrix3d::Zero();  // x couples with the others by waves that are odd in k
+    for (Eigen::Index a = 0; a < 3; ++a)
+      for (Eigen::Index b = 0; b < 3; ++b)
+        if ((a == 0) == (b == 0)) own(a, b) = kernel(a * n + n / 2, b * n + n / 2);
+    return own;
+  };
+  const Eigen::Matrix3d local = body.in_full ? at_middle(smooth - 1) : Eigen::Matrix3d::Zero();
   for (Eigen::Index q = 0; q < smooth; ++q) out.rigid += out.weight[q] * (at_middle(q) - local);
   return out;
 }
 
 RowsDifference::RowsDifference(const PlacedRemainder& rail, const PlacedRemainder& wheel, const PatchGrid& grid)
-    : nx_(grid.nx), ny_(grid.ny), cell_area_(grid.cell_area()), pair_{part_of(rail, grid)} {
-  wheel_ = part_of(wheel, grid);
-  rigid_ = pair_[0].rigid + wheel_.rigid;
-  if (rail.remainder->in_full != wheel.remainder->in_full) {
+    : nx_(grid.nx),
+      ny_(grid.ny),
+      cell_area_(grid.cell_area()),
+      pair_{part_of(rail, grid)},
+      wheel_(part_of(wheel, grid)),
+      by_rotation_(by_rotation_at(wheel, rows_of(grid))),
+      rigid_(pair_[0].rigid + wheel_.rigid) {
+  if (rail.kept.front().remainder->in_full != wheel.kept.front().remainder->in_full) {
     pair_.push_back(wheel_);
     return;
   }
@@ -163,9 +213,13 @@ std::shared_ptr<const RowsDifference> RowsDifference::part(int first_y, int nx, 
 
 void RowsDifference::add(const In& in, const Out& out, int rows) const {
   for (const Part& part : pair_) add(part, in, out, rows);
-  if (!in[2] || !out[2]) return;
-  const double whole = rigid_ * cell_area_ * Eigen::Map<const Eigen::VectorXd>(in[2], ny_ * nx_).sum();
-  Eigen::Map<Eigen::VectorXd>(out[2], ny_ * rows).array() -= whole;
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();
+  for (std::size_t a = 0; a < 3; ++a)
+    if (in[a])
+      load[static_cast<Eigen::Index>(a)] = cell_area_ * Eigen::Map<const Eigen::VectorXd>(in[a], ny_ * nx_).sum();
+  const Eigen::Vector3d whole = rigid_ * load;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (out[a]) Eigen::Map<Eigen::VectorXd>(out[a], ny_ * rows).array() -= whole[static_cast<Eigen::Index>(a)];
 }
 
 void RowsDifference::add(const Part& part, const In& in, const Out& out, int rows) const {

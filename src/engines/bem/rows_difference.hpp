@@ -2,8 +2,8 @@
 // Influence of the real bodies' sections less that of the half-spaces: between rows of cells, smooth along and across.
 //
 // With displacements (U, u_y, u_n) and tractions (Q, q_y, p) of the wave k, u_x = i U e^{ikx}, the difference of a
-// body is a real symmetric matrix D(k) between stations across the surface. Less D at the largest k where it is smooth,
-// the mesh's own local error,
+// body is a real symmetric matrix D(k) between stations across the surface. Less D at the largest k, the mesh's own
+// local error,
 //   u(x) = 1/pi Re ∫ D(k) τ(k) e^{ikx} dk,   τ(k) = sum over the cells of force e^{-ikx},
 // by a fixed quadrature in k: no periods, no images.
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ namespace railstrata {
 
 /// A body in the contact plane.
 struct PlacedRemainder {
-  std::shared_ptr<const SectionRemainder> remainder;
+  std::vector<RemainderShare> kept;
   Vec2 contact;      ///< m, the origin of the contact plane where the stations are given
   double angle = 0;  ///< rad, of the plane
 };
@@ -32,14 +32,16 @@ class RowsDifference {
 
   RowsDifference(const PlacedRemainder& rail, const PlacedRemainder& wheel, const PatchGrid& grid);
 
-  /// Adds displacements by tractions: signs as InfluenceOperator's. rows: of the outputs along x. Normal ones by
-  /// pressure without the approach of the bodies as a whole, which is that in the middle by the load there: an approach
-  /// stays that of half-spaces.
+  /// Adds displacements by tractions: signs as InfluenceOperator's. rows: of the outputs along x. Without the motion of
+  /// the bodies as a whole, which is that in the middle by the load there: an approach and a shift stay those of
+  /// half-spaces.
   void add(const In& in, const Out& out, int rows) const;
   /// The wheel's own displacement into it by p, with the approach of the whole.
   void add_of_wheel(const double* p, double* u_n, int rows) const {
     add(wheel_, {nullptr, nullptr, p}, {nullptr, nullptr, u_n}, rows);
   }
+  /// Displacement of the wheel's rows towards the axle by a squared angular velocity, m s².
+  const Eigen::VectorXd& by_rotation() const { return by_rotation_; }
   /// Rows first_y to first_y + ny of the grid.
   std::shared_ptr<const RowsDifference> part(int first_y, int nx, int ny) const;
 
@@ -52,7 +54,7 @@ class RowsDifference {
     Eigen::MatrixXd cosines, sines;  ///< wave numbers x cells along x
     Eigen::VectorXd weight;          ///< of the quadrature and of a cell's wave, over pi, 1/m
     std::shared_ptr<const Kernel> kernel;
-    double rigid = 0;  ///< m/N, approach of the body as a whole
+    Eigen::Matrix3d rigid = Eigen::Matrix3d::Zero();  ///< m/N, motion of the body as a whole by forces
   };
   static Part part_of(const PlacedRemainder& placed, const PatchGrid& grid);
   void add(const Part& part, const In& in, const Out& out, int rows) const;
@@ -61,7 +63,8 @@ class RowsDifference {
   double cell_area_;
   std::vector<Part> pair_;  ///< of both bodies, or of each
   Part wheel_;
-  double rigid_ = 0;  ///< m/N, approach of the bodies as a whole
+  Eigen::VectorXd by_rotation_;
+  Eigen::Matrix3d rigid_;  ///< of both
 };
 
 }  // namespace railstrata

@@ -7,14 +7,6 @@
 
 namespace railstrata {
 
-namespace {
-
-constexpr double kStation = 2e-3;  // m, from one to the next of a smooth difference
-constexpr double kPlace = 4e-3;    // m, to which the middle of the stations is rounded: contacts nearby share a section
-constexpr double kSmallest = 1;    // 1/m, of the wave numbers
-constexpr double kLogStep = 0.415;   // from one wave number to the next
-constexpr double kFinest = 0.25e-3;  // m, of stations
-
 /// How fine a section is looked at: elements are as wide as its stations.
 struct SectionSizes {
   MeshSizes mesh;
@@ -22,8 +14,18 @@ struct SectionSizes {
   double largest = 0;  ///< 1/m, of the wave numbers
 };
 
+namespace {
+
+constexpr double kStation = 2e-3;    // m, from one to the next of a smooth difference
+constexpr double kPlace = 4e-3;      // m, from the middle of a kept section to the next
+constexpr double kOneAlone = 0.25;   // of kPlace: so far on both sides of its middle a section is alone
+constexpr double kSmallest = 1;      // 1/m, of the wave numbers
+constexpr double kLogStep = 0.415;   // from one wave number to the next
+constexpr double kFinest = 0.25e-3;  // m, of stations
+
 SectionSizes smooth_sizes(double place, double half_width) {
-  const double across = kStation * std::ceil((half_width + kStation + 0.5 * kPlace) / kStation);
+  const double farthest = (1 - kOneAlone) * kPlace,
+               across = kPlace * std::ceil((half_width + kStation + farthest) / kPlace);
   return {{.element = kStation, .fine_width = 2 * across, .fine_depth = 8e-3, .coarse_ratio = 3, .largest = 12e-3},
           place,
           SectionRemainder::kSmoothTo};
@@ -71,7 +73,8 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
     key.insert(key.end(), {static_cast<double>(g.wheel_shape), g.wheel_radius, w.rim_thickness, w.web_thickness,
                            w.web_offset, w.hub_radius, w.hub_width, w.bore_radius});
   } else {
-    key.insert(key.end(), {static_cast<double>(g.rail_shape), g.cant, g.block_width, g.block_height});
+    key.insert(key.end(), {static_cast<double>(g.rail_shape), static_cast<double>(section_below_head(g, profile)),
+                           g.cant, g.block_width, g.block_height});
   }
   for (const LayerSpec& layer : spec.layers) {
     if (layer.on != body) continue;
@@ -110,15 +113,10 @@ std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const
 
 }  // namespace
 
-std::shared_ptr<const SectionRemainder> SectionStore::get(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                                          const LayeredHalfSpace& half_space, const PatchGrid& grid) {
-  constexpr std::size_t kEntries = 16;
-  const bool wheel = body == BodyId::wheel;
-  const double place = kPlace * std::round((wheel ? placement.contact.wheel_s : placement.contact.rail_s) / kPlace);
-  SectionSizes sizes = smooth_sizes(place, 0.5 * grid.ny * grid.dy);
-  if (const auto side =
-          nearest_side(spec, wheel ? placement.wheel : placement.rail, body, place, 0.5 * sizes.mesh.fine_width))
-    sizes = sizes_in_full(place, *side, grid);
+std::shared_ptr<const SectionRemainder> SectionStore::at(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                                         const LayeredHalfSpace& half_space,
+                                                         const SectionSizes& sizes) {
+  constexpr std::size_t kEntries = 64;
   std::vector<double> key = key_of(spec, placement, body, sizes);
   const std::lock_guard lock(mutex_);
   for (const Entry& entry : entries_)
@@ -127,6 +125,26 @@ std::shared_ptr<const SectionRemainder> SectionStore::get(const CaseSpec& spec, 
   auto made = remainder_of(spec, placement, body, half_space, sizes);
   entries_.push_back({std::move(key), made});
   return made;
+}
+
+std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                              const LayeredHalfSpace& half_space, const PatchGrid& grid) {
+  const bool wheel = body == BodyId::wheel;
+  const Profile& profile = wheel ? placement.wheel : placement.rail;
+  const double places = (wheel ? placement.contact.wheel_s : placement.contact.rail_s) / kPlace,
+               half_width = 0.5 * grid.ny * grid.dy, nearest = kPlace * std::round(places);
+  const double reach = 0.5 * smooth_sizes(nearest, half_width).mesh.fine_width;
+  if (const auto side = nearest_side(spec, profile, body, nearest, reach))
+    return {{at(spec, placement, body, half_space, sizes_in_full(nearest, *side, grid)), 1}};
+  const double before = std::floor(places);
+  const double further = std::clamp((places - before - kOneAlone) / (1 - 2 * kOneAlone), 0.0, 1.0);
+  std::vector<RemainderShare> out;
+  for (const auto& [step, share] : {std::pair{0.0, 1 - further}, std::pair{1.0, further}}) {
+    if (!(share > 0)) continue;
+    const double place = std::clamp(kPlace * (before + step), profile.s_min(), profile.s_max());
+    out.push_back({at(spec, placement, body, half_space, smooth_sizes(place, half_width)), share});
+  }
+  return out;
 }
 
 }  // namespace railstrata

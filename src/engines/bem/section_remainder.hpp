@@ -18,15 +18,26 @@ struct SectionRemainder {
   std::vector<Eigen::MatrixXd> half_space;  ///< half_space_compliance of the same stations
 };
 
+/// One of the sections that are kept on both sides of a place, and its share there.
+struct RemainderShare {
+  std::shared_ptr<const SectionRemainder> remainder;
+  double share = 1;
+};
+
+struct SectionSizes;
+
 /// Remainders of sections that were asked for before. Safe to share between threads.
 class SectionStore {
  public:
   /// Of the section with its foot or bore held, around the contact, at least as wide as the grid where the running
-  /// surface is. half_space: its layers. Throws CaseError where the section cannot be meshed.
-  std::shared_ptr<const SectionRemainder> get(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                              const LayeredHalfSpace& half_space, const PatchGrid& grid);
+  /// surface is: a contact that wanders meets one kept section after the other, without jumps where layers do not end
+  /// nearby. half_space: its layers. Throws CaseError where the section cannot be meshed.
+  std::vector<RemainderShare> get(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                  const LayeredHalfSpace& half_space, const PatchGrid& grid);
 
  private:
+  std::shared_ptr<const SectionRemainder> at(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                             const LayeredHalfSpace& half_space, const SectionSizes& sizes);
   struct Entry {
     std::vector<double> key;
     std::shared_ptr<const SectionRemainder> remainder;

@@ -289,9 +289,6 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   if (!kept.cache) kept.cache = &own;
   std::vector<SharedLoad> solved = loaded_wheel(spec, placement, kept);
   for (const SharedLoad& one : solved) {
-    if (one.patches.size() > 1 && spec.bem.bodies == ContactBodies::sections)
-      throw CaseError("sections: the wheel touches at several places, which sections do not join",
-                      "move the wheel (geometry.lateral_shift), or give bem.bodies = \"half_spaces\"", "bem.bodies");
     if (one.patches.size() > 1 && spec.bem.normals == ContactNormals::local)
       throw CaseError("bem.normals: the wheel touches at several places, which rows of one plane each do not join",
                       "move the wheel (geometry.lateral_shift), or give bem.normals = \"plane\"", "bem.normals");

@@ -53,6 +53,10 @@ SectionCompliance section_compliance(const QuadraticSection& mesh, const Section
   out.k = k;
   out.at.resize(k.size());
   const SparseLoads loads = hat_loads(mesh, columns, count);
+  if (stiffness.rotation.size() > 0) {
+    const Eigen::VectorXd moved = loads.transpose() * Factor(stiffness.at(0)).solve(stiffness.rotation);
+    for (int m = 0; m < count; ++m) out.by_rotation.push_back(moved[3 * m + 2]);
+  }
   for_each_that_throws(k.size(), [&](std::size_t i) {
     const Factor factor(stiffness.at(k[i]));
     if (factor.info() != Eigen::Success) throw NumericalError("a section's stiffness has no factor");

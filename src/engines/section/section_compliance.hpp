@@ -17,6 +17,7 @@ struct SectionCompliance {
   std::vector<Vec2> stations;       ///< m, in the section's plane
   std::vector<double> k;            ///< 1/m, increasing
   std::vector<Eigen::MatrixXd> at;  ///< 1/Pa, of each k
+  std::vector<double> by_rotation;  ///< m s², displacement along z by a squared angular velocity; empty: not revolved
 };
 
 /// columns: of the band's surface from one station to the next. Wave numbers are solved in parallel.

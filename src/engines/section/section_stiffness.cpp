@@ -78,6 +78,7 @@ PointStrains strains_at(const std::array<Vec2, 8>& x, const Shape& s, double rad
 
 struct ElementStiffness {
   ElementMatrix k0 = ElementMatrix::Zero(), k1 = k0, k2 = k0;
+  std::array<double, 8> rotation{};
 };
 
 ElementStiffness element_stiffness(const std::array<Vec2, 8>& x, const Elastic& material, double radius) {
@@ -90,8 +91,12 @@ ElementStiffness element_stiffness(const std::array<Vec2, 8>& x, const Elastic& 
   ElementStiffness out;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
-      const PointStrains p = strains_at(x, quadratic_shape(kAt[i], kAt[j]), radius);
+      const Shape shape = quadratic_shape(kAt[i], kAt[j]);
+      const PointStrains p = strains_at(x, shape, radius);
       const double weight = p.weight * kWeight[i] * kWeight[j];
+      for (std::size_t n = 0; n < 8; ++n)
+        for (std::size_t of = 0; of < 8; ++of)
+          out.rotation[n] += weight * material.density * shape.value[n] * shape.value[of] * x[of].z;
       const Strains d0 = weight * d * p.b0, d1 = weight * d * p.b1;
       const ElementMatrix mixed = p.b0.transpose() * d1;
       out.k0 += p.b0.transpose() * d0;
@@ -113,11 +118,16 @@ Eigen::SparseMatrix<double> SectionStiffness::at(double k) const {
 
 SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vector<Elastic>& materials, double radius) {
   std::array<Triplets, 3> entries;
+  SectionStiffness out;
+  const int size = 3 * mesh.free_nodes;
+  if (radius > 0) out.rotation = Eigen::VectorXd::Zero(size);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const std::array<int, 8>& nodes = mesh.elements[e];
     std::array<Vec2, 8> x;
     std::transform(nodes.begin(), nodes.end(), x.begin(), [&](int n) { return mesh.nodes[n]; });
     const ElementStiffness own = element_stiffness(x, materials[mesh.material[e]], radius);
+    for (std::size_t a = 0; radius > 0 && a < 8; ++a)
+      for (const auto& [node, share] : mesh.shares[nodes[a]]) out.rotation[3 * node + 2] += share * own.rotation[a];
     for (int a = 0; a < 24; ++a)
       for (const auto& [row_node, row_share] : mesh.shares[nodes[a / 3]])
         for (int b = 0; b < 24; ++b)
@@ -130,11 +140,9 @@ SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vect
             entries[2].emplace_back(row, column, share * own.k2(a, b));
           }
   }
-  SectionStiffness out;
-  const int n = 3 * mesh.free_nodes;
   const std::array<Eigen::SparseMatrix<double>*, 3> parts{&out.k0, &out.k1, &out.k2};
   for (std::size_t j = 0; j < 3; ++j) {
-    parts[j]->resize(n, n);
+    parts[j]->resize(size, size);
     parts[j]->setFromTriplets(entries[j].begin(), entries[j].end());
   }
   return out;

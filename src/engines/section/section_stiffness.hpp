@@ -4,6 +4,7 @@
 // u_x = i U e^{ikx}, u_y = v e^{ikx}, u_z = w e^{ikx}: with isotropic materials the stiffness of (U, v, w) is real and
 // symmetric, K(k) = K0 + k K1 + k² K2. Of a revolved body x = R theta with a radius R, and displacements are those
 // along, across and towards the axle at each theta: strains have r = -z in place of R, and r/R weighs the area.
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <vector>
 
@@ -15,6 +16,8 @@ namespace railstrata {
 struct SectionStiffness {
   /// Lower triangles of one pattern; index 3 n + direction of free nodes n. Per m along the sweep, Pa m^j.
   Eigen::SparseMatrix<double> k0, k1, k2;
+  /// Centrifugal force of a revolved body, per m along the sweep and squared angular velocity, N s²/m.
+  Eigen::VectorXd rotation;
   Eigen::SparseMatrix<double> at(double k) const;  ///< k in 1/m
 };
 
