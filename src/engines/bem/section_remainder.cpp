@@ -14,7 +14,8 @@ namespace {
 constexpr double kStation = 2e-3;  // m, from one to the next
 constexpr double kPlace = 4e-3;    // m, to which the middle of the stations is rounded: contacts nearby share a section
 constexpr int kWaves = 16;
-constexpr double kSmallest = 1, kLargest = 500;  // 1/m, of the wave numbers: with elements as wide as the stations
+constexpr double kSmallestWave = 1,
+                 kLargestWave = 500;  // 1/m, of the wave numbers: with elements as wide as the stations
 
 MeshSizes sizes_for(double half_width) {
   const double across = kStation * std::ceil((half_width + kStation + 0.5 * kPlace) / kStation);
@@ -70,7 +71,8 @@ std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const
   SectionRemainder out;
   out.radius = wheel ? spec.geometry.wheel_radius - placement.wheel.at(place).position.z : 0;
   std::vector<double> k;
-  for (int i = 0; i < kWaves; ++i) k.push_back(kSmallest * std::pow(kLargest / kSmallest, i / (kWaves - 1.0)));
+  for (int i = 0; i < kWaves; ++i)
+    k.push_back(kSmallestWave * std::pow(kLargestWave / kSmallestWave, i / (kWaves - 1.0)));
   const QuadraticSection mesh = quadratic_section(meshed.body);
   out.section = section_compliance(mesh, section_stiffness(mesh, meshed.materials, out.radius), 1, k);
   out.half_space =
