@@ -16,17 +16,6 @@ constexpr std::array<double WaveResponse::*, 10> kResponse{
     &WaveResponse::kU_p, &WaveResponse::kW_p, &WaveResponse::T_p, &WaveResponse::S_p, &WaveResponse::kU_q,
     &WaveResponse::kW_q, &WaveResponse::T_q,  &WaveResponse::S_q, &WaveResponse::kV,  &WaveResponse::Q};
 
-/// Amplitudes of the two surface waves from unit tractions at the surface, then the state at the depth.
-WaveResponse response(const LayerWaves& waves, std::size_t layer, double depth) {
-  const WaveState top = waves.state(0, 0), s = waves.state(layer, depth);
-  // amplitudes for S/k = -1 (unit pressure) and T/k = -1 (unit radial traction), times k
-  const double t1 = top(2, 0), t2 = top(2, 1), s1 = top(3, 0), s2 = top(3, 1), det = t1 * s2 - t2 * s1;
-  const Eigen::Vector2d p{t2 / det, -t1 / det}, q{-s2 / det, s1 / det};
-  const Eigen::Vector4d by_p = s * p, by_q = s * q;
-  const ShearState v0 = waves.shear_state(0, 0), v = waves.shear_state(layer, depth);
-  return {by_p[0], by_p[1], by_p[2], by_p[3], by_q[0], by_q[1], by_q[2], by_q[3], -v[0] / v0[1], -v[1] / v0[1]};
-}
-
 /// `extents` times the grid, up to twice that for thick or loose layers, whose strains reach farther. Those of a line
 /// contact reach still farther, and its waves run along x alone.
 double period_of(const LayeredHalfSpace& body, const PatchGrid& g, double extents) {
@@ -53,6 +42,17 @@ std::vector<double> steps(int n, double unit, double size) {
 }
 
 }  // namespace
+
+// Amplitudes of the two surface waves from unit tractions at the surface, then the state at the depth.
+WaveResponse wave_response(const LayerWaves& waves, std::size_t layer, double depth) {
+  const WaveState top = waves.state(0, 0), s = waves.state(layer, depth);
+  // amplitudes for S/k = -1 (unit pressure) and T/k = -1 (unit radial traction), times k
+  const double t1 = top(2, 0), t2 = top(2, 1), s1 = top(3, 0), s2 = top(3, 1), det = t1 * s2 - t2 * s1;
+  const Eigen::Vector2d p{t2 / det, -t1 / det}, q{-s2 / det, s1 / det};
+  const Eigen::Vector4d by_p = s * p, by_q = s * q;
+  const ShearState v0 = waves.shear_state(0, 0), v = waves.shear_state(layer, depth);
+  return {by_p[0], by_p[1], by_p[2], by_p[3], by_q[0], by_q[1], by_q[2], by_q[3], -v[0] / v0[1], -v[1] / v0[1]};
+}
 
 LayerCorrection::LayerCorrection(const LayeredHalfSpace& body, const PatchGrid& g, double period)
     : grid_(g),
@@ -81,7 +81,7 @@ LayerCorrection::Nodes LayerCorrection::nodes(double depth, bool below_interface
   Nodes out(kNodes);
   const std::size_t layer = stack_.front().layer_at(depth, below_interface);
   for (std::size_t i = 0; i < kNodes; ++i) {
-    const WaveResponse a = response(stack_[i], layer, depth), b = response(plain_[i], 0, depth);
+    const WaveResponse a = wave_response(stack_[i], layer, depth), b = wave_response(plain_[i], 0, depth);
     for (auto m : kResponse) out[i].*m = a.*m - b.*m;
   }
   return out;

@@ -31,6 +31,7 @@ struct WaveResponse {
   double kU_q = 0, kW_q = 0, T_q = 0, S_q = 0;  // under traction along the wave vector
   double kV = 0, Q = 0;                         // under traction across it
 };
+WaveResponse wave_response(const LayerWaves& waves, std::size_t layer, double depth);
 
 class LayerCorrection {
  public:

@@ -19,7 +19,7 @@ namespace {
 constexpr double kStation = 2e-3;    // m, from one to the next of a smooth difference
 constexpr double kPlace = 4e-3;      // m, from the middle of a kept section to the next
 constexpr double kOneAlone = 0.25;   // of kPlace: so far on both sides of its middle a section is alone
-constexpr double kSmallest = 1;      // 1/m, of the wave numbers
+constexpr double kSmallestWave = 1;  // 1/m, of the wave numbers
 constexpr double kLogStep = 0.415;   // from one wave number to the next
 constexpr double kFinest = 0.25e-3;  // m, of stations
 
@@ -90,9 +90,9 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
 }
 
 std::vector<double> wave_numbers(double largest) {
-  const int last = static_cast<int>(std::ceil(std::log(largest / kSmallest) / kLogStep));
+  const int last = static_cast<int>(std::ceil(std::log(largest / kSmallestWave) / kLogStep));
   std::vector<double> k;
-  for (int i = 0; i <= last; ++i) k.push_back(kSmallest * std::pow(largest / kSmallest, 1.0 * i / last));
+  for (int i = 0; i <= last; ++i) k.push_back(kSmallestWave * std::pow(largest / kSmallestWave, 1.0 * i / last));
   return k;
 }
 

@@ -80,4 +80,27 @@ Eigen::Matrix4d JumpWaves::basis(std::size_t slab, double depth) const {
   return out;
 }
 
+SlipResponse slip_response(const LayeredHalfSpace& body, std::size_t layer, double k) {
+  LayeredHalfSpace bonded = body;
+  const Bond bond = std::exchange(bonded.layers[layer].bond, {});
+  double depth = 0, above = 0;  // the latter: shear across over k and displacement, of the upper side
+  for (std::size_t l = 0; l <= layer; ++l) {
+    const HalfSpaceLayer& part = bonded.layers[l];
+    const double G = part.material.shear(), wave = std::tanh(k * part.thickness);
+    above = (above + G * wave) / (1 + above / G * wave);
+    above /= 1 + part.bond.shear * k * above;
+    depth += part.thickness;
+  }
+  const auto under = bonded.layers.begin() + static_cast<std::ptrdiff_t>(layer) + 1;
+  const ShearState lower = LayerWaves({{under, bonded.layers.end()}, body.substrate}, k).shear_state(0, 0);
+  const CutBody cut = cut_at(bonded, depth);
+  const JumpStress jump = JumpWaves(cut, k).stress(cut.jump, depth);
+  Eigen::Matrix2d stiff;  // shear and normal traction by jumps; with springs these are slip + c traction
+  stiff << jump.row(2), jump.row(1);
+  const Eigen::Matrix2d given =
+      Eigen::Matrix2d::Identity() - stiff * Eigen::Vector2d(bond.shear, bond.normal).asDiagonal();
+  const Eigen::Vector2d slip = given.partialPivLu().solve(stiff.col(0));
+  return {slip[0], -k / (1 / above - lower[0] / lower[1] + bond.shear * k), slip[1]};
+}
+
 }  // namespace railstrata

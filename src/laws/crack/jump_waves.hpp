@@ -40,4 +40,13 @@ class JumpWaves {
   Eigen::MatrixXd amplitude_;
 };
 
+/// Tractions across an interface per slip of it (lower less upper side) at one wave number, Pa/m: shear along the wave
+/// vector and across it, by slip in that direction, and sigma_zz by slip along it, of U in u_x' = i U
+/// (layer_waves.hpp).
+struct SlipResponse {
+  double along = 0, across = 0, normal = 0;
+};
+/// Of the interface below a layer, whose springs give besides.
+SlipResponse slip_response(const LayeredHalfSpace& body, std::size_t layer, double k);
+
 }  // namespace railstrata
