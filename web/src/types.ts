@@ -97,6 +97,7 @@ export interface Summary {
   };
   fatigue?: BodyFatigue[];
   crack?: Record<string, number|null>;
+  interface?: Record<string, number|null>;
   plastic?: PlasticNumbers;
   residual?: ResidualNumbers;
   run: Record<string, number|string|null>;

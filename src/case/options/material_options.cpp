@@ -200,6 +200,12 @@ std::vector<Option> bond_options() {
                  "Half-spaces: stiffness per area of the layer's lower interface against slip; 0: smooth, without "
                  "shear. Not given: no slip",
                  kPressureGradient, springs),
+          option("interface_shear_limit", layer<&L::interface_shear_limit>,
+                 "Half-spaces: shear at which the layer's lower interface slides, without pressure. With one of both "
+                 "keys the other counts as 0",
+                 kPressure, {0, 1e4 * kMega}),
+          option("interface_friction", layer<&L::interface_friction>,
+                 "Half-spaces: share of the pressure on the interface by which that shear is larger", kNumber, {0, 2}),
           option("bond_tension", OfLayer::slot<&S::bond, &BondSpec::tension>,
                  "Tensile strength of the layer's lower interface", kPressure, {0.1 * kMega, 1e4 * kMega}),
           option("bond_shear", OfLayer::slot<&S::bond, &BondSpec::shear>,

@@ -159,7 +159,17 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
                "a rail that is not followed so far"},
     kElastic{"run.plasticity = false", [](const C&c) { return !c.run.plasticity && c.life.until == 0; }},
     kLayerEnds{"layer.from | layer.to"}, kSections{"bem.bodies = \"sections\""}, kLocal{"bem.normals = \"local\""},
-    kGivingInterface{"layer.interface_normal_stiffness | layer.interface_shear_stiffness"},
+    kGivingInterface{
+        "layer.interface_normal_stiffness | layer.interface_shear_stiffness | layer.interface_shear_limit | "
+        "layer.interface_friction"},
+    kSlidingInterface{"layer.interface_shear_limit | layer.interface_friction"},
+    kSmoothInterface{"layer.interface_shear_stiffness",
+                     [](const C&c, const CaseSource*) {
+                       return keys_of_layers(c, "interface_shear_stiffness", [](const LayerSpec& l) {
+                         return l.slides() && l.interface_shear_stiffness == 0.0;
+                       });
+                     },
+                     "a shear stiffness of 0"},
     kRollingColumns{
         "transient.creepage | transient.lateral_creepage | transient.spin | transient.at_distance | "
         "transient.distance"},
@@ -181,6 +191,8 @@ constexpr const char *kOneOut = "take one of them out", *kOut = "take it out",
 constexpr const char* kOfHalfSpaces = "it is implemented for half-spaces";
 constexpr const char* kOfPlane = "it is implemented for the contact plane";
 constexpr const char* kOfBonded = "plastic strain is followed in bonded layers";
+constexpr const char *kSlidesSteadily = "slip of an interface is followed in steady rolling",
+                     *kSlidesInPassages = "slip of an interface is followed over passages of one wheel";
 constexpr const char *kStraight = "its wheel rolls straight on and level", *kAcross = "all places across are the same",
                      *kUnknown = "displacements of distant points are not known in plane strain",
                      *kNoFriction = "the wheel is pressed on without friction",
@@ -286,6 +298,9 @@ constexpr Clash kClashes[] = {
     {kLayerThickness, excludes, "layer.young_table", "the layer ends at the table's last depth", "leave thickness out"},
     {kLayerModulus, excludes, "layer.young_table", "the table gives the modulus", "keep one of them"},
     {kGivingInterface, excludes, "life.until", kOfBonded, "take out life.until, or the interface"},
+    {kSlidingInterface, excludes, kSmoothInterface, "a smooth interface has no shear that a limit could bound",
+     "leave the stiffness out, or give it above 0"},
+    {kSlidingInterface, excludes, kCrack, "stress intensities would leave out the slip of the interface", kOneOut},
     {"passes.jump = \"auto\"", excludes, "passes.lateral_deviation",
      "wheels that scatter never repeat, so no round shows the next",
      "take passes.lateral_deviation out, or give passes.lateral_positions alone"},
@@ -400,6 +415,16 @@ constexpr Clash kClashes[] = {
     {kLocal, excludes, uses::kCreepTable, kOfPlane, kByBem},
     {kLocal, excludes, uses::kContactResult, kOfPlane, "export a case with bem.normals = \"plane\""},
     {kLocal, excludes, uses::kExplorer, kOfPlane, kByBem},
+    {kLocal, excludes, kSlidingInterface, kOfPlane, kOneOut, kInHalfSpaces},
+    {kSlidingInterface, excludes, kLine, "in plane strain its slip goes on changing far behind", kOneOut,
+     kInHalfSpaces},
+    {kSlidingInterface, excludes, "transient.kind", kSlidesSteadily, kOneOut, kInHalfSpaces},
+    {kSlidingInterface, excludes, "run.rolling = false", kSlidesSteadily, kOneOut, kInHalfSpaces},
+    {kSlidingInterface, excludes, uses::kStates, kSlidesInPassages, kByBem},
+    {kSlidingInterface, excludes, uses::kCollective, kSlidesInPassages, kByBem},
+    {kSlidingInterface, excludes, uses::kCreepCurve, kSlidesInPassages, kByBem},
+    {kSlidingInterface, excludes, uses::kCreepTable, kSlidesInPassages, kByBem},
+    {kSlidingInterface, excludes, uses::kExplorer, kSlidesInPassages, kByBem},
     {kSections, excludes, kLine, "sections meet in patches", kOneOut, kInHalfSpaces},
     {kSections, excludes, "geometry.rail_radius", "the section is that of a straight rail", kOneOut, kInHalfSpaces},
     {kSections, excludes, kGivingInterface, "layers of sections are bonded", kOneOut, kInHalfSpaces},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "spec/case_spec.hpp"
 #include "text/units.hpp"
@@ -85,6 +86,22 @@ void check_interface(const CaseSpec& spec, std::size_t i, CaseSource& source) {
         "give 0 for a smooth interface");
 }
 
+/// One interface slides, of the rail.
+void check_sliding(const CaseSpec& spec, CaseSource& source) {
+  bool one = false;
+  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
+    const LayerSpec& layer = spec.layers[i];
+    if (!layer.slides()) continue;
+    const std::string key = key_of(i, layer.interface_shear_limit ? "interface_shear_limit" : "interface_friction");
+    if (layer.on == BodyId::wheel)
+      source.complain(key, fmt::format("{} is of layers of the rail: this one is on the wheel", key),
+                      "take it out, or give on = \"rail\"");
+    else if (std::exchange(one, true))
+      source.complain(key, fmt::format("{}: one interface of the rail may have a shear limit", key),
+                      "take out those of the others");
+  }
+}
+
 /// Layers of a body of which any ends are meshed as one stack.
 void check_widths(const CaseSpec& spec, BodyId body, CaseSource& source) {
   std::vector<std::size_t> on;
@@ -118,6 +135,7 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
     check_unbonded(spec, i, source);
     check_interface(spec, i, source);
   }
+  check_sliding(spec, source);
   for (const BodyId body : kBodies) check_widths(spec, body, source);
   for (std::size_t i = 0; i < spec.stretches.size(); ++i) check_stretch(spec.stretches[i], i, source);
 }

@@ -52,8 +52,11 @@ struct LayerSpec {
   double unbonded_friction = 0.3;         ///< Coulomb's coefficient on the interface there
   /// Pa/m, of the springs of its lower interface along its normal and in shear; not given: bonded in this direction.
   std::optional<double> interface_normal_stiffness, interface_shear_stiffness;
+  /// Pa, and of its pressure: shear at which it slides, the two together; neither given: at none.
+  std::optional<double> interface_shear_limit, interface_friction;
   bool graded() const { return !young_table.empty(); }
   bool ends() const { return from || to; }
+  bool slides() const { return interface_shear_limit || interface_friction; }
   bool changes_along() const { return ends() || !unbonded.empty(); }
   double begin() const { return from.value_or(-std::numeric_limits<double>::infinity()); }
   double end() const { return to.value_or(std::numeric_limits<double>::infinity()); }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/faults.hpp"
+#include "spec/case_spec.hpp"
 
 namespace railstrata {
 namespace {
@@ -104,6 +105,21 @@ std::vector<InterfacePlace> places_along(const InterfaceMarch& march) {
 }
 
 }  // namespace
+
+std::optional<SlidingInterface> sliding_interface(const CaseSpec& spec) {
+  double depth = 0;
+  for (const LayerSpec& layer : spec.layers) {
+    if (layer.on != BodyId::rail) continue;
+    depth += layer.thickness;
+    if (!layer.slides()) continue;
+    SlidingInterface out{0, 0, {layer.interface_shear_limit.value_or(0), layer.interface_friction.value_or(0)}};
+    const LayeredHalfSpace rail = layered_body(spec, BodyId::rail);
+    while (out.depth < (1 - 1e-9) * depth) out.depth += rail.layers[out.layer++].thickness;
+    --out.layer;
+    return out;
+  }
+  return {};
+}
 
 ContactOverInterface solve_over_interface(const SlidingInterface& sliding, const BemOptions& given,
                                           const std::function<BemResult(const BemOptions&)>& solve) {

@@ -2,6 +2,7 @@
 // A contact above an interface of the rail's layers that slides (interface_march.hpp), passage after passage, until
 // what a passage leaves behind repeats. Contact and slip in turn: the slip moves the surface that the contact meets.
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "bem/interface_march.hpp"
@@ -14,6 +15,9 @@ struct SlidingInterface {
   double depth = 0;       ///< m
   ShearLimit limit;
 };
+/// None: no interface of the rail has a limit.
+std::optional<SlidingInterface> sliding_interface(const CaseSpec& spec);
+
 /// A place of the interface in the frame of the patch.
 struct InterfacePlace {
   double x = 0;                     ///< m

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "bem/interface_slip.hpp"
 #include "bem/loaded_wheel.hpp"
 #include "core/faults.hpp"
 #include "rules/support.hpp"
@@ -277,17 +278,11 @@ double dissipation(const BemResult& result) {
   });
 }
 
-BemResult bem_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& patch) {
-  return result_of(spec, placement, {patch}, 0, true);
-}
+namespace {
 
-BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  require_support(spec.run.rolling ? uses::kSteadyRolling : uses::kHalfSpaces, spec);
-  InfluenceCache own;
-  BemOptions kept = options;
-  if (!kept.cache) kept.cache = &own;
-  std::vector<SharedLoad> solved = loaded_wheel(spec, placement, kept);
+/// Above interfaces that do not slide.
+BemResult solve_elastic(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  std::vector<SharedLoad> solved = loaded_wheel(spec, placement, options);
   for (const SharedLoad& one : solved) {
     if (one.patches.size() > 1 && spec.bem.normals == ContactNormals::local)
       throw CaseError("bem.normals: the wheel touches at several places, which rows of one plane each do not join",
@@ -299,6 +294,31 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   }
   BemResult r = mean_result(spec, placement, solved, options.apart);
   if (options.neighbour) *options.neighbour = neighbour_of(std::move(solved));
+  return r;
+}
+
+}  // namespace
+
+BemResult bem_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& patch) {
+  return result_of(spec, placement, {patch}, 0, true);
+}
+
+BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  require_support(spec.run.rolling ? uses::kSteadyRolling : uses::kHalfSpaces, spec);
+  InfluenceCache own;
+  BemOptions kept = options;
+  if (!kept.cache) kept.cache = &own;
+  const auto elastic = [&](const BemOptions& how) { return solve_elastic(spec, placement, how); };
+  const std::optional<SlidingInterface> sliding = sliding_interface(spec);
+  BemResult r;
+  if (sliding) {
+    ContactOverInterface over = solve_over_interface(*sliding, kept, elastic);
+    r = std::move(over.contact);
+    r.interface_slip = std::make_shared<const InterfaceSlip>(std::move(over.slip));
+  } else {
+    r = elastic(kept);
+  }
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return r;
 }

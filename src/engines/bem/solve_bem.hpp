@@ -71,6 +71,8 @@ struct BemPatch {
   PatchSurroundings surroundings;
 };
 
+struct InterfaceSlip;  // interface_slip.hpp
+
 /// The patches of one of several solutions whose mean is the answer, and its share.
 struct BemShare {
   double share = 0;
@@ -83,8 +85,9 @@ struct BemShare {
 struct BemResult : BemPatch {
   LayeredHalfSpace wheel, rail;
   std::vector<BemPatch> further;
-  double share = 1;              ///< of these patches in the sums
-  std::vector<BemShare> others;  ///< the other solutions
+  double share = 1;                                     ///< of these patches in the sums
+  std::vector<BemShare> others;                         ///< the other solutions
+  std::shared_ptr<const InterfaceSlip> interface_slip;  ///< null: no interface slides
   SolverEffort effort;
   std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -245,6 +246,23 @@ void write_crack(const std::filesystem::path& folder, const std::vector<std::str
                        {"growth", unit::kNanometres, &S::growth},
                        {"kink_range", unit::kRootMetres, [](const S& s) { return s.kink.range; }},
                        {"kink_turn", unit::kDegrees, [](const S& s) { return s.kink.angle; }}});
+}
+
+void write_interface_slip(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                          const InterfaceSlip& slip) {
+  std::vector<std::size_t> places(std::min(slip.first.size(), slip.last.size()));
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  using Place = std::size_t;
+  Columns<Place> columns{{"x", unit::kMillimetres, [&](Place i) { return slip.last[i].x; }}};
+  const auto add = [&](const std::string& prefix, const std::vector<InterfacePlace>& of) {
+    append(columns, {{prefix + "slip_x", unit::kMicrometres, [&of](Place i) { return of[i].slip_x; }},
+                     {prefix + "slip_y", unit::kMicrometres, [&of](Place i) { return of[i].slip_y; }},
+                     {prefix + "tau_x", unit::kMPa, [&of](Place i) { return of[i].shear_x; }},
+                     {prefix + "tau_y", unit::kMPa, [&of](Place i) { return of[i].shear_y; }}});
+  };
+  add("", slip.last);
+  add("first_", slip.first);
+  write_csv(folder / "interface_slip.csv", provenance, places, columns);
 }
 
 }  // namespace railstrata

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bem/interface_slip.hpp"
 #include "fatigue/crack_summary.hpp"
 #include "fatigue/shakedown_summary.hpp"
 #include "fatigue/streamlines.hpp"
@@ -33,6 +34,10 @@ void write_sliding_maps(const std::filesystem::path& folder, const std::vector<s
 /// crack.csv: a row a place of the wheel; crack_depths.csv: a row a depth of the crack, which one inside has not.
 void write_crack(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                  const CrackResult& crack);
+
+/// interface_slip.csv: slip and shear along the row that slips most, of the first passage and the last one.
+void write_interface_slip(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                          const InterfaceSlip& slip);
 
 /// Wear, heat and fatigue of one passage: a row per streamline, y ascending. Writes nothing without rows.
 void write_streamlines(const std::filesystem::path& file, const std::vector<std::string>& provenance,

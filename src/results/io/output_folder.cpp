@@ -22,10 +22,11 @@ constexpr const char* kProbe = ".writable";  // is made and removed: whether a f
 void remove_results(const fs::path& folder) {
   std::error_code ignored;
   for (const char* name :
-       {"centre_line.csv", "crack.csv",          "crack_depths.csv", "depth_line.csv", "force_spectrum.csv",
-        "geometry.json",   "history.csv",        "patch.csv",        "patch.pvd",      "patch.vtp",
-        "patch_film.csv",  "points_history.csv", "report.html",      "residual.csv",   "residual.json",
-        "section.vtp",     "shakedown.json",     "streamlines.csv",  "summary.json",   "view.py"})
+       {"centre_line.csv", "crack.csv",      "crack_depths.csv",   "depth_line.csv",  "force_spectrum.csv",
+        "geometry.json",   "history.csv",    "interface_slip.csv", "patch.csv",       "patch.pvd",
+        "patch.vtp",       "patch_film.csv", "points_history.csv", "report.html",     "residual.csv",
+        "residual.json",   "section.vtp",    "shakedown.json",     "streamlines.csv", "summary.json",
+        "view.py"})
     fs::remove(folder / name, ignored);
   for (const char* body : {"rail", "wheel"})
     for (const char* name : {"{}.vtu", "{}_cross_section.csv", "{}_longitudinal_section.csv", "{}_slices.csv",

@@ -93,6 +93,7 @@ Json summary_json(const Summary& s) {
     out["life"]["text"] = s.life.text;
   }
   if (std::isfinite(s.crack.K_II_range)) add_numbers(kCrackGroup, s, out[std::string(kCrackGroup)]);
+  if (std::isfinite(s.interface_slip.passages)) add_numbers(kInterfaceGroup, s, out[std::string(kInterfaceGroup)]);
   if (std::isfinite(s.passage.F_z_max)) add_numbers(kPassageGroup, s, out[std::string(kPassageGroup)]);
   if (std::isfinite(s.plastic.strain)) out["plastic"] = plastic(s);
   add_numbers("energy", s, out["energy"]);

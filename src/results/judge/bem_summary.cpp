@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bem/interface_slip.hpp"
 #include "core/rotation.hpp"
 #include "judge/cell_errors.hpp"
 #include "judge/check_limits.hpp"
@@ -116,6 +117,19 @@ int cell(double at, double first, double size, int count) {
   return std::clamp(static_cast<int>(std::lround((at - first) / size)), 0, count - 1);
 }
 
+SlidingSummary interface_summary(const InterfaceSlip& slip) {
+  const InterfacePassage &last = slip.passages.back(), &first = slip.passages.front();
+  return {static_cast<double>(slip.passages.size()),
+          last.largest,
+          first.largest,
+          last.left,
+          first.left,
+          last.area,
+          last.work,
+          first.work,
+          last.shear};
+}
+
 }  // namespace
 
 SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact) {
@@ -175,6 +189,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
     s.contact.F_y = 0.0 - all.y;
     s.contact.F_z = 0.0 - all.z;
   }
+  if (r.interface_slip) s.interface_slip = interface_summary(*r.interface_slip);
   s.run.engine = Engine::bem;
   s.run.wall_s = r.effort.wall_s;
   for (const BemPatch* p : patches_of(r)) s.run.elements += static_cast<long>(p->grid.size());

@@ -409,7 +409,8 @@ Json run_json(const ReportRun& run, bool with_slices) {
           {"residual", residual(run)},
           {"slices", with_slices ? slices(run) : Json::object()},
           {"shakedown", shakedown(run)},
-          {"crack", crack(run)}};
+          {"crack", crack(run)},
+          {"interface", columns(run.table("interface_slip"))}};
 }
 
 Json answer_json(const ReportAnswer& a) { return {{"tone", a.tone}, {"title", a.title}, {"text", a.text}}; }

@@ -71,6 +71,7 @@ void read_tables(const fs::path& folder, ReportRun& run) {
                                  "depth_line",
                                  "history",
                                  "force_spectrum",
+                                 "interface_slip",
                                  "points_history",
                                  "patch_film",
                                  "residual",

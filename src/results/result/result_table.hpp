@@ -18,7 +18,7 @@ namespace railstrata {
 
 /// Places in summary.json: of load factors, of layers and interfaces, of the life, of a passage.
 inline constexpr std::string_view kShakedownGroup = "shakedown/factors", kLayersGroup = "layers", kLifeGroup = "life",
-                                  kCrackGroup = "crack", kPassageGroup = "passage";
+                                  kCrackGroup = "crack", kInterfaceGroup = "interface", kPassageGroup = "passage";
 
 enum class AvailableIn { both_engines, finite_elements, half_spaces };
 

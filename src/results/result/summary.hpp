@@ -279,6 +279,16 @@ struct CrackSummary {
   double slipping = kNotApplicable;    ///< largest share of the length
 };
 
+/// An interface of the rail that slides (bem/interface_slip.hpp): the last passage that was followed, and the first.
+struct SlidingSummary {
+  double passages = kNotApplicable;
+  double slip = kNotApplicable, first_slip = kNotApplicable;  ///< m, largest of a passage
+  double left = kNotApplicable, first_left = kNotApplicable;  ///< m, largest that it leaves behind
+  double area = kNotApplicable;                               ///< m², slips at one time
+  double work = kNotApplicable, first_work = kNotApplicable;  ///< J/m, of friction
+  double shear = kNotApplicable;                              ///< Pa, largest
+};
+
 struct Summary {
   std::string title;
   std::string state;  ///< of a transient: which of its states this is
@@ -293,6 +303,7 @@ struct Summary {
   DamageSummary damage;
   LifeSummary life;
   CrackSummary crack;
+  SlidingSummary interface_slip;
   std::vector<BodyFatigue> fatigue;  ///< of the bodies whose strength or fatigue limits are known
   RunSummary run;
   std::vector<Check> checks;

@@ -42,6 +42,7 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
   write_shakedown(folder, provenance, summary, answer.shakedown);
   write_sliding_maps(folder, provenance, answer.sliding);
   if (answer.crack) write_crack(folder, provenance, *answer.crack);
+  if (result.interface_slip) write_interface_slip(folder, provenance, *result.interface_slip);
   write_summary(folder / "summary.json", summary);
 }
 

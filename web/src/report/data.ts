@@ -126,6 +126,7 @@ export interface Run {
   }
   >> ;
   crack: {passage: Columns; depths: Columns | null}|null;
+  interface: Columns|null;
 }
 
 export interface Check {

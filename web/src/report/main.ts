@@ -11,6 +11,7 @@ import {geometryFigures, geometryTable} from "./geometry";
 import {gridsRow} from "./grids";
 import {hero} from "./hero";
 import {historyFigures} from "./history";
+import {interfacePart} from "./interface";
 import {lastsPart} from "./lasts";
 import {linesFigure, type Series} from "./lines";
 import {passesContents, passesParts} from "./passes";
@@ -151,7 +152,7 @@ function stressPart(runs: Run[]): HTMLElement {
 function runParts(runs: Run[]): HTMLElement[] {
   const history = [...historyFigures(runs), ...transientFigures(runs)];
   const yielded = yieldedPart(runs);
-  const lasts = lastsPart(runs), crack = crackPart(runs);
+  const lasts = lastsPart(runs), crack = crackPart(runs), slip = interfacePart(runs);
   const way = [...filmParts(runs), ...(history.length ? [grid(history)] : [])];
   return [
     part("numbers", "Numbers", ...numbersTable(runs)),
@@ -161,6 +162,7 @@ function runParts(runs: Run[]): HTMLElement[] {
     ...(yielded ? [yielded] : []),
     ...(lasts ? [lasts] : []),
     ...(crack ? [crack] : []),
+    ...(slip ? [slip] : []),
     ...(way.length ? [part("history", "The whole history", ...way)] : []),
     part("origin", "Origin", ...origin(runs)),
   ];
@@ -230,6 +232,7 @@ function contents(): [id: string, name: string][] {
     ["yielded", "what yielded", report.runs.some((r) => r.summary.plastic)],
     ["lasts", "does it last?", report.runs.some((r) => r.summary.shakedown)],
     ["crack", "the crack", report.runs.some((r) => r.crack)],
+    ["interface", "the interface", report.runs.some((r) => r.interface)],
     ["history", "history", report.runs.some((r) => r.history)],
     ["origin", "origin", runs],
     ["what-if", "what if?", hasWhatIf()],
