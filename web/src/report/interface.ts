@@ -7,7 +7,8 @@ import type {Run} from "./data";
 import {linesFigure, type Series} from "./lines";
 import {runLabel} from "./words";
 
-const kWords = "Along the row that slips most, with the patch at 0. It rolls to the right: what lies to the left is left " +
+const kWords =
+    "Along the row that slips most, with the patch at 0. It rolls to the right: what lies to the left is left " +
     "behind. Slip is that of the lower side over the upper one, with what earlier passages left.";
 
 const kPassages = ["last passage", "first passage"];
@@ -35,8 +36,8 @@ function answer(run: Run, runs: Run[]): HTMLElement {
   const s = run.summary.interface!, who = runs.length > 1 ? `${runLabel(run)}: ` : "";
   const um = (v: number|null|undefined) => `${numberText(1e6 * (v ?? 0), 3)} µm`;
   return note(
-      `${who}The first passage leaves ${um(s.first_slip_left_m)} of slip behind, passage ` +
-      `${numberText(s.passages ?? 0, 3)} ${um(s.slip_left_m)}; friction of the interface then takes ` +
+      `${who}The first passage leaves ${um(s.first_slip_left_m)} of slip behind, passage number ${s.passages} leaves ` +
+      `another ${um(s.slip_left_m)}; friction of the interface then takes ` +
       `${numberText(s.work_J_per_m ?? 0, 3)} J/m.`);
 }
 
@@ -44,9 +45,10 @@ function answer(run: Run, runs: Run[]): HTMLElement {
 export function interfacePart(runs: Run[]): HTMLElement|null {
   const given = runs.filter((run) => run.interface && run.summary.interface);
   if (!given.length) return null;
-  const figures = given.flatMap((run) => [
-    passageFigure(run, given, "slip", "Slip of the interface over the passage", "µm"),
-    passageFigure(run, given, "tau", "Shear of the interface over the passage", "MPa"),
+  const figures = given.flatMap(
+      (run) =>
+          [passageFigure(run, given, "slip", "Slip of the interface over the passage", "µm"),
+           passageFigure(run, given, "tau", "Shear of the interface over the passage", "MPa"),
   ]);
   return part(
       "interface",
