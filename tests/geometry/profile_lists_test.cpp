@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <random>
 #include <string>
@@ -82,6 +84,37 @@ TEST(ProfileLists, PointsOutOfOrderAndAnOutlineOfTheWholeRailAreNamed) {
   for (const std::string& row : rows) outline += row + "\n";
   for (int k = 0; k < 140; ++k) outline += six(36 - 0.2 * k, -10 - k) + "\n";
   EXPECT_TRUE(has(answer_to(ProfileKind::rail, outline), "this is an outline of the whole rail"));
+}
+
+TEST(ProfileLists, OfAWholeSectionTheHeadIsTaken) {
+  std::vector<std::string> points;
+  listed(ProfileKind::rail, "CN60", 0.2, [&](double y, double z) { return points.emplace_back(six(y, z)); });
+  const std::size_t head = points.size();
+  for (const auto& [y, z] : {std::pair{35.0, -37.0},
+                             {20.0, -42.0},
+                             {9.0, -60.0},
+                             {8.0, -75.0},
+                             {8.0, -90.0},
+                             {8.5, -105.0},
+                             {9.0, -120.0},
+                             {10.0, -136.0},
+                             {20.0, -150.0},
+                             {38.0, -157.0},
+                             {56.0, -161.5},
+                             {74.0, -164.0},
+                             {75.0, -176.0}})
+    points.push_back(six(y, z));
+  for (int k = 1; k < 10; ++k) points.push_back(six(75 - 15.0 * k, -176));
+  for (std::size_t i = 13; i-- > 0;) {
+    double y = 0, z = 0;
+    std::sscanf(points[head + i].c_str(), "%lf,%lf", &y, &z);
+    points.push_back(six(-y, z));
+  }
+  std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(points.size() - 20), points.end());
+  std::string outline = "y,z\n";
+  for (const std::string& point : points) outline += point + "\n";
+  EXPECT_TRUE(has(notes_of(ProfileKind::rail, outline), fmt::format("its head was taken, {} of", head)))
+      << notes_of(ProfileKind::rail, outline);
 }
 
 TEST(ProfileLists, AnotherUnitAndAColumnThatCountsAreNamed) {

@@ -1,4 +1,4 @@
-// Measured receptances: motions of any derivative become displacements, and what lies beside them is told.
+// Measured receptances: motions of any derivative become displacements, and their difference from each curve is given.
 #include "runs/receptance.hpp"
 
 #include <gtest/gtest.h>

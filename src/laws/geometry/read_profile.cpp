@@ -183,6 +183,56 @@ class Reading {
            "give the points of the head alone, from one face over the running surface to the other");
   }
 
+  /// Of the outline of a whole rail, points in order around it, the head: from the crown down both faces to where they
+  /// are widest. Leaves any other list as it is.
+  void keep_head() {
+    constexpr double kFootBand = 0.012, kNarrowestFoot = 0.1, kWidestHead = 0.09, kLowestFace = 0.045;
+    constexpr double kTurnsIn = 0.3e-3, kFarthestPoint = 0.02;  // m
+    const Extent y = extent(points_, &Vec2::y), z = extent(points_, &Vec2::z);
+    const double unit = y.size() < 1 ? 1 : 1e-3;  // m
+    const auto width = [&](bool low) {
+      Extent of{y.hi, y.lo};
+      for (const Vec2& p : points_)
+        if ((low ? p.z - z.lo : z.hi - p.z) * unit < kFootBand) of = {std::min(of.lo, p.y), std::max(of.hi, p.y)};
+      return unit * of.size();
+    };
+    const bool up = width(true) > kNarrowestFoot && width(false)<kWidestHead, down = width(false)> kNarrowestFoot &&
+                    width(true) < kWidestHead;
+    if (kind_ != ProfileKind::rail || up == down) return;
+    const double middle = 0.5 * (y.lo + y.hi), crown_z = up ? z.hi : z.lo;
+    const auto depth = [&](Vec2 p) { return unit * std::abs(p.z - crown_z); };
+    std::size_t crown = 0;
+    const auto off_crown = [&](Vec2 p) { return depth(p) + unit * std::abs(p.y - middle); };
+    for (std::size_t i = 1; i < points_.size(); ++i)
+      if (off_crown(points_[i]) < off_crown(points_[crown])) crown = i;
+    const std::size_t n = points_.size();
+    const auto face = [&](std::size_t step) {  // how many points that way: step 1 or n - 1
+      double widest = 0;
+      std::size_t count = 0, kept = 0;
+      for (std::size_t i = crown; count + 1 < n; i = (i + step) % n, ++count) {
+        const double aside = unit * std::abs(points_[i].y - middle);
+        const Vec2 next = points_[(i + step) % n];
+        if (aside >= widest) kept = count;
+        widest = std::max(widest, aside);
+        if (depth(points_[i]) > kLowestFace || aside < widest - kTurnsIn ||
+            unit * norm(next - points_[i]) > kFarthestPoint)
+          break;
+      }
+      return kept;
+    };
+    const std::size_t after = face(1), before = face(n - 1);
+    std::vector<Vec2> head;
+    std::vector<int> lines;
+    for (std::size_t k = 0; k <= before + after; ++k) {
+      const std::size_t i = (crown + n - before + k) % n;
+      head.push_back(points_[i]);
+      lines.push_back(table_.lines[i]);
+    }
+    note(fmt::format("This is the outline of a whole rail: its head was taken, {} of {} points.", head.size(), n));
+    points_ = std::move(head);
+    table_.lines = std::move(lines);
+  }
+
   [[noreturn]] void refuse_unit(double length) const {
     constexpr double kInch = 25.4, kMicrometresInMillimetre = 1e3;
     const auto of_a_profile = [](double mm) { return mm >= 1e3 * kShortestCurve && mm <= 1e3 * kLongestCurve; };
@@ -203,9 +253,10 @@ class Reading {
     if ((z > 0 && z < 5e-4 * y) || y < 2e-2 * z)
       fail(fmt::format("y spans {:.4g} and z spans {:.4g}: the columns seem to be in different units", y, z),
            "give both columns in millimetres or both in metres");
+    keep_head();
     double length = 0;
     for (std::size_t i = 1; i < points_.size(); ++i) length += norm(points_[i] - points_[i - 1]);
-    refuse_other_lists(y, z, length);
+    refuse_other_lists(extent(points_, &Vec2::y).size(), extent(points_, &Vec2::z).size(), length);
     const bool metres = length >= kShortestCurve && length <= kLongestCurve,
                millimetres = length >= 1e3 * kShortestCurve && length <= 1e3 * kLongestCurve;
     if (!metres && !millimetres) refuse_unit(length);
