@@ -1,4 +1,4 @@
-"""A number of the summary is said once: its symbol stands in src/results/result/result_table.cpp."""
+"""A number of the summary is said once: its symbol stands in a row of src/results/result."""
 import json
 import pathlib
 import re
@@ -7,7 +7,7 @@ import sys
 import unittest
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
-ROW = "src/results/result/result_table.cpp"
+ROWS = {"src/results/result/result_table.cpp", "src/results/result/damage_rows.cpp"}
 # columns of every table, lines of screen and page, axes of a study's trends, rows of `compare`
 ALONE = {"layers/critical_flaw_m", "layers/interface_tension_Pa", "layers/interface_shear_Pa",
          "layers/interface_shear_range_Pa"}
@@ -29,7 +29,7 @@ class Places(unittest.TestCase):
         for number in listed["numbers"]:
             key = number["path"].split("/")[-1]
             words = "|".join(re.escape(w) for w in {key, number["column"] or key})
-            files = {name for name, text in sources if re.search(rf"(?<![\w.])(?:{words})(?!\w)", text)} - {ROW}
+            files = {name for name, text in sources if re.search(rf"(?<![\w.])(?:{words})(?!\w)", text)} - ROWS
             if files:
                 many[number["path"]] = files
         for path in ALONE:

@@ -186,7 +186,8 @@ class Reading {
   /// Of the outline of a whole rail, points in order around it, the head: from the crown down both faces to where they
   /// are widest. Leaves any other list as it is.
   void keep_head() {
-    constexpr double kFootBand = 0.012, kNarrowestFoot = 0.1, kWidestHead = 0.09, kLowestFace = 0.045;
+    constexpr double kLowestRail = 0.1, kFootBand = 0.012, kNarrowestFoot = 0.1, kWidestHead = 0.09,
+                     kLowestFace = 0.045;
     constexpr double kTurnsIn = 0.3e-3, kFarthestPoint = 0.02;  // m
     const Extent y = extent(points_, &Vec2::y), z = extent(points_, &Vec2::z);
     const double unit = y.size() < 1 ? 1 : 1e-3;  // m
@@ -198,7 +199,7 @@ class Reading {
     };
     const bool up = width(true) > kNarrowestFoot && width(false)<kWidestHead, down = width(false)> kNarrowestFoot &&
                     width(true) < kWidestHead;
-    if (kind_ != ProfileKind::rail || up == down) return;
+    if (kind_ != ProfileKind::rail || up == down || unit * z.size() < kLowestRail) return;
     const double middle = 0.5 * (y.lo + y.hi), crown_z = up ? z.hi : z.lo;
     const auto depth = [&](Vec2 p) { return unit * std::abs(p.z - crown_z); };
     std::size_t crown = 0;
