@@ -1,4 +1,5 @@
-// Case files, and the overrides of the command line: the file, then after a byte 1 an override a line.
+// Case files, after a first byte 2 inputs of CONTACT, and the overrides of the command line: the file, then after a
+// byte 1 an override a line.
 #include "reader/case_file.hpp"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include "many/axis.hpp"
 #include "options/option_table.hpp"
 #include "reader.hpp"
+#include "tables/contact_input.hpp"
 
 using namespace railstrata;
 using fuzz::promise;
@@ -65,8 +67,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::string line; std::getline(lines, line);) overrides.push_back(line);
 
   LoadedCase loaded;
-  const bool accepted =
-      fuzz::accepts([&] { loaded = parse_case(std::string(all.substr(0, cut)), "case.toml", overrides); });
+  const bool accepted = fuzz::accepts([&] {
+    std::string text(all.substr(0, cut));
+    if (text.starts_with('\2')) text = read_contact_input(text.substr(1), {"wheel.inp", 0}).case_text;
+    loaded = parse_case(text, "case.toml", overrides);
+  });
   try {
     if (accepted) check(loaded);
   } catch (const CaseError&) {

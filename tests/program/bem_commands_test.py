@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import pathlib
+import shutil
 import signal
 import sys
 import tomllib
@@ -615,6 +616,73 @@ wheel_load = "40 kN"
         for name in ["history.csv", "worn_rail.csv", "life.csv", "collective.json", "traffic.cbor"]:
             self.assertEqual((whole / name).read_bytes(), (parts / name).read_bytes(), name)
         self.refused(2, [*traffic, "--out", self.folder / "none", "--resume"], "there is nothing to resume")
+
+    # inputs of CONTACT
+
+    INPUT = """
+  1 MODULE
+ {side}203100    C-P-B-T-N-F-S
+ 0022033    V-L-D-C-M-Z-E
+ 0000321    H-G-I-A-O-W-R
+    999     100    30    1     1e-5
+  0.3   0.3
+  0.28  0.28  82000.  82000.
+  0.2   0.2   1.0   90d   8.0   4.0
+  14.0  0    1435.0   0.0
+  'rail.csv'   0     1.0   0.0
+  0.0  0.0  0.0   0.0   0.0   0.0
+  1360.0  -70.0   460.0
+  'wheel.csv'   0     1.0   0.0
+  0.0  {y_mm}  10000.  {roll_rad} {yaw_rad}  0.0
+  2000. 0.0    0.0   0.0    0.0  {pitch_rate_rad_per_s}
+"""
+
+    def contact_input(self, row):
+        for body in ["rail", "wheel"]:
+            shutil.copy(SOURCE / f"tests/data/reference/mbench_{body}.csv", self.folder / f"{body}.csv")
+        file = self.folder / "position.inp"
+        file.write_text(self.INPUT.format_map({**row, "side": {"left": 0, "right": 1}[row["side"]]}))
+        return file
+
+    def test_an_input_of_contact_has_contact_s_answer(self):
+        for row in table(SOURCE / "tests/data/reference/mbench_a22.csv"):
+            if (row["side"], row["y_mm"]) == ("right", "5"):
+                continue  # two patches, which CONTACT's D_SEP couples in part and takes for one
+            with self.subTest(side=row["side"], y=row["y_mm"]):
+                file, side = self.contact_input(row), -1 if row["side"] == "left" else 1
+                rc, out, err = railstrata("bem", file, "--cell", "0.2 mm", "--json", "--no-report", "--force", "--out",
+                                          self.folder / "out")
+                self.assertIn(rc, [0, 1], err)  # 1: on the flange the half-space is not what the bodies are
+                contact = json.loads(out)["contact"]
+                wanted = {name: float(value) for name, value in row.items() if name != "side"}
+                fn, flange = wanted["fn_N"], abs(wanted["angle_rad"]) > 0.3  # there CONTACT's wheel is a polygon
+                self.assertAlmostEqual(1e-6 * contact["p_max_Pa"] / wanted["pmax_MPa"], 1,
+                                       delta=0.01 if flange else 0.002)
+                self.assertAlmostEqual(contact["contact_angle_rad"], -side * wanted["angle_rad"], delta=1e-3)
+                self.assertAlmostEqual(contact["normal_force_N"] / fn, 1, delta=0.003)
+                # Without yaw slips of both signs leave little: a case has each row's rolling radius (CONTACT's D = 3).
+                self.assertAlmostEqual(-contact["F_x_N"] / fn, wanted["track_fx_N"] / fn,
+                                       delta=0.015 if wanted["yaw_rad"] == 0 else 0.004)
+                self.assertAlmostEqual(-side * contact["F_y_N"] / fn, wanted["track_fy_N"] / fn, delta=0.004)
+
+    def test_every_command_that_takes_a_case_takes_an_input_of_contact(self):
+        row = next(r for r in table(SOURCE / "tests/data/reference/mbench_a22.csv") if r["y_mm"] == "2.5")
+        file, out = f"{self.contact_input(row)}#1", self.folder / "out"
+        written = ["--cell", "1 mm", "--out", out, "--force"]
+        self.assertIn("contact angle  11.5", self.done("check", file))
+        self.done("bem", file, *written)
+        self.assertIn("lateral_shift = ", (out / "case.toml").read_text())
+        self.done("bem", out / "case.toml", "--cell", "1 mm", "--out", self.folder / "again")
+        self.done("sweep", file, "--vary", "vehicle.wheel_load=10 kN,20 kN", *written)
+        self.done("creep", file, "--points", 3, *written)
+        self.done("explore", file, "--out", self.folder / "page.html")
+        study = self.folder / "study.toml"
+        study.write_text('[study]\nbase = "position.inp#1"\nengines = ["bem"]\n[[group]]\nname = "a"\n')
+        self.done("study", study, "--dry-run")
+        rc, _, err = railstrata("bem", file, "--cell", "1 mm", "--no-report", cwd=self.folder)
+        self.assertEqual(rc, 0, err)
+        self.assertTrue((self.folder / "results" / "position-1-bem" / "summary.json").exists())
+        self.refused(2, ["run", f"{self.folder / 'position.inp'}#2"], "there is no case 2: the number of cases is 1")
 
     # all
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "rules/irregularity_rules.hpp"
 #include "rules/support.hpp"
 #include "rules/track_facts.hpp"
+#include "tables/contact_input.hpp"
 #include "tables/history_table.hpp"
 #include "tables/load_rows.hpp"
 #include "text/case_source.hpp"
@@ -308,10 +310,17 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
 
 LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   std::vector<std::string> notes;
-  const std::string text = read_text_file(file, "shipped cases stand in cases/, e.g. cases/quick/case.toml", &notes);
+  const std::optional<ContactInputName> input = contact_input_name(file);
+  const std::filesystem::path& read = input ? input->file : file;
+  std::string text = read_text_file(read, "shipped cases stand in cases/, e.g. cases/quick/case.toml", &notes);
+  if (input) {
+    ContactInput made = read_contact_input(text, *input);
+    text = std::move(made.case_text);
+    for (const std::string& note : made.notes) notes.push_back(fmt::format("{}: {}", read.filename().string(), note));
+  }
   require_keys(text, file);
   LoadedCase loaded = parse_case(text, file, overrides);
-  loaded.inputs.insert(loaded.inputs.begin(), file);
+  loaded.inputs.insert(loaded.inputs.begin(), read);
   loaded.notes.insert(loaded.notes.begin(), notes.begin(), notes.end());
   return loaded;
 }

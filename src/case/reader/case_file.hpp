@@ -13,7 +13,7 @@ namespace railstrata {
 struct LoadedCase {
   CaseSpec spec;
   std::filesystem::path file;                 ///< as given
-  std::string source_text;                    ///< the file as it was read
+  std::string source_text;                    ///< the file as it was read; the case of an input of CONTACT
   std::vector<std::string> overrides;         ///< "key=value", as given
   std::string resolved_toml;                  ///< every option with its value: reads back to the same spec, bit for bit
   std::vector<std::string> notes;             ///< what is allowed but reported, whatever the use
@@ -24,7 +24,8 @@ struct LoadedCase {
 };
 
 /// Reads, applies the overrides ("mesh.element_size=2 mm", "layer.0.thickness=0.5 mm"; quotes may be left out), checks
-/// units, ranges and what options ask of each other. Profile files are looked for, not read. Throws CaseError.
+/// units, ranges and what options ask of each other. Profile files are looked for, not read. An input of CONTACT
+/// (tables/contact_input.hpp) is read as the case it describes. Throws CaseError.
 LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The same from a text; `file` names it in messages and gives the folder of relative profile names.

@@ -6,6 +6,7 @@
 
 #include "app/shipped_files.hpp"
 #include "reader/assumed.hpp"
+#include "tables/contact_input.hpp"
 
 namespace railstrata {
 namespace {
@@ -40,7 +41,9 @@ std::filesystem::path output_folder_of(const CommandOptions& options, const Load
   if (!options.out.empty()) return options.out;
   const std::filesystem::path file = std::filesystem::absolute(loaded.file).lexically_normal();
   const std::filesystem::path name = file.stem() == "case" ? file.parent_path().filename() : file.stem();
-  return std::filesystem::path("results") / (name.string() + suffix);
+  const std::optional<ContactInputName> input = contact_input_name(file);
+  const std::string number = input && input->number > 0 ? fmt::format("-{}", input->number) : "";
+  return std::filesystem::path("results") / (name.string() + number + suffix);
 }
 
 JobOrder job_order_of(const CommandOptions& options, const std::filesystem::path& folder, bool resume) {

@@ -13,6 +13,7 @@
 #include "many/axis.hpp"
 #include "many/result_columns.hpp"
 #include "options/option_table.hpp"
+#include "tables/contact_input.hpp"
 #include "text/text_file.hpp"
 #include "text/toml_reader.hpp"
 
@@ -351,7 +352,9 @@ class StudyReader {
     std::filesystem::path path = source_.file().parent_path() / name;
     std::error_code error;  // a name too long, a folder that may not be read: no file to us
     if (std::filesystem::is_directory(path, error)) path /= "case.toml";
-    if (name.find('\0') == std::string::npos && std::filesystem::is_regular_file(path, error)) return path;
+    const std::optional<ContactInputName> input = contact_input_name(path);
+    if (name.find('\0') == std::string::npos && std::filesystem::is_regular_file(input ? input->file : path, error))
+      return path;
     source_.complain_at(place_of(*node), fmt::format("{} = \"{}\": there is no file {}", key, name, path.string()),
                         "name it relative to the study's folder");
     return {};
