@@ -169,11 +169,11 @@ constexpr auto interface = &at<&Summary::interface_slip, Member>;
 std::vector<ResultNumber> interface_numbers() {
   using I = SlidingSummary;
   return {
-      row("passages", kCount, interface<&I::passages>, "passages", "Interface, passages",
+      row("passages_followed", kCount, interface<&I::passages>, "passages", "Interface, passages",
           "Passages that were followed, from a fresh interface on, until each leaves as much slip behind as the one "
           "before",
           kShown),
-      row("slip", kMicrometres, interface<&I::slip>, "slip", "Interface, slip",
+      row("largest_slip", kMicrometres, interface<&I::slip>, "slip", "Interface, slip",
           "Largest slip anywhere below the patch, of the last passage", kMain),
       row("slip_left", kMicrometres, interface<&I::left>, "slip left", "Interface, slip left",
           "Largest slip that the last passage leaves behind; near 0: slip dies out", kMain),
