@@ -46,8 +46,8 @@ class Program(FromOutside):
                      "--set once for each key: --set 'mesh.element_size=2 mm'\n")
         self.assertRegex(railstrata("check", "--help")[1], r"--set KEY=VALUE +Override")
         self.refused(2, ["--json"], "error: no command is given\n    remedy: commands: check, run, bem, ")
-        self.refused(2, ["check"], "error: railstrata check: case is required (Case file, a folder with "
-                                   "case.toml, or NAME.inp of CONTACT)\n    remedy: what it takes: railstrata check --help\n")
+        self.refused(2, ["check"], "error: railstrata check: case is required (Case file, a folder with case.toml, or "
+                                   "NAME.inp of CONTACT)\n    remedy: what it takes: railstrata check --help\n")
         self.refused(2, ["check", "a.toml", "--threads", "many"], "error: railstrata check: ", "--threads", "remedy: ")
         errors = json.loads(self.refused(2, ["bem", "a.toml", "--cel", "1 mm", "--json"]))["errors"]
         self.assertEqual(errors[0]["message"], "railstrata bem has no option --cel")
