@@ -47,8 +47,7 @@ class Program(FromOutside):
         self.assertRegex(railstrata("check", "--help")[1], r"--set KEY=VALUE +Override")
         self.refused(2, ["--json"], "error: no command is given\n    remedy: commands: check, run, bem, ")
         self.refused(2, ["check"], "error: railstrata check: case is required (Case file, a folder with case.toml, or "
-                     "an input of CONTACT (NAME.inp; NAME.inp#3: its third case))\n    remedy: what it takes: "
-                     "railstrata check --help\n")
+                                   "NAME.inp of CONTACT)\n    remedy: what it takes: railstrata check --help\n")
         self.refused(2, ["check", "a.toml", "--threads", "many"], "error: railstrata check: ", "--threads", "remedy: ")
         errors = json.loads(self.refused(2, ["bem", "a.toml", "--cel", "1 mm", "--json"]))["errors"]
         self.assertEqual(errors[0]["message"], "railstrata bem has no option --cel")

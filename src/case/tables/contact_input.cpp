@@ -51,7 +51,8 @@ constexpr std::array<const char*, 3> kInputRows{"C-P-B-T-N-F-S", "V-L-D-C-M-Z-E"
 struct InputState {
   std::array<InputNumbers, 3> digits;
   int law = 0, discretisation = 2;
-  InputNumbers friction, materials, film, grid, track, deviation, wheelset, position, velocity, bending, heat;
+  InputNumbers friction, materials, film, grid, heat;
+  InputNumbers track, deviation, wheelset, position, velocity, bending;
   InputProfile rail, wheel;
   int digit(InputRow row, std::size_t place) const { return static_cast<int>(digits[row][place]); }
 };

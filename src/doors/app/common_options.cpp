@@ -22,9 +22,7 @@ void add_set(CLI::App& sub, CommandOptions& options, const char* what) {
 }
 
 void add_case(CLI::App& sub, CommandOptions& options) {
-  sub.add_option("case", options.case_file,
-                 "Case file, a folder with case.toml, or an input of CONTACT (NAME.inp; NAME.inp#3: its third case)")
-      ->required();
+  sub.add_option("case", options.case_file, "Case file, a folder with case.toml, or NAME.inp of CONTACT")->required();
   add_set(sub, options, "Override a key: --set mesh.element_size=\"2 mm\"; once for each key");
 }
 
