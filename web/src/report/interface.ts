@@ -36,7 +36,8 @@ function answer(run: Run, runs: Run[]): HTMLElement {
   const s = run.summary.interface!, who = runs.length > 1 ? `${runLabel(run)}: ` : "";
   const um = (v: number|null|undefined) => `${numberText(1e6 * (v ?? 0), 3)} µm`;
   return note(
-      `${who}The first passage leaves ${um(s.first_slip_left_m)} of slip behind, passage number ${s.passages_followed} leaves ` +
+      `${who}The first passage leaves ${um(s.first_slip_left_m)} of slip behind, passage number ${
+          s.passages_followed} leaves ` +
       `another ${um(s.slip_left_m)}; friction of the interface then takes ` +
       `${numberText(s.work_J_per_m ?? 0, 3)} J/m.`);
 }
