@@ -41,7 +41,7 @@ ResultColumn column_of(const ResultNumber& n) {
           .unit = same ? n.unit.shown : "",
           .shown_unit = n.unit,
           .doc = n.name,
-          .of_stress = of_strength(n),
+          .of_stress = of_strength(n) || n.group == kInterfaceGroup,
           .of_strength = of_strength(n),
           .of_all_patches = n.of_all_patches,
           .of_passage = n.group == kPassageGroup,
