@@ -152,7 +152,8 @@ class RolledPasses(FromOutside):
         self.assertGreater(float(rows[1]["net_y_mm"]), 0)
 
     def test_what_it_cannot_answer_is_refused_with_a_remedy(self):
-        self.refused(2, self.words("none"), "run.plasticity = true needs material.rail.yield_strength", "grade = \"R260\"")
+        self.refused(2, self.words("none"), "run.plasticity = true needs material.rail.yield_strength",
+                     "grade = \"R260\"")
         short = [word if word != "50 mm" else "40 mm" for word in self.words("none", *WEAK)]
         self.refused(2, short, "leaves no steady stations", "roll 49.2 mm or more")
         self.refused(2, self.words("none", *WEAK, "--set", 'mesh.element="one_point"'), 'mesh.element = "full"')

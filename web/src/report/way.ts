@@ -4,6 +4,7 @@ import {element, note, part} from "../dom";
 import {frame, type Figure} from "../figures";
 import type {Span, Values} from "../types";
 import type {Run} from "./data";
+import {historyFigure, type HistoryChart} from "./history";
 import {linesFigure, type Series} from "./lines";
 import {runLabel} from "./words";
 
@@ -11,7 +12,8 @@ export const hasHeights = (run: Run): boolean => !!run.geometry?.heights && !!ru
 
 const kBefore = 50;  // mm of the way before the first height
 
-export const placesOf = (run: Run): Values => run.history!.position_mm ?? run.history!.distance_mm;
+const placesColumn = (run: Run) => (run.history!.position_mm ? "position_mm" : "distance_mm");
+export const placesOf = (run: Run): Values => run.history![placesColumn(run)];
 
 /// From a little before the first height to the end.
 function windowOf(run: Run): Span {
@@ -48,27 +50,22 @@ function heights(runs: Run[], window: Span): Figure {
   });
 }
 
-function along(
-    runs: Run[], window: Span, id: string, title: string, column: string, unit: string, scale: number,
-    words: string): Figure {
-  const series = runs.map((run, n): Series => ({
-                            name: several(runs, run, title),
-                            x: placesOf(run),
-                            y: run.history![column].map((v) => (v === null ? null : scale * v)),
-                            colour: (t) => t.series[n % t.series.length],
-                            hover: `wheel at %{x:.1f} mm\n%{y:.4g} ${unit}`,
-                          }));
-  return linesFigure({
-    id,
-    title,
-    labels: [kLabel, `${title} [${unit}]`],
-    names: ["x_mm", column],
-    words: [words],
-    window,
-    series,
-    wide: true,
-  });
-}
+const kForce: HistoryChart = {
+  id: "way-force",
+  title: "Vertical force F_z",
+  label: "Vertical force F_z [kN]",
+  column: "F_z_N",
+  words: "On the wheel.",
+  lines: [{column: "F_z_N", name: "Vertical force F_z", scale: 1e-3, hover: "%{y:.4g} kN"}],
+};
+const kPressure: HistoryChart = {
+  id: "way-pressure",
+  title: "Largest pressure",
+  label: "Largest pressure [MPa]",
+  column: "p_max_MPa",
+  words: "Finite elements: of the nodes; it swings with every element that the wheel passes.",
+  lines: [{column: "p_max_MPa", name: "Largest pressure", hover: "%{y:.4g} MPa"}],
+};
 
 /// Null of runs over even ways.
 export function wayPart(runs: Run[]): HTMLElement|null {
@@ -77,13 +74,10 @@ export function wayPart(runs: Run[]): HTMLElement|null {
   const window = windowOf(given[0]);
   const forces = given.flatMap((run) => run.history!.F_z_N.map((v) => v ?? 0));
   const changes = Math.max(...forces) - Math.min(...forces) > 1e-3 * Math.max(...forces);
-  const figures = [
-    heights(given, window),
-    ...(changes ? [along(given, window, "way-force", "Vertical force F_z", "F_z_N", "kN", 1e-3, "On the wheel.")] : []),
-    along(
-        given, window, "way-pressure", "Largest pressure", "p_max_MPa", "MPa", 1,
-        "Finite elements: of the nodes; it swings with every element that the wheel passes."),
-  ];
+  const along = {column: placesColumn(given[0]), label: kLabel, hover: "wheel at %{x:.1f} mm"};
+  const charts = [...(changes ? [kForce] : []), kPressure];
+  const figures =
+      [heights(given, window), ...charts.map((chart) => historyFigure(given, along, chart, {window, wide: true}))];
   return part(
       "way", "On the way", note("The pictures below are those of the wheel at the end of its way."),
       element("div", {class: "grid"}, ...figures.map(frame)));
