@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "model/drive_at_contact.hpp"
+#include "model/rolling_start.hpp"
 
 namespace railstrata {
 namespace {
@@ -28,7 +29,7 @@ LoadHistory::LoadHistory(const CaseSpec& spec, const RigidContact& contact)
   if (rolls_) {
     places_ = t.at_distance;
     for (const double time : t.at_time) places_.push_back(time * spec.drive.speed);
-    end_ = t.distance.value_or(places_.empty() ? 0.0 : places_.back());
+    end_ = end_of_way(spec);
   } else {
     for (std::size_t row = 1; row <= rows_of(t); ++row) places_.push_back(static_cast<double>(row));
     end_ = places_.back();
