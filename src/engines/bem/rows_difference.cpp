@@ -4,15 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "bem/wave_quadrature.hpp"
 #include "core/lagrange.hpp"
-#include "crack/gauss.hpp"
 
 namespace railstrata {
 
 namespace {
 
 using Matrix = Eigen::MatrixXd;
-constexpr double kStationsOfRows = 2e-3;  // m
 
 /// What stands at `at` as shares of values at `nodes`; beyond their ends those of the ends.
 Matrix shares_of(const std::vector<double>& nodes, const std::vector<double>& at) {
@@ -25,80 +24,78 @@ Matrix shares_of(const std::vector<double>& nodes, const std::vector<double>& at
   return out;
 }
 
-/// Wave numbers and weights of ∫ dk over 0 … highest for waves over lengths up to `reach`.
-struct WaveQuadrature {
-  std::vector<double> k, weight;
-  void add_panel(double from, double to, bool in_logarithm) {
-    for (const GaussPoint& g : kGauss8) {
-      const double at = in_logarithm ? from * std::pow(to / from, g.node) : from + g.node * (to - from);
-      k.push_back(at);
-      weight.push_back(g.weight * (in_logarithm ? at * std::log(to / from) : to - from));
+/// c += a b, four columns of `a` at a time.
+template <class B>
+void add_product(const Eigen::Ref<const Matrix>& a, const B& b, Eigen::Ref<Matrix> c) {
+  const Eigen::Index rows = a.rows(), stride = a.outerStride(), whole = a.cols() / 4 * 4;
+  for (Eigen::Index j = 0; j < c.cols(); ++j) {
+    double* __restrict to = c.data() + j * c.outerStride();
+    for (Eigen::Index k = 0; k < whole; k += 4) {
+      const double* __restrict from = a.data() + k * stride;
+      const double b0 = b(k, j), b1 = b(k + 1, j), b2 = b(k + 2, j), b3 = b(k + 3, j);
+      for (Eigen::Index i = 0; i < rows; ++i)
+        to[i] += b0 * from[i] + b1 * from[i + stride] + b2 * from[i + 2 * stride] + b3 * from[i + 3 * stride];
+    }
+    for (Eigen::Index k = whole; k < a.cols(); ++k) {
+      const double* __restrict from = a.data() + k * stride;
+      const double share = b(k, j);
+      for (Eigen::Index i = 0; i < rows; ++i) to[i] += share * from[i];
     }
   }
-};
-WaveQuadrature wave_quadrature(double lowest, double highest, double reach) {
-  constexpr double kRadians = 8;  // of a wave in a panel of eight points
-  WaveQuadrature out;
-  const double even = std::min(kRadians / reach, highest);
-  // below the lowest D is linear in ln k: its integral is the value at lowest/e
-  out.k.push_back(lowest / std::numbers::e);
-  out.weight.push_back(lowest);
-  const int low = std::max(1, static_cast<int>(std::ceil(std::log(even / lowest) / 4)));
-  for (int i = 0; i < low; ++i)
-    out.add_panel(lowest * std::pow(even / lowest, 1.0 * i / low), lowest * std::pow(even / lowest, (i + 1.0) / low),
-                  true);
-  const int panels = static_cast<int>(std::ceil((highest - even) / even));
-  for (int i = 0; i < panels; ++i)
-    out.add_panel(even + (highest - even) * i / panels, even + (highest - even) * (i + 1) / panels, false);
-  return out;
 }
 
-/// D of a body at its wave numbers, between the stations t of the contact plane.
+/// to += share * of, from its element (row, column) on.
+void add_block(Matrix& to, double share, const Matrix& of, Eigen::Index row, Eigen::Index column) {
+  const Eigen::Index rows = to.rows();
+  for (Eigen::Index j = 0; j < to.cols(); ++j) {
+    double* __restrict sum = &to(0, j);
+    const double* __restrict from = &of(row, column + j);
+    for (Eigen::Index i = 0; i < rows; ++i) sum[i] += share * from[i];
+  }
+}
+
+/// The first kernels of a body, of the section less the half-space, between the stations t of the contact plane.
 std::vector<Matrix> difference_at(const PlacedRemainder& placed, const SectionRemainder& body,
-                                  const std::vector<double>& t) {
-  const SectionCompliance& section = body.section;
+                                  const std::vector<double>& t, std::size_t count) {
   const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)}, down{along.z, -along.y};
   std::vector<double> own;
-  for (const Vec2 p : section.stations) own.push_back(dot(p - placed.contact, along));
+  for (const Vec2 p : body.stations) own.push_back(dot(p - placed.contact, along));
   const Matrix shares = shares_of(own, t);
   Eigen::Index first = 0, last = shares.rows() - 1;  // of the stations that count
   while (shares.row(first).isZero(0)) ++first;
   while (shares.row(last).isZero(0)) --last;
   const Eigen::Index n = last - first + 1, m = shares.cols();
-  const Matrix near = shares.middleRows(first, n);
+  const Matrix near = shares.middleRows(first, n), back = near.transpose();
   Eigen::Matrix3d axes;  // rows: the plane's in those of the section
   axes << 1, 0, 0, 0, along.y, along.z, 0, down.y, down.z;
-  std::vector<Matrix> out;
-  Matrix turned(3 * n, 3 * n);
-  for (std::size_t k = 0; k < section.k.size(); ++k) {
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j < n; ++j) {
-        const Eigen::Index row = 3 * (first + i), column = 3 * (first + j);
-        const Eigen::Matrix3d d = axes * section.at[k].block<3, 3>(row, column) * axes.transpose() -
-                                  body.half_space[k].block<3, 3>(row, column);
-        for (Eigen::Index a = 0; a < 3; ++a)
-          for (Eigen::Index b = 0; b < 3; ++b) turned(a * n + i, b * n + j) = d(a, b);
-      }
-    Matrix& at = out.emplace_back(3 * m, 3 * m);
+  std::vector<Matrix> out(count, Matrix::Zero(3 * m, 3 * m));
+  for (std::size_t k = 0; k < count; ++k)
     for (Eigen::Index a = 0; a < 3; ++a)
-      for (Eigen::Index b = 0; b < 3; ++b)
-        at.block(a * m, b * m, m, m) = near.transpose() * turned.block(a * n, b * n, n, n) * near;
-  }
-  if (body.in_full) return out;
-  Matrix last_k = out.back();  // but of the coupling of x with the others, which is odd in k
-  last_k.topRightCorner(m, 2 * m).setZero();
-  last_k.bottomLeftCorner(2 * m, m).setZero();
-  for (Matrix& rest : out) rest -= last_k;
+      for (Eigen::Index b = a; b < 3; ++b) {
+        Matrix turned = Matrix::Zero(n, n), across = Matrix::Zero(n, m);
+        const auto add = [&](double share, const Matrix& of, Eigen::Index c, Eigen::Index d) {
+          if (share != 0) add_block(turned, share, of, c * shares.rows() + first, d * shares.rows() + first);
+        };
+        add(-1, body.half_space[k], a, b);
+        for (Eigen::Index c = 0; c < 3; ++c)
+          for (Eigen::Index d = 0; d < 3; ++d) add(axes(a, c) * axes(b, d), body.own[k], c, d);
+        add_product(turned, near, across);
+        auto at = out[k].block(a * m, b * m, m, m);
+        add_product(back, across, at);
+        if (a == b) continue;
+        const bool turns_over = a == 0 && !body.in_full;  // of forces ahead; those of waves are symmetric
+        out[k].block(b * m, a * m, m, m) = (turns_over ? -1 : 1) * at.transpose();
+      }
   return out;
 }
 
 /// Of the sections that are kept on both sides of the contact.
-std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t) {
+std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t, std::size_t count) {
   std::vector<Matrix> sum;
   for (const RemainderShare& kept : placed.kept) {
-    const std::vector<Matrix> own = difference_at(placed, *kept.remainder, t);
-    sum.resize(own.size(), Matrix::Zero(own.front().rows(), own.front().cols()));
-    for (std::size_t k = 0; k < own.size(); ++k) sum[k] += kept.share * own[k];
+    const std::vector<Matrix> own = difference_at(placed, *kept.remainder, t, count);
+    sum.resize(count, Matrix::Zero(own.front().rows(), own.front().cols()));
+    for (std::size_t k = 0; k < count; ++k) sum[k] += kept.share * own[k];
   }
   return sum;
 }
@@ -108,7 +105,7 @@ Eigen::VectorXd by_rotation_at(const PlacedRemainder& placed, const std::vector<
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(t.size()));
   const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)};
   for (const RemainderShare& kept : placed.kept) {
-    const SectionCompliance& section = kept.remainder->section;
+    const SectionRemainder& section = *kept.remainder;
     std::vector<double> own;
     for (const Vec2 p : section.stations) own.push_back(dot(p - placed.contact, along));
     out += kept.share * shares_of(own, t).transpose() *
@@ -123,60 +120,90 @@ std::vector<double> rows_of(const PatchGrid& grid) {
   return out;
 }
 
-/// At other wave numbers, linear in ln k below the first.
-std::vector<Matrix> at_waves(const std::vector<Matrix>& values, const std::vector<double>& k,
-                             const std::vector<double>& wanted) {
-  std::vector<double> log;
-  for (const double at : k) log.push_back(std::log(at));
-  std::vector<Matrix> out;
-  for (const double at : wanted) {
-    const LagrangeStencil s =
-        lagrange_stencil(log.data(), static_cast<int>(log.size()), std::log(at), at < k.front() ? 2 : 4);
-    Matrix sum = Matrix::Zero(values.front().rows(), values.front().cols());
-    for (int i = 0; i < s.count; ++i) sum += s.weight[i] * values[static_cast<std::size_t>(s.first + i)];
-    out.push_back(std::move(sum));
-  }
-  return out;
+/// A kernel's own at the middle station; x couples with the others by waves that are odd in k.
+Eigen::Matrix3d in_the_middle(const Matrix& kernel) {
+  const Eigen::Index n = kernel.rows() / 3;
+  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+  for (Eigen::Index a = 0; a < 3; ++a)
+    for (Eigen::Index b = 0; b < 3; ++b)
+      if ((a == 0) == (b == 0)) own(a, b) = kernel(a * n + n / 2, b * n + n / 2);
+  return own;
+}
+
+/// Between nodes along x; x_in, x_out: how many rows, the first, are of the direction x. Seen from the other side x is
+/// the other way round.
+template <class Kernel>
+void add_offsets(const Kernel& kernel, Eigen::Index x_in, Eigen::Index x_out, Matrix& force, Matrix& u) {
+  const Eigen::Index nodes = u.cols();
+  for (Eigen::Index o = 0; o < nodes; ++o) add_product(kernel(o), force.leftCols(nodes - o), u.rightCols(nodes - o));
+  force.topRows(x_in) *= -1;
+  u.topRows(x_out) *= -1;
+  for (Eigen::Index o = 1; o < nodes; ++o) add_product(kernel(o), force.rightCols(nodes - o), u.leftCols(nodes - o));
+  u.topRows(x_out) *= -1;
+}
+
+/// Of waves, real parts on the left and imaginary ones on the right: Q = q_x/i, u_x = i U.
+template <class Kernel>
+void add_waves(const Kernel& kernel, Eigen::Index x_in, Eigen::Index x_out, Matrix& force, Matrix& u) {
+  using TwoColumns = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
+  const Eigen::Index count = u.cols() / 2;
+  const auto turn = [count](Matrix& of, Eigen::Index rows, double sign) {
+    Matrix real = of.topLeftCorner(rows, count);
+    of.topLeftCorner(rows, count) = sign * of.topRightCorner(rows, count);
+    of.topRightCorner(rows, count) = -sign * real;
+  };
+  turn(force, x_in, 1);
+  for (Eigen::Index q = 0; q < count; ++q)
+    add_product(kernel(q), TwoColumns(&force(0, q), force.rows(), 2, Eigen::OuterStride<>(count * force.rows())),
+                TwoColumns(&u(0, q), u.rows(), 2, Eigen::OuterStride<>(count * u.rows())));
+  turn(u, x_out, -1);
 }
 
 }  // namespace
 
 RowsDifference::Part RowsDifference::part_of(const PlacedRemainder& placed, const PatchGrid& grid) {
-  const SectionRemainder& body = *placed.kept.front().remainder;
-  std::vector<double> stations;
-  const std::vector<double> rows = rows_of(grid);
-  const int half = std::max(2, static_cast<int>(std::ceil(0.5 * grid.ny * grid.dy / kStationsOfRows)));
-  for (int m = -half; m <= half; ++m) stations.push_back(m * kStationsOfRows);
-  if (body.in_full) stations = rows;
+  if (placed.kept.front().remainder->in_full) return part_in_full(placed, grid);
+  const double kNode = SectionRemainder::kNode;
+  std::vector<double> stations, nodes, cells;
+  const int half = std::max(2, static_cast<int>(std::ceil(0.5 * grid.ny * grid.dy / kNode))),
+            along = SectionRemainder::nodes_along(grid);
+  for (int m = -half; m <= half; ++m) stations.push_back(m * kNode);
+  for (int m = 0; m < along; ++m) nodes.push_back(m * kNode);
+  for (int i = 0; i <= grid.nx; ++i) cells.push_back(i * grid.dx);
   Part out;
-  out.shares = shares_of(stations, rows);
-  const std::vector<double>& known = body.section.k;
-  const WaveQuadrature waves = wave_quadrature(known.front(), known.back(), (grid.nx + 1) * grid.dx);
-  out.kernel = std::make_shared<const Kernel>(at_waves(difference_at(placed, stations), known, waves.k));
+  out.shares = shares_of(stations, rows_of(grid));
+  out.of_rows = out.shares.transpose();
+  out.along = shares_of(nodes, cells).transpose();
+  out.kernel = std::make_shared<const Kernel>(difference_at(placed, stations, nodes.size()));
+  out.rigid = in_the_middle(out.kernel->front());
+  return out;
+}
+
+RowsDifference::Part RowsDifference::part_in_full(const PlacedRemainder& placed, const PatchGrid& grid) {
+  const SectionRemainder& body = *placed.kept.front().remainder;
+  const std::vector<double> rows = rows_of(grid);
+  const WaveQuadrature waves(body.k.front(), body.k.back(), (grid.nx + 1) * grid.dx);
   const auto count = static_cast<Eigen::Index>(waves.k.size());
-  out.weight.resize(count);
-  out.cosines.resize(count, grid.nx + 1);
-  out.sines.resize(count, grid.nx + 1);
+  Kernel kernel = at_waves(difference_at(placed, rows, body.k.size()), body.k, waves.k);
+  const auto smooth = std::upper_bound(waves.k.begin(), waves.k.end(), SectionRemainder::kSmoothTo) - waves.k.begin();
+  const Eigen::Matrix3d local = in_the_middle(kernel[static_cast<std::size_t>(smooth - 1)]);
+  Part out;
+  out.waves = true;
+  out.shares = out.of_rows = Matrix::Identity(grid.ny, grid.ny);
+  out.along.resize(grid.nx + 1, 2 * count);
   for (Eigen::Index q = 0; q < count; ++q) {
-    const double k = waves.k[static_cast<std::size_t>(q)], half_cell = 0.5 * k * grid.dx;
-    out.weight[q] = waves.weight[static_cast<std::size_t>(q)] * std::sin(half_cell) / (half_cell * std::numbers::pi);
+    Matrix& at = kernel[static_cast<std::size_t>(q)];
+    const double k = waves.k[static_cast<std::size_t>(q)], half_cell = 0.5 * k * grid.dx,
+                 weight =
+                     waves.weight[static_cast<std::size_t>(q)] * std::sin(half_cell) / (half_cell * std::numbers::pi);
+    if (q < smooth) out.rigid += weight * (in_the_middle(at) - local);
+    at *= weight;
     for (int i = 0; i <= grid.nx; ++i) {
-      out.cosines(q, i) = std::cos(k * i * grid.dx);
-      out.sines(q, i) = std::sin(k * i * grid.dx);
+      out.along(i, q) = std::cos(k * i * grid.dx);
+      out.along(i, count + q) = -std::sin(k * i * grid.dx);
     }
   }
-  const auto smooth = std::upper_bound(waves.k.begin(), waves.k.end(), SectionRemainder::kSmoothTo) - waves.k.begin();
-  const auto at_middle = [&](Eigen::Index q) {
-    const Matrix& kernel = (*out.kernel)[static_cast<std::size_t>(q)];
-    const Eigen::Index n = out.shares.rows();
-    Eigen::Matrix3d own = Eigen::Matrix3d::Zero();  // x couples with the others by waves that are odd in k
-    for (Eigen::Index a = 0; a < 3; ++a)
-      for (Eigen::Index b = 0; b < 3; ++b)
-        if ((a == 0) == (b == 0)) own(a, b) = kernel(a * n + n / 2, b * n + n / 2);
-    return own;
-  };
-  const Eigen::Matrix3d local = body.in_full ? at_middle(smooth - 1) : Eigen::Matrix3d::Zero();
-  for (Eigen::Index q = 0; q < smooth; ++q) out.rigid += out.weight[q] * (at_middle(q) - local);
+  out.kernel = std::make_shared<const Kernel>(std::move(kernel));
   return out;
 }
 
@@ -197,14 +224,32 @@ RowsDifference::RowsDifference(const PlacedRemainder& rail, const PlacedRemainde
   pair_[0].kernel = std::move(both);
 }
 
+void RowsDifference::keep_stations(Part& part) {
+  const Eigen::Index stations = part.shares.rows();
+  Eigen::Index first = 0, last = stations - 1;
+  while (part.shares.row(first).isZero(0)) ++first;
+  while (part.shares.row(last).isZero(0)) --last;
+  const Eigen::Index n = last - first + 1;
+  Kernel kernel(part.kernel->size(), Matrix(3 * n, 3 * n));
+  for (std::size_t o = 0; o < kernel.size(); ++o)
+    for (Eigen::Index a = 0; a < 3; ++a)
+      for (Eigen::Index b = 0; b < 3; ++b)
+        kernel[o].block(a * n, b * n, n, n) = (*part.kernel)[o].block(a * stations + first, b * stations + first, n, n);
+  part.kernel = std::make_shared<const Kernel>(std::move(kernel));
+  part.shares = Matrix(part.shares.middleRows(first, n));
+}
+
 std::shared_ptr<const RowsDifference> RowsDifference::part(int first_y, int nx, int ny) const {
   auto out = std::make_shared<RowsDifference>(*this);
   out->nx_ = nx;
   out->ny_ = ny;
   const auto cut = [&](Part& part) {
     part.shares = Matrix(part.shares.middleCols(first_y, ny));
-    part.cosines = Matrix(part.cosines.leftCols(nx + 1));
-    part.sines = Matrix(part.sines.leftCols(nx + 1));
+    if (!part.waves) keep_stations(part);
+    part.of_rows = part.shares.transpose();
+    Eigen::Index functions = part.along.cols();
+    while (part.along.topRows(nx + 1).col(functions - 1).isZero(0)) --functions;
+    part.along = Matrix(part.along.topLeftCorner(nx + 1, functions));
   };
   std::for_each(out->pair_.begin(), out->pair_.end(), cut);
   cut(out->wheel_);
@@ -223,41 +268,30 @@ void RowsDifference::add(const In& in, const Out& out, int rows) const {
 }
 
 void RowsDifference::add(const Part& part, const In& in, const Out& out, int rows) const {
-  const auto& [shares, cosines, sines, weight, kernel, rigid] = part;
-  const Eigen::Index n = shares.rows(), count = weight.size();
-  std::array<Matrix, 3> real, imaginary, u_real, u_imaginary;
+  const Eigen::Index n = part.shares.rows(), functions = part.along.cols();
+  const bool along_surface = in[0] || in[1], moves_along = out[0] || out[1];  // the normal direction stands alone
+  const Eigen::Index from = along_surface ? 0 : 2 * n, inputs = along_surface ? 2 * n : n, to = moves_along ? 0 : 2 * n,
+                     outputs = moves_along ? 2 * n : n;
+  Matrix force = Matrix::Zero(inputs, functions), u = Matrix::Zero(outputs, functions);
   for (std::size_t a = 0; a < 3; ++a) {
-    if (in[a]) {
-      const Matrix force = cell_area_ * shares * Eigen::Map<const Matrix>(in[a], ny_, nx_);
-      real[a] = force * cosines.leftCols(nx_).transpose();
-      imaginary[a] = -force * sines.leftCols(nx_).transpose();
-      if (a == 0) {  // Q = q_x/i
-        std::swap(real[a], imaginary[a]);
-        imaginary[a] *= -1;
-      }
-    }
-    if (out[a]) {
-      u_real[a] = Matrix::Zero(n, count);
-      u_imaginary[a] = Matrix::Zero(n, count);
-    }
+    if (!in[a]) continue;
+    Matrix of_cells = Matrix::Zero(n, nx_);
+    add_product(part.shares, Eigen::Map<const Matrix>(in[a], ny_, nx_), of_cells);
+    of_cells *= cell_area_;
+    add_product(of_cells, part.along.topRows(nx_), force.middleRows(static_cast<Eigen::Index>(a) * n - from, n));
   }
-  for (Eigen::Index q = 0; q < count; ++q)
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; out[a] && b < 3; ++b) {
-        if (!in[b]) continue;
-        const auto block = (*kernel)[static_cast<std::size_t>(q)].block(static_cast<Eigen::Index>(a) * n,
-                                                                        static_cast<Eigen::Index>(b) * n, n, n);
-        u_real[a].col(q) += weight[q] * (block * real[b].col(q));
-        u_imaginary[a].col(q) += weight[q] * (block * imaginary[b].col(q));
-      }
+  const auto kernel = [&](Eigen::Index i) {
+    return (*part.kernel)[static_cast<std::size_t>(i)].block(to, from, outputs, inputs);
+  };
+  if (part.waves)
+    add_waves(kernel, along_surface ? n : 0, moves_along ? n : 0, force, u);
+  else
+    add_offsets(kernel, along_surface ? n : 0, moves_along ? n : 0, force, u);
   for (std::size_t a = 0; a < 3; ++a) {
     if (!out[a]) continue;
-    if (a == 0) {  // u_x = i U
-      std::swap(u_real[a], u_imaginary[a]);
-      u_real[a] *= -1;
-    }
-    const Matrix u = u_real[a] * cosines.leftCols(rows) - u_imaginary[a] * sines.leftCols(rows);
-    Eigen::Map<Matrix>(out[a], ny_, rows) += shares.transpose() * u;
+    Matrix of_cells = Matrix::Zero(n, rows);
+    add_product(u.middleRows(static_cast<Eigen::Index>(a) * n - to, n), part.along.topRows(rows).transpose(), of_cells);
+    add_product(part.of_rows, of_cells, Eigen::Map<Matrix>(out[a], ny_, rows));
   }
 }
 

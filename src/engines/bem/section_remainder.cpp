@@ -5,6 +5,9 @@
 #include <numbers>
 #include <optional>
 
+#include "bem/wave_quadrature.hpp"
+#include "section/section_compliance.hpp"
+
 namespace railstrata {
 
 /// How fine a section is looked at: elements are as wide as its stations.
@@ -12,6 +15,7 @@ struct SectionSizes {
   MeshSizes mesh;
   double place = 0;    ///< m, arc length of the middle of the stations
   double largest = 0;  ///< 1/m, of the wave numbers
+  int offsets = 0;     ///< of a smooth one
 };
 
 namespace {
@@ -23,12 +27,15 @@ constexpr double kSmallestWave = 1;  // 1/m, of the wave numbers
 constexpr double kLogStep = 0.415;   // from one wave number to the next
 constexpr double kFinest = 0.25e-3;  // m, of stations
 
-SectionSizes smooth_sizes(double place, double half_width) {
+SectionSizes smooth_sizes(double place, const PatchGrid& grid) {
+  constexpr int kOffsets = 32;
+  const double half_width = 0.5 * grid.ny * grid.dy;
   const double farthest = (1 - kOneAlone) * kPlace,
                across = kPlace * std::ceil((half_width + kStation + farthest) / kPlace);
   return {{.element = kStation, .fine_width = 2 * across, .fine_depth = 8e-3, .coarse_ratio = 3, .largest = 12e-3},
           place,
-          SectionRemainder::kSmoothTo};
+          SectionRemainder::kSmoothTo,
+          kOffsets * static_cast<int>(std::ceil(1.0 * SectionRemainder::nodes_along(grid) / kOffsets))};
 }
 
 /// Stations as near as the rows of cells, one of them at the edge; waves down to the length of a cell.
@@ -38,7 +45,8 @@ SectionSizes sizes_in_full(double place, double edge, const PatchGrid& grid) {
   return {
       {.element = station, .fine_width = 2 * across, .fine_depth = 8 * station, .coarse_ratio = 3, .largest = 12e-3},
       edge + station * std::round((place - edge) / station),
-      2 * std::numbers::pi / std::max(grid.dx, kFinest)};
+      2 * std::numbers::pi / std::max(grid.dx, kFinest),
+      0};
 }
 
 /// Arc length of the nearest side of a layer within the reach of the stations.
@@ -61,13 +69,9 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
   const Profile& profile = wheel ? placement.wheel : placement.rail;
   const GeometrySpec& g = spec.geometry;
   const MaterialSpec& m = wheel ? spec.wheel_material : spec.rail_material;
-  std::vector<double> key{static_cast<double>(wheel),
-                          sizes.place,
-                          sizes.mesh.element,
-                          sizes.mesh.fine_width,
-                          sizes.largest,
-                          m.young,
-                          m.poisson};
+  std::vector<double> key{
+      static_cast<double>(wheel),         sizes.place, sizes.mesh.element, sizes.mesh.fine_width, sizes.largest,
+      static_cast<double>(sizes.offsets), m.young,     m.poisson};
   if (wheel) {
     const WheelSection& w = g.wheel_section;
     key.insert(key.end(), {static_cast<double>(g.wheel_shape), g.wheel_radius, w.rim_thickness, w.web_thickness,
@@ -96,6 +100,16 @@ std::vector<double> wave_numbers(double largest) {
   return k;
 }
 
+/// Index 3 m + direction as direction * stations + m.
+Eigen::MatrixXd by_direction(const Eigen::MatrixXd& by_station) {
+  const Eigen::Index n = by_station.rows() / 3;
+  Eigen::MatrixXd out(3 * n, 3 * n);
+  for (Eigen::Index a = 0; a < 3; ++a)
+    for (Eigen::Index b = 0; b < 3; ++b)
+      out.block(a * n, b * n, n, n) = by_station(Eigen::seqN(a, n, 3), Eigen::seqN(b, n, 3));
+  return out;
+}
+
 std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const Placement& placement, BodyId body,
                                                      const LayeredHalfSpace& half_space, const SectionSizes& sizes) {
   const bool wheel = body == BodyId::wheel;
@@ -105,9 +119,17 @@ std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const
   out.in_full = sizes.largest > SectionRemainder::kSmoothTo;
   const std::vector<double> k = wave_numbers(sizes.largest);
   const QuadraticSection mesh = quadratic_section(meshed.body);
-  out.section = section_compliance(mesh, section_stiffness(mesh, meshed.materials, out.radius), 1, k);
+  SectionCompliance section = section_compliance(mesh, section_stiffness(mesh, meshed.materials, out.radius), 1, k);
   out.half_space =
-      half_space_compliance(half_space, wheel, out.section.spacing, static_cast<int>(out.section.stations.size()), k);
+      half_space_compliance(half_space, wheel, section.spacing, static_cast<int>(section.stations.size()), k);
+  out.own = std::move(section.at);
+  out.stations = std::move(section.stations);
+  out.by_rotation = std::move(section.by_rotation);
+  if (out.in_full) out.k = k;
+  for (auto* of : {&out.own, &out.half_space}) {
+    for (Eigen::MatrixXd& at : *of) at = by_direction(at);
+    if (!out.in_full) *of = by_offset(std::move(*of), k, SectionRemainder::kNode, sizes.offsets);
+  }
   return std::make_shared<const SectionRemainder>(std::move(out));
 }
 
@@ -132,8 +154,7 @@ std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placem
   const bool wheel = body == BodyId::wheel;
   const Profile& profile = wheel ? placement.wheel : placement.rail;
   const double places = (wheel ? placement.contact.wheel_s : placement.contact.rail_s) / kPlace,
-               half_width = 0.5 * grid.ny * grid.dy, nearest = kPlace * std::round(places);
-  const double reach = 0.5 * smooth_sizes(nearest, half_width).mesh.fine_width;
+               nearest = kPlace * std::round(places), reach = 0.5 * smooth_sizes(nearest, grid).mesh.fine_width;
   if (const auto side = nearest_side(spec, profile, body, nearest, reach))
     return {{at(spec, placement, body, half_space, sizes_in_full(nearest, *side, grid)), 1}};
   const double before = std::floor(places);
@@ -142,7 +163,7 @@ std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placem
   for (const auto& [step, share] : {std::pair{0.0, 1 - further}, std::pair{1.0, further}}) {
     if (!(share > 0)) continue;
     const double place = std::clamp(kPlace * (before + step), profile.s_min(), profile.s_max());
-    out.push_back({at(spec, placement, body, half_space, smooth_sizes(place, half_width)), share});
+    out.push_back({at(spec, placement, body, half_space, smooth_sizes(place, grid)), share});
   }
   return out;
 }
