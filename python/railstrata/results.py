@@ -75,7 +75,7 @@ class Result:
 
     @property
     def engine(self) -> str:
-        """"fem" or "bem"."""
+        """"fem", "bem", or "sections" of half-spaces with bem.bodies = "sections"."""
         return str(self.summary["run"]["engine"])
 
     @property

@@ -187,7 +187,7 @@ class Edited(FromOutside):
     def test_an_unknown_engine_is_refused(self):
         self.edit("summary.json", '"engine": "bem"', '"engine": "abc"')
         self.refused(2, ["report", self.out], f'{self.out}/summary.json: error: the engine is "abc"',
-                     "fem and bem\n    remedy: ")
+                     "fem, bem, sections\n    remedy: ")
 
     def test_a_text_where_a_number_belongs_is_refused(self):
         summary = json.loads((self.out / "summary.json").read_text())

@@ -206,7 +206,8 @@ class Run(Page):
         self.assertGreater(len(shown), 20)
         units = {"MPa": 1e6, "mm": 1e-3, "mm²": 1e-6, "%": 1e-2, "kN": 1e3, "10⁻³": 1e-3, "1/m": 1, "µm": 1e-6,
                  "nm": 1e-9, "N m": 1, "N": 1, "K": 1, "": 1}
-        summaries, seen, barred = [summary_of(FEM), summary_of(HALF_SPACE)], {}, set()
+        summaries = [summary_of(folder) for folder in (FEM, HALF_SPACE, FEM / "sections")]
+        seen, barred = {}, set()
         for path, text, unit in shown:
             run = seen[path] = seen.get(path, -1) + 1
             value = at(summaries[run], path)

@@ -123,7 +123,8 @@ TEST(StudyFile, EveryMistakeIsToldAtOnceWithPlaceAndRemedy) {
           "13:19: mesh.largest is varied twice in this group | name a key once, in vary, zip or case",
           "14:22: mesh.end_length has 2 values and mesh.largest has 1: what is zipped goes together, value by value | "
           "give every key of [group.zip] equally many values, or put it into [group.vary]",
-          "18:11: engines: there is no engine \"bme\" | write engines = [\"fem\", \"bem\"], or one of them",
+          "18:11: engines: there is no engine \"bme\" | write engines = [\"fem\", \"bem\", \"sections\"], or some of "
+          "them",
           "19:1: figure \"figure-1\" is a trend and has no x | name the key along its axis: x = \"layer.0.thickness\"",
           "21:10: figure \"figure-1\": there is no group \"y\" | groups: x"}));
 }

@@ -10,7 +10,7 @@
 namespace railstrata {
 
 /// Cheapest first: a study computes its cases in this order.
-enum class Engine { bem, fem };
+enum class Engine { bem, sections, fem };
 
 struct EngineRow {
   Engine engine;
@@ -23,7 +23,8 @@ struct EngineRow {
 /// All engines, in the order of lists on screen.
 inline constexpr std::array kEngines{
     EngineRow{Engine::fem, "fem", "finite elements", "run", "explicit rolling of two meshed bodies"},
-    EngineRow{Engine::bem, "bem", "half-space", "bem", "layered half-spaces, no meshes"}};
+    EngineRow{Engine::bem, "bem", "half-space", "bem", "layered half-spaces, no meshes"},
+    EngineRow{Engine::sections, "sections", "sections", "bem", "rail and wheel with their sections, bem.bodies"}};
 
 constexpr const EngineRow& row_of(Engine engine) {
   for (const EngineRow& row : kEngines)
@@ -38,11 +39,6 @@ constexpr std::optional<Engine> engine_of(std::string_view word) {
   for (const EngineRow& row : kEngines)
     if (row.word == word) return row.engine;
   return {};
-}
-inline std::vector<Engine> all_engines() {
-  std::vector<Engine> out;
-  for (const EngineRow& row : kEngines) out.push_back(row.engine);
-  return out;
 }
 inline std::vector<std::string> engine_words() {
   std::vector<std::string> out;

@@ -66,7 +66,7 @@ CommandWork declare_passes(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-passes");
   sub.add_option("--engine", own->engine, "bem: stationary method on half-spaces; fem: every pass is rolled")
-      ->check(CLI::IsMember(engine_words()))
+      ->check(CLI::IsMember({engine_word(Engine::bem), engine_word(Engine::fem)}))
       ->capture_default_str();
   add_cell(sub, options);
   sub.add_option("--passes", own->passes, "End after so many passes of a wheel, since the first one")

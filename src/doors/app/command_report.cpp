@@ -60,7 +60,7 @@ bool of_passes(const std::vector<fs::path>& folders) {
 double cell_of(const ReportRun& run) {
   constexpr double kDigits = 1e9;  // of a patch file
   const ContactField& f = run.result.field;
-  if (!is_engine(run.result.engine, Engine::bem) || f.stations < 2) return BemOptions{}.cell;
+  if (is_engine(run.result.engine, Engine::fem) || f.stations < 2) return BemOptions{}.cell;
   const double between = std::abs(f.x[static_cast<std::size_t>(f.columns)] - f.x[0]);
   return std::clamp(std::round(kDigits * between) / kDigits, kSmallestCell, kLargestCell);
 }
@@ -338,7 +338,7 @@ CommandWork declare_report(CLI::App& sub, CommandOptions& options) {
   sub.add_flag("--force", options.force, "Replace the file or the folder's files that --out names");
   sub.add_flag_callback(
       "--no-reference", [own] { own->reference = false; },
-      "Do not set a finite element result against the half-space solution of its case");
+      "Do not set a finite element result against its case on half-spaces and sections");
   sub.add_flag("--what-if", own->what_if,
                "Put the explorer on the case of the first folder into the page: some 1.1 MB more");
   sub.add_flag_callback(

@@ -57,7 +57,7 @@ struct ListedCase {
 
 CaseNeed need_of(const StudyCase& c, const std::string& cell) {
   try {
-    if (c.engine == Engine::bem) {
+    if (c.engine != Engine::fem) {
       const CaseSpec& spec = c.loaded.spec;
       const HalfSpaceNeed need = half_space_need(spec, place(spec, c.loaded.folder()), cell_size(cell));
       return {need.seconds, need.memory_bytes};

@@ -15,7 +15,7 @@ namespace railstrata {
 
 struct SectionRemainder {
   static constexpr double kSmoothTo = 500;  ///< 1/m, the largest wave number of a remainder that is smooth
-  static constexpr double kNode = 3e-3;        ///< m, between nodes along x and across that stand for a smooth one
+  static constexpr double kNode = 3e-3;     ///< m, between nodes along x and across that stand for a smooth one
   /// Nodes so far apart as the stations over the cells of a grid and one more ahead.
   static int nodes_along(const PatchGrid& grid) {
     return std::max(4, static_cast<int>(std::ceil(grid.nx * grid.dx / kNode)) + 1);

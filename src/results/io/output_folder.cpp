@@ -115,14 +115,15 @@ void clear_old_results(const fs::path& folder) {
   remove_checkpoints(folder);
   std::error_code ignored;
   std::vector<fs::path> parts;
+  const auto is_reference = [](const std::string& name) { return name == kReferenceFolder || name == kSectionsFolder; };
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (const std::string name = entry.path().filename().string();
         entry.is_directory(ignored) &&
-        (name.starts_with(kPositionFolder) || name == kReferenceFolder || name == kSeriesFolder))
+        (name.starts_with(kPositionFolder) || is_reference(name) || name == kSeriesFolder))
       parts.push_back(entry.path());
   for (const auto& part : parts) {
     remove_results(part);
-    if (part.filename() == kReferenceFolder)
+    if (is_reference(part.filename().string()))
       for (const char* name : {"case.toml", "case.original.toml", "provenance.json"}) fs::remove(part / name, ignored);
     if (fs::is_empty(part, ignored)) fs::remove(part, ignored);
   }

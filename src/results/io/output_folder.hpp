@@ -10,10 +10,10 @@
 
 namespace railstrata {
 
-/// Folders within that of a result: its half-space reference, the patch during the rolling, positions before the last
-/// ("position_170mm").
-inline constexpr const char *kReferenceFolder = "half_space", *kSeriesFolder = "patch_series",
-                            *kPositionFolder = "position_";
+/// Folders within that of a result: its references on half-spaces and sections, the patch during the rolling, positions
+/// before the last ("position_170mm").
+inline constexpr const char *kReferenceFolder = "half_space", *kSectionsFolder = "sections",
+                            *kSeriesFolder = "patch_series", *kPositionFolder = "position_";
 
 // ---- the profile files of a case, kept with its results: inputs/<name>. case.toml there names them by these relative
 // paths, so that the folder can be moved and computed again when the files it was made from are gone.

@@ -113,7 +113,7 @@ void require_kinds(const nlohmann::json& summary, const fs::path& file) {
   const std::string engine = text_at(summary, "/run/engine");
   if (!engine.empty() && !engine_of(engine))
     refuse(file, fmt::format("the engine is \"{}\", which this program does not have; its engines are {}", engine,
-                             fmt::join(engine_words(), " and ")));
+                             fmt::join(engine_words(), ", ")));
 }
 
 constexpr const char* kContradicted = "summary_contradicted";

@@ -160,7 +160,7 @@ std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, 
   std::vector<Warning> out = implausible(summary, spec, r.surroundings, cell);
   for (std::size_t k = 0; k < r.further.size(); ++k) {
     Summary of_patch;
-    of_patch.run.engine = Engine::bem;
+    of_patch.run.engine = summary.run.engine;
     of_patch.contact = summary.patches.at(k + 1).contact;
     const double further = cell_of(r.further[k]) * shorter_axis(of_patch.contact.patch);
     for (Warning& w : implausible(of_patch, spec, r.further[k].surroundings, further)) add_warning(std::move(w), out);
@@ -190,7 +190,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
     s.contact.F_z = 0.0 - all.z;
   }
   if (r.interface_slip) s.interface_slip = interface_summary(*r.interface_slip);
-  s.run.engine = Engine::bem;
+  s.run.engine = spec.bem.bodies == ContactBodies::sections ? Engine::sections : Engine::bem;
   s.run.wall_s = r.effort.wall_s;
   for (const BemPatch* p : patches_of(r)) s.run.elements += static_cast<long>(p->grid.size());
   s.checks = checks(spec, r);

@@ -134,7 +134,7 @@ void add_pair(const std::vector<ReportRun>& runs, int fem, int bem, std::vector<
   if (const double h = element_size(runs[fem]); stress.judged && theirs.depth <= h) {
     stress.judged = false;
     stress.note =
-        fmt::format("not compared: the half-space's maximum is {:.2f} mm deep, within an element of {:.2f} mm",
+        fmt::format("not compared: the other engine's maximum is {:.2f} mm deep, within an element of {:.2f} mm",
                     1e3 * theirs.depth, 1e3 * h);
   }
   out.push_back(std::move(stress));
@@ -150,7 +150,7 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
   for (int i = 0; i < n; ++i) add_warnings(runs[i], i, out);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
-      if (is_engine(runs[i].result.engine, Engine::fem) && is_engine(runs[j].result.engine, Engine::bem) &&
+      if (is_engine(runs[i].result.engine, Engine::fem) && !is_engine(runs[j].result.engine, Engine::fem) &&
           differences(runs[i], runs[j]).empty())
         add_pair(runs, i, j, out);
   if (n == 2)
@@ -208,8 +208,7 @@ std::vector<ReportAnswer> run_answers(const std::vector<ReportRun>& runs) {
   for (const ReportRun& run : runs) {
     const std::string whose =
         runs.size() > 1
-            ? fmt::format("{} ({}), ", run.name,
-                          engine_title(is_engine(run.result.engine, Engine::fem) ? Engine::fem : Engine::bem))
+            ? fmt::format("{} ({}), ", run.name, engine_title(engine_of(run.result.engine).value_or(Engine::bem)))
             : "";
     if (std::optional<ReportAnswer> way = way_answer(run)) {
       way->text = whose + way->text;

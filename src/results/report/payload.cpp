@@ -481,7 +481,10 @@ Json report_payload(const Report& report) {
   out["words"] = results_reference_json();
   out["answers"] = of_each(report.answers, answer_json);
   out["checks"] = of_each(report.checks, checked_json);
-  out["runs"] = of_each(report.runs, [&](const ReportRun& run) { return run_json(run, report.runs.size() < 3); });
+  const bool one_result = std::all_of(report.runs.begin(), report.runs.end(),
+                                      [&](const ReportRun& run) { return run.name == report.runs.front().name; });
+  out["runs"] =
+      of_each(report.runs, [&](const ReportRun& run) { return run_json(run, one_result || report.runs.size() < 3); });
   out["tables"] = of_each(report.tables, table_of_texts);
   out["charts"] = of_each(report.charts, chart_json);
   out["maps"] = of_each(report.maps, maps_json);

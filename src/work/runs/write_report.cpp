@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "bem/contact_places.hpp"
@@ -24,12 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void solve_reference(const fs::path& case_file, const fs::path& folder) {
-  const LoadedCase loaded = load_case(case_file);
+void solve_reference(const LoadedCase& loaded, const fs::path& folder) {
   const Placement placement = place(loaded.spec, loaded.folder());
   const Answer answer = ask(loaded.spec, placement);
   fs::create_directories(folder);
-  write_origin(folder, loaded, {"railstrata", "bem", case_file.string(), "--out", folder.string()}, max_threads());
+  write_origin(folder, loaded, {"railstrata", "bem", loaded.file.string(), "--out", folder.string()}, max_threads());
   write_half_space_result(folder, table_origin(loaded), loaded.spec, placement, answer);
 }
 
@@ -70,36 +70,48 @@ double shear_on_elements(const fs::path& case_file) {
 
 /// For finite element runs that a half-space run stands beside.
 void add_shear_on_elements(const std::vector<fs::path>& folders, std::vector<ReportRun>& runs) {
-  const auto is_bem = [](const ReportRun& run) { return is_engine(run.result.engine, Engine::bem); };
+  const auto is_bem = [](const ReportRun& run) { return !is_engine(run.result.engine, Engine::fem); };
   if (std::none_of(runs.begin(), runs.end(), is_bem)) return;
   for (std::size_t k = 0; k < folders.size(); ++k)
     if (is_engine(runs[k].result.engine, Engine::fem))
       runs[k].shear_on_elements = shear_on_elements(folder_of_case(folders[k]) / "case.toml");
 }
 
-/// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that holds
-/// this case already. Of several positions each has the one of the run's folder. Returns the folder; empty, with a note
-/// of the reason, where the case or its profiles cannot be read any more or theory has no answer.
-fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& notes) {
+/// Solves the case of a finite element result on half-spaces and on its sections and writes both to its folders
+/// half_space/ and sections/, unless they hold this case already. Of several positions each has those of the run's
+/// folder. Returns the folders; fewer, with a note of the reason, where the case or its profiles cannot be read any
+/// more or theory has no answer; without a note where sections do not have what the case asks for.
+std::vector<fs::path> references(const fs::path& folder, std::vector<std::string>& notes) {
   const fs::path home = folder_of_case(folder);
-  fs::path out = home / kReferenceFolder;
+  std::vector<fs::path> out;
   if (!fs::exists(home / "case.toml")) {
     notes.push_back(
         fmt::format("no half-space reference: {} has no case.toml; put back the one of the run, or leave "
                     "the reference out with --no-reference",
                     home.string()));
-    return {};
-  }
-  if (fs::exists(out / "summary.json") && file_text(home / "case.toml") == file_text(out / "case.toml")) return out;
-  try {
-    solve_reference(home / "case.toml", out);
     return out;
-  } catch (const CaseError& e) {
-    notes.push_back(fmt::format("no half-space reference: {}", e.what()));
-  } catch (const NumericalError& e) {
-    notes.push_back(fmt::format("no half-space reference: {}", e.what()));
   }
-  return {};
+  for (const auto& [name, bodies] : {std::pair{kReferenceFolder, "half_spaces"}, {kSectionsFolder, "sections"}}) {
+    const fs::path beside = home / name;
+    std::optional<LoadedCase> loaded;
+    try {
+      loaded = load_case(home / "case.toml", {fmt::format("bem.bodies=\"{}\"", bodies)});
+    } catch (const CaseError& e) {
+      if (out.empty()) notes.push_back(fmt::format("no half-space reference: {}", e.what()));
+      break;
+    }
+    try {
+      const bool there =
+          fs::exists(beside / "summary.json") && file_text(beside / "case.original.toml") == loaded->source_text;
+      if (!there) solve_reference(*loaded, beside);
+      out.push_back(beside);
+    } catch (const CaseError& e) {
+      notes.push_back(fmt::format("no reference in {}: {}", name, e.what()));
+    } catch (const NumericalError& e) {
+      notes.push_back(fmt::format("no reference in {}: {}", name, e.what()));
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -137,9 +149,9 @@ WrittenPage write_report(const fs::path& page, const std::vector<fs::path>& fold
   Report report;
   for (const fs::path& folder : folders) report.runs.push_back(read_report_run(folder));
   if (reference && report.runs.size() == 1 && is_engine(report.runs[0].result.engine, Engine::fem))
-    if (const fs::path beside = half_space_reference(folders[0], notes); !beside.empty()) {
+    for (const fs::path& beside : references(folders[0], notes)) {
       report.runs.push_back(read_report_run(beside));
-      report.runs[1].name = report.runs[0].name;
+      report.runs.back().name = report.runs[0].name;
     }
   add_shear_on_elements(folders, report.runs);
   report.title = title_of(report.runs);

@@ -335,7 +335,7 @@ class StudyReader {
       else
         source_.complain_at(
             place_of(*t.get("engines")), fmt::format("engines: there is no engine \"{}\"", word),
-            fmt::format("write engines = [\"{}\"], or one of them", fmt::join(engine_words(), "\", \"")));
+            fmt::format("write engines = [\"{}\"], or some of them", fmt::join(engine_words(), "\", \"")));
     return out;
   }
 
@@ -363,7 +363,7 @@ class StudyReader {
   CaseSource& source_;
   StudySpec& spec_;
   std::filesystem::path base_;
-  std::vector<Engine> engines_{all_engines()};
+  std::vector<Engine> engines_{Engine::fem, Engine::bem};
   StudyPoint set_;
   std::set<std::string> names_;
 };

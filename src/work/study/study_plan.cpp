@@ -77,11 +77,23 @@ void add_placed(const CaseError& e, const LoadedStudy& study, const std::vector<
 /// Hash of everything that a result depends on: engine, kResultVersion, the resolved case without its title (profile
 /// files by their content), and of the half-space engine the cell size.
 std::string result_key(const LoadedCase& loaded, Engine engine, const std::string& cell) {
-  std::string text = fmt::format("{} {} {}\n", engine_word(engine), kResultVersion, engine == Engine::bem ? cell : "");
+  std::string text = fmt::format("{} {} {}\n", engine_word(engine), kResultVersion, engine == Engine::fem ? "" : cell);
   std::istringstream lines(case_by_content(loaded));
   for (std::string line; std::getline(lines, line);)
     if (!line.starts_with("title = ")) text += line + '\n';
   return sha256_of(text);
+}
+
+StudyCase by_engine(StudyCase c, Engine engine, const std::string& cell) {
+  if (engine == Engine::sections) {
+    c.overrides.emplace_back("bem.bodies=\"sections\"");
+    c.loaded = with_overrides(c.loaded, {c.overrides.back()});
+  }
+  c.chosen_as = engine;
+  c.engine = engine == Engine::bem && c.loaded.spec.bem.bodies == ContactBodies::sections ? Engine::sections : engine;
+  c.key = result_key(c.loaded, c.engine, cell);
+  c.own_folder = std::filesystem::path(c.group) / folder_name(c.name) / engine_word(c.engine);
+  return c;
 }
 
 }  // namespace
@@ -113,12 +125,7 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
         add_placed(e, study, values, texts, faults);
         continue;
       }
-      for (const Engine e : g.engines) {
-        c.engine = e;
-        c.key = result_key(c.loaded, e, study.spec.cell);
-        c.own_folder = std::filesystem::path(g.name) / folder_name(c.name) / engine_word(e);
-        out.push_back(c);
-      }
+      for (const Engine e : g.engines) out.push_back(by_engine(c, e, study.spec.cell));
     }
   }
   if (!faults.empty()) throw CaseError(std::move(faults));
@@ -149,7 +156,7 @@ std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>&
   std::vector<bool> out;
   std::set<std::string> keys;  // a case may be wanted under the name of a later twin
   for (const StudyCase& c : cases)
-    if ((!engine || c.engine == *engine) &&
+    if ((!engine || c.chosen_as == *engine) &&
         (groups.empty() || std::find(groups.begin(), groups.end(), c.group) != groups.end()))
       keys.insert(c.key);
   int n = 0;

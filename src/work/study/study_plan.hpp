@@ -17,8 +17,9 @@ inline constexpr int kResultVersion = 14;
 
 /// A case of a study by one engine.
 struct StudyCase {
-  std::string group, name;  ///< name: "thickness 0.2 mm, young_ratio 4"
-  Engine engine = Engine::fem;
+  std::string group, name;         ///< name: "thickness 0.2 mm, young_ratio 4"
+  Engine engine = Engine::fem;     ///< that gives its result
+  Engine chosen_as = Engine::fem;  ///< of the file's engines; by the case's own bem.bodies "bem" gives sections too
   std::vector<std::pair<std::string, std::string>> values;  ///< key and text of what is varied, then the group's tags
   std::vector<std::string> overrides;
   LoadedCase loaded;

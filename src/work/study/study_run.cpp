@@ -117,7 +117,7 @@ class Pool {
     const bool begun = take_over(run_.out, c, folder);
     if (!begun) make_folder(folder);
     std::unique_ptr<RunningCase> at_work =
-        c.engine == Engine::bem ? start_thread(c, settings_, folder) : start_process(c, settings_, folder, begun);
+        c.engine == Engine::fem ? start_process(c, settings_, folder, begun) : start_thread(c, settings_, folder);
     running_.push_back({&c, std::move(at_work), folder, Clock::now(), std::move(claim)});
   }
 

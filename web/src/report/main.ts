@@ -23,7 +23,7 @@ import {depthLines, kShear, maximaTable, sectionMaps} from "./stress";
 import {filmParts, transientFigures} from "./transient";
 import {hasHeights, wayPart} from "./way";
 import {hasWhatIf, whatIfPart} from "./whatif";
-import {engineName, runLabel, setWords} from "./words";
+import {engineName, isOneResult, runLabel, setWords} from "./words";
 import {yieldedPart} from "./yielded";
 
 const report = JSON.parse(document.getElementById("data")!.textContent!) as Report;
@@ -155,7 +155,7 @@ function runParts(runs: Run[]): HTMLElement[] {
   const lasts = lastsPart(runs), crack = crackPart(runs), slip = interfacePart(runs);
   const way = [...filmParts(runs), ...(history.length ? [grid(history)] : [])];
   return [
-    part("numbers", "Numbers", ...numbersTable(runs)),
+    part("numbers", "Numbers", ...numbersTable(isOneResult(report.runs) ? report.runs : runs)),
     geometryPart(runs[0]),
     patchPart(runs),
     stressPart(runs),
@@ -244,10 +244,11 @@ function contents(): [id: string, name: string][] {
 function subtitle(): HTMLElement {
   const {runs, program} = report;
   const engines = runs.map((r) => `${r.name}: ${engineName(r.engine)}`).join(" · ");
-  const position = runs.length > 0 && runs.length < 3 && runs[0].engine === "fem" ? runs[0].summary.position_m : null;
+  const ofOne = isOneResult(runs);
+  const position = (ofOne || runs.length === 2) && runs[0].engine === "fem" ? runs[0].summary.position_m : null;
   const where = position === null ? "" : `, wheel at ${numberText(1e3 * position)} mm`;
   const state = runs.length === 1 && runs[0].summary.state ? `, ${runs[0].summary.state}` : "";
-  const what = runs.length > 2 ? `${runs.length} runs` : engines;
+  const what = runs.length > 2 && !ofOne ? `${runs.length} runs` : engines;
   const told = [`${what}${where}${state}`, `RailStrata ${program}`].filter((text) => text !== "");
   return element("p", {class: "sub"}, told.join(" · "));
 }
@@ -272,7 +273,7 @@ setOrigin([
 const judgement = judged() ? [verdict(report)] : [];
 const passes = report.passes ? passesParts(report.passes) : [];
 // the pictures of a run that others or answers stand beside come with it; an answer stands before all pictures
-const few = report.runs.length < 3 && !report.tables.length;
+const few = (report.runs.length < 3 || isOneResult(report.runs)) && !report.tables.length;
 const beside = few && !report.answers?.length ? [glance, ...judgement] : [...judgement, ...(few ? [glance] : [])];
 const first = [header(), ...beside];
 const rest = few ? [] : [glance];

@@ -8,6 +8,7 @@ import {
   engineName,
   limitText,
   quantityAt,
+  isOneResult,
   runLabel,
   shownBesideLimit,
   shownQuantities,
@@ -284,15 +285,17 @@ function patchesNote(runs: Run[]): string|null {
 }
 
 export function numbersTable(runs: Run[]): HTMLElement[] {
-  const pair = runs.length === 2;
+  const differs = runs.length === 2 || isOneResult(runs);
   const rows: (string|Cell)[][] = [];
   for (const q of shownQuantities()) {
     const values = runs.map((run) => numberAt(run, q.path));
     if (values.every((v) => v === null)) continue;
-    const difference = pair ? [differenceText(q, runs.map((run) => shownAt(run, q.path)))] : [];
-    rows.push([q.name, q.unit.shown, ...runs.map((run) => numberCell(q, run)), ...difference]);
+    const difference = (run: Run) => differs ? [differenceText(q, [runs[0], run].map((r) => shownAt(r, q.path)))] : [];
+    const others = runs.slice(1).flatMap((run) => [numberCell(q, run), ...difference(run)]);
+    rows.push([q.name, q.unit.shown, numberCell(q, runs[0]), ...others]);
   }
-  const head = ["quantity", "unit", ...runs.map(runLabel), ...(pair ? ["difference"] : [])];
+  const others = runs.slice(1).flatMap((run) => [runLabel(run), ...(differs ? ["difference"] : [])]);
+  const head = ["quantity", "unit", runLabel(runs[0]), ...others];
   const barred = shownQuantities().some((q) => runs.some((run) => barOf(q, run)));
   const bars = barred
       ? "±: of half-spaces what the size of their cells leaves uncertain, of finite elements the change from one " +
@@ -312,7 +315,7 @@ function provenanceText(value: unknown): string {
 /// Cells, or elements and steps.
 function sizeText(run: Run): string {
   const elements = countText(numberAt(run, "run/elements"));
-  if (run.engine === "bem") return `${elements} cells`;
+  if (run.engine !== "fem") return `${elements} cells`;
   return `${elements} elements, ${countText(numberAt(run, "run/steps"))} steps`;
 }
 

@@ -8,6 +8,11 @@ export function engineName(engine: string): string {
   return engine === "bem" ? "half-space" : engine;
 }
 
+/// Runs of one name: a result with its references on other engines.
+export function isOneResult(runs: Run[]): boolean {
+  return runs.length > 0 && runs.every((run) => run.name === runs[0].name);
+}
+
 export function runLabel(run: Run): string { return `${run.name} (${engineName(run.engine)})`; }
 
 // The program's tables of results give names and units; set once, before anything is built.
