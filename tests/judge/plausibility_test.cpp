@@ -136,6 +136,11 @@ TEST(Plausibility, APatchThatReachesBeyondALayerIsToldWhereverItStands) {
   EXPECT_EQ(s.warnings(), Names{});
   s.around.rail_reach = 21e-3;
   EXPECT_EQ(s.warnings(), Names{"patch_wider_than_layer"});
+  s.spec.layers[0].thickness_table = {{-20e-3, 1e-3}, {20e-3, 0.5e-3}};
+  s.around.layer_change = 0.05;
+  EXPECT_EQ(s.warnings(), Names{});
+  s.around.layer_change = 0.15;
+  EXPECT_EQ(s.warnings(), Names{"layer_varies_below_patch"});
 }
 
 TEST(Plausibility, TensionThatStillRisesAtTheRimIsToldWhereItCounts) {

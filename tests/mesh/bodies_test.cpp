@@ -170,6 +170,39 @@ TEST(Layers, FillTheStripOfTheirThicknessAndWidth) {
     }
 }
 
+/// 3 mm on one half, down to nothing at y = 10 mm, on rows that follow it or on level ones.
+std::vector<LayerMesh> tapered(bool follow, double there = 0) {
+  std::vector<LayerMesh> out = one_layer(3e-3);
+  out[0].across = {{-25e-3, 3e-3}, {-5e-3, 3e-3}, {10e-3, there}};
+  out[0].rows_follow = follow;
+  return out;
+}
+
+TEST(Layers, ThatVaryAcrossFillTheSpaceBelowTheirTable) {
+  const double wanted = 20e-3 * 3e-3 + 0.5 * 15e-3 * 3e-3;
+  for (const double h : {1e-3, 0.5e-3}) {
+    const MeshSizes sizes{.element = h, .fine_width = 48e-3, .fine_depth = 5e-3};
+    EXPECT_NEAR(layer_area(rail(tapered(true), sizes)) / wanted, 1, 0.015) << h;
+    EXPECT_NEAR(layer_area(rail(tapered(false), sizes)) / wanted, 1, 0.03) << h;
+    EXPECT_NEAR(layer_area(wheel(tapered(true), sizes)) / wanted, 1, 0.04) << h;
+  }
+}
+
+TEST(Layers, AnEvenTableIsTheEvenLayer) {
+  std::vector<LayerMesh> even = one_layer(3e-3);
+  const SweptBody plain = rail(even);
+  even[0].across = {{-30e-3, 3e-3}, {30e-3, 3e-3}};
+  for (const bool follow : {true, false}) {
+    even[0].rows_follow = follow;
+    const SweptBody table = rail(even);
+    for (std::size_t b = 0; b < plain.blocks.size(); ++b) {
+      EXPECT_EQ(table.blocks[b].section.quad_material, plain.blocks[b].section.quad_material);
+      for (std::size_t n = 0; n < plain.blocks[b].section.nodes.size(); ++n)
+        EXPECT_LT(norm(table.blocks[b].section.nodes[n] - plain.blocks[b].section.nodes[n]), 1e-12);
+    }
+  }
+}
+
 TEST(Layers, StackInTheOrderGiven) {
   const SweptBody body = rail({{"hard", 0.5e-3, 0.06, 2}, {"soft", 1.5e-3, 0.06, 3}});
   EXPECT_EQ(body.materials, (std::vector<std::string>{"matrix", "hard", "soft"}));

@@ -38,6 +38,20 @@ TEST_P(RailProfiles, GiveNoPoorElementForAnySizeAndLayer) {
   }
 }
 
+/// Sections under contacts from the field side over the crown down to the gauge face.
+TEST_P(RailProfiles, GiveNoPoorElementWhereTheFineColumnsGoDownTheFlank) {
+  const Profile profile = builtin_profile(ProfileKind::rail, GetParam());
+  for (double s = -44e-3; s <= 44e-3; s += 4e-3)
+    for (const double h : {0.5e-3, 2e-3})
+      for (const double t : {0.0, 3e-3}) {
+        const MeshSizes sizes{.element = h, .fine_width = 24e-3, .fine_depth = 8e-3, .to_sides = true};
+        WorstQuality worst;
+        gather(worst, mesh_rail(profile, kTrack, rail_spec(s, t > 0 ? one_layer(t) : std::vector<LayerMesh>{}), sizes),
+               "");
+        EXPECT_GT(worst.scaled_jacobian, 0.05) << s << " " << h << " " << t << " " << worst.where;
+      }
+}
+
 TEST_P(WheelProfiles, GiveNoPoorElementForAnySizeAndLayer) {
   const Profile profile = builtin_profile(ProfileKind::wheel, GetParam());
   for (double s : {-12e-3, 0.0, 3e-3, 15e-3}) {

@@ -138,6 +138,32 @@ TEST(CaseFile, AGradedLayerHasAModulusByDepthAndItsTablesThicknessAndMean) {
             2e-3);
 }
 
+TEST(CaseFile, ALayerThatVariesAcrossHasItsTablesLargestThicknessAndEnds) {
+  const LoadedCase loaded = parse_case(
+      "[[layer]]\nyoung_ratio = 4\nthickness_table = [[\"-20 mm\", \"0 mm\"], [\"-10 mm\", \"3 mm\"], [\"35 mm\", \"2 "
+      "mm\"]]\n",
+      "a.toml");
+  const LayerSpec& layer = loaded.spec.layers.at(0);
+  EXPECT_EQ(layer.thickness, 3e-3);
+  EXPECT_EQ(layer.low(), -20e-3);
+  EXPECT_EQ(layer.high(), 35e-3);
+  EXPECT_DOUBLE_EQ(layer.thickness_at(-15e-3), 1.5e-3);
+  EXPECT_EQ(layer.thickness_at(-21e-3), 0);
+  EXPECT_EQ(layer.thickness_at(35e-3), 2e-3);
+  EXPECT_EQ(parse_case(loaded.resolved_toml, "a.toml").resolved_toml, loaded.resolved_toml);
+  EXPECT_EQ(layers_across(loaded.spec.layers, -15e-3, 0)[0].thickness, layer.thickness_at(-15e-3));
+  EXPECT_THROW(
+      parse_case("[[layer]]\nyoung_ratio = 4\nthickness_table = [[\"0 mm\", \"0 mm\"], [\"9 mm\", \"0 mm\"]]\n",
+                 "a.toml"),
+      CaseError)
+      << "a layer that is nowhere";
+  EXPECT_THROW(parse_case("[[layer]]\nyoung_ratio = 4\nthickness_table = [[\"0 mm\", \"1 mm\"], [\"9 mm\", \"1 mm\"]]\n"
+                          "[[layer]]\nyoung_ratio = 2\nfrom = \"100 mm\"\n",
+                          "a.toml"),
+               CaseError)
+      << "beside a layer that begins along the rail";
+}
+
 /// A value of every option that differs from its default and is allowed.
 void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
   struct Change {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "friction/friction_table.hpp"
 #include "geometry/body_shapes.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile.hpp"
@@ -25,7 +26,13 @@ struct LayerMesh {
   double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
   std::vector<SweepRange> unbonded = {};  ///< where it has come off what lies below it
   double unbonded_friction = 0;
+  /// Thickness over y of the body's profile; not empty: in place of the width, and `thickness` is the largest.
+  std::vector<TablePoint> across = {};
+  bool rows_follow = false;  ///< the rows of elements follow `across`; else they are level and elements take a material
   bool ends() const { return std::isfinite(from) || std::isfinite(to); }
+  double low() const { return across.empty() ? -0.5 * width : across.front().at; }
+  double high() const { return across.empty() ? 0.5 * width : across.back().at; }
+  double thickness_at(double y) const { return y > low() && y < high() ? over_table(across, y, thickness) : 0; }
 };
 
 /// Rows of elements through a layer on elements of size h.
@@ -39,6 +46,7 @@ struct MeshSizes {
       8e-3;  ///< depth of the fine cap (made deeper where the layers ask for it, at most the band that fits)
   int coarse_ratio = 3;    ///< station spacing of the rest in the fine range / h
   double largest = 12e-3;  ///< largest element edge far from the contact
+  bool to_sides = false;   ///< of a section alone: fine columns may go on from the running surface down its sides
 };
 
 /// Rail: section from its profile (head, web, foot on the base) or a rectangular block under the profile; extruded from

@@ -20,6 +20,8 @@ int layer_rows(const LayerMesh& layer, double h) {
 
 namespace {
 
+constexpr double kDepthRoundOff = 1e-9;  // m
+
 /// n rows below one of height `above`, each `ratio` times its neighbour until h is reached.
 std::vector<double> growing_heights(double above, double h, double ratio, int n) {
   std::vector<double> heights;
@@ -52,6 +54,17 @@ std::vector<double> matrix_heights(double rest, double above, double h) {
     ((sum(middle, n) > rest) == (above < h) ? high : low) = middle;
   }
   return growing_heights(above, h, 0.5 * (low + high), n);
+}
+
+bool any_varies(const std::vector<LayerMesh>& layers) {
+  return std::any_of(layers.begin(), layers.end(), [](const LayerMesh& l) { return !l.across.empty(); });
+}
+
+/// How thick the rows of a layer are together at y.
+double height_of_rows(const LayerMesh& layer, double y) {
+  constexpr double kThinnest = 1.0 / 20;  // of the largest thickness: rows stay where the layer is not
+  if (layer.across.empty() || !layer.rows_follow) return layer.thickness;
+  return std::max(over_table(layer.across, y), kThinnest * layer.thickness);
 }
 
 /// Outward direction of the column at s: the surface's normal, blended across the kinks nearby.
@@ -94,7 +107,11 @@ BandRows band_rows(const std::vector<LayerMesh>& layers, double h, double fine_d
                                 1e3 * layered, carrier, 1e3 * limit),
                     "make the layers thinner");
 
+  const bool vary = any_varies(layers);
   const double bottom = std::min(limit, std::max(fine_depth, layers.empty() ? h : layered + std::max(2 * h, above)));
+  if (bottom - layered < 0.25 * above && vary)
+    throw CaseError(fmt::format("layer too thick to vary across: the {} carries {:.2f} mm", carrier, 1e3 * limit),
+                    "make the layers thinner");
   if (bottom - layered < 0.25 * above) return rows;
   for (double height : matrix_heights(bottom - layered, above, h)) {
     rows.depth.push_back(rows.depth.back() + height);
@@ -167,11 +184,11 @@ std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerM
   std::vector<double> s;
   const double available = std::min(carrier_width, profile.y_max() - profile.y_min());
   for (const LayerMesh& layer : layers) {
-    if (layer.width > available)
+    if (layer.across.empty() && layer.width > available)
       throw CaseError(fmt::format("layer width larger than the {}: {:g} mm, the {} is {:.1f} mm wide", carrier,
                                   1e3 * layer.width, carrier, 1e3 * available),
                       "reduce the layer's width");
-    for (double y : {-0.5 * layer.width, 0.5 * layer.width})
+    for (double y : {layer.low(), layer.high()})
       if (y > profile.y_min() && y < profile.y_max()) s.push_back(profile.s_at_y(y));
   }
   return s;
@@ -186,16 +203,42 @@ Vec2 offset_point(const Profile& profile, double s, double depth) {
 int material_at(const BandRows& rows, int row, double y, const std::vector<LayerMesh>& layers) {
   assert(row >= 0 && row < rows.count() && rows.material[row] <= static_cast<int>(layers.size()));
   const int layer = rows.material[row];
-  return layer > 0 && std::abs(y) < 0.5 * layers[layer - 1].width ? layer : 0;
+  if (!any_varies(layers)) return layer > 0 && std::abs(y) < 0.5 * layers[layer - 1].width ? layer : 0;
+  const std::vector<double> depths = depths_at(rows, y, layers);
+  const double middle = 0.5 * (depths[row] + depths[row + 1]);
+  double bottom = 0;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    bottom += layers[k].thickness_at(y);
+    if (middle < bottom) return static_cast<int>(k) + 1;
+  }
+  return 0;
+}
+
+std::vector<double> depths_at(const BandRows& rows, double y, const std::vector<LayerMesh>& layers) {
+  std::vector<double> out = rows.depth;
+  if (!any_varies(layers)) return out;
+  double top = 0, own_top = 0;
+  std::size_t row = 1;
+  const auto stretch = [&](double bottom, double own_bottom) {
+    for (; row < out.size() && rows.depth[row] <= bottom + kDepthRoundOff; ++row)
+      out[row] = own_top + (rows.depth[row] - top) * (own_bottom - own_top) / (bottom - top);
+    top = bottom;
+    own_top = own_bottom;
+  };
+  for (const LayerMesh& layer : layers) stretch(top + layer.thickness, own_top + height_of_rows(layer, y));
+  stretch(rows.depth.back(), rows.depth.back());
+  return out;
 }
 
 std::vector<NodeLine> add_band(Section& section, const Profile& profile, const std::vector<double>& s,
                                const BandRows& rows, const std::vector<LayerMesh>& layers) {
   assert(s.size() >= 2 && static_cast<int>(rows.depth.size()) == rows.count() + 1);
+  std::vector<std::vector<double>> depths;
+  for (double at : s) depths.push_back(depths_at(rows, profile.at(at).position.y, layers));
   std::vector<NodeLine> grid;
-  for (double depth : rows.depth) {
+  for (std::size_t r = 0; r < rows.depth.size(); ++r) {
     std::vector<Vec2> points;
-    for (double at : s) points.push_back(offset_point(profile, at, depth));
+    for (std::size_t c = 0; c < s.size(); ++c) points.push_back(offset_point(profile, s[c], depths[c][r]));
     grid.push_back(add_nodes(section, points));
   }
   const bool material_below = profile.kind() == ProfileKind::rail;

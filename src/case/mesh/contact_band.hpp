@@ -41,7 +41,11 @@ double smallest_convex_radius(const Profile& profile, double s0, double s1);
 std::vector<double> fine_columns(double contact_s, double h, double fine_width, std::pair<double, double> range,
                                  const char* body);
 
-/// Arc lengths at which layers end (|y| = width / 2), within the profile. Throws CaseError for a layer wider than the
+/// Depths of the node rows at the lateral position y: those of `rows`, and of layers with rows that follow them moved
+/// with the layers' thickness there.
+std::vector<double> depths_at(const BandRows& rows, double y, const std::vector<LayerMesh>& layers);
+
+/// Arc lengths at which layers end, within the profile. Throws CaseError for a layer wider than the
 /// profile.
 std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerMesh>& layers, const char* carrier,
                                 double carrier_width);
@@ -53,7 +57,7 @@ Vec2 offset_point(const Profile& profile, double s, double depth);
 
 /// Adds the grid of offset points to a section: node rows from the surface down, each with one node per column.
 /// Quadrilaterals in the order of ContactBand, with the material of their row where the layer is wide enough, else
-/// matrix.
+/// matrix; of layers that vary across with that of their middle.
 std::vector<NodeLine> add_band(Section& section, const Profile& profile, const std::vector<double>& s,
                                const BandRows& rows, const std::vector<LayerMesh>& layers);
 

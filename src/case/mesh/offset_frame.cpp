@@ -139,10 +139,11 @@ FrameNodes add_offset_frame(SweptBody& body, const Profile& profile, double cont
   Section frame;
   const auto left_s = tread_columns(fine.front(), std::min(fine.front(), spec.tread_range.first), sizes, edges);
   const auto right_s = tread_columns(fine.back(), std::max(fine.back(), spec.tread_range.second), sizes, edges);
+  const auto depths = [&](double s) { return depths_at(side_rows, profile.at(s).position.y, layers); };
   const Side left = add_side(frame, profile, left_s, side_rows, layers, spec.left_top(left_s.front()),
-                             spec.left_side(side_rows.depth), true, spec.layered_ends);
+                             spec.left_side(depths(left_s.front()), left_s.front()), true, spec.layered_ends);
   const Side right = add_side(frame, profile, right_s, side_rows, layers, spec.right_top(right_s.back()),
-                              spec.right_side(side_rows.depth), false, spec.layered_ends);
+                              spec.right_side(depths(right_s.back()), right_s.back()), false, spec.layered_ends);
 
   std::vector<Vec2> middle;
   const std::vector<double> middle_s =

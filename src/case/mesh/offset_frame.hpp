@@ -41,8 +41,8 @@ struct OffsetFrameSpec {
   /// Surface beyond the tread columns, which end at s: from the section's left corner to s / from s to the right
   /// corner, s itself excluded.
   std::function<std::vector<Vec2>(double s)> left_top, right_top;
-  /// The section's sides beside the rows of the band, from its corners down: one point per row.
-  std::function<std::vector<Vec2>(const std::vector<double>&depth)> left_side, right_side;
+  /// The section's sides beside the rows of the band, which ends at s, from its corners down: one point per row.
+  std::function<std::vector<Vec2>(const std::vector<double>&depth, double s)> left_side, right_side;
   std::vector<double> floor_breaks;  ///< y at which the floor must have a node
 };
 

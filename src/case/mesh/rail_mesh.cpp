@@ -20,7 +20,9 @@ namespace railstrata {
 namespace {
 
 constexpr double kCornerAngle = std::numbers::pi / 4;
-constexpr double kFlankDepth = 22e-3;  // of the band's ends below the crown
+constexpr double kFlankDepth = 22e-3;      // of the band's ends below the crown
+constexpr double kLowFlankDepth = 30e-3;   // of a section's where the fine columns go down the flank
+constexpr double kFlankBesideFine = 4e-3;  // m, at least
 constexpr double kBandOfRadius =
     0.85;  // deepest band / smallest head radius: the columns of the corner keep a seventh of their width
 constexpr double kArcPerColumn = 0.46;  // rad, of the smallest radius
@@ -53,18 +55,34 @@ SideColumns side_columns(double to_corner, double to_end, double h, double large
   return out;
 }
 
-/// Arc length at which the flank is kFlankDepth below the crown, or the profile's end.
-double flank_end(const Profile& profile, double from, double last) {
+/// Arc length at which the flank is so deep below the crown, or the profile's end.
+double flank_end(const Profile& profile, double from, double last, double depth) {
   double shallow = from, deep = last;
-  if (profile.at(deep).position.z > -kFlankDepth) return deep;
+  if (profile.at(deep).position.z > -depth) return deep;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (shallow + deep);
-    (profile.at(middle).position.z > -kFlankDepth ? shallow : deep) = middle;
+    (profile.at(middle).position.z > -depth ? shallow : deep) = middle;
   }
   return deep;
 }
 
+/// Ends of the band on the flanks; lower where fine columns of a section ask for it.
+std::pair<double, double> flank_ends(const Profile& profile, std::pair<double, double> corners, double contact_s,
+                                     const MeshSizes& sizes) {
+  const auto ends = [&](double depth) {
+    return std::pair{flank_end(profile, corners.first, profile.s_min(), depth),
+                     flank_end(profile, corners.second, profile.s_max(), depth)};
+  };
+  std::pair<double, double> out = ends(kFlankDepth);
+  const std::pair low = ends(kLowFlankDepth);
+  const double beside = 0.5 * sizes.fine_width + kFlankBesideFine;
+  if (sizes.to_sides && contact_s - beside < out.first) out.first = low.first;
+  if (sizes.to_sides && contact_s + beside > out.second) out.second = low.second;
+  return out;
+}
+
 struct RailBand {
+  std::pair<double, double> corners;      // arc lengths
   std::vector<double> left, fine, right;  // arc lengths, each increasing
   SideColumns left_side, right_side;
   BandRows rows, side_rows;
@@ -74,10 +92,10 @@ struct RailBand {
 RailBand rail_band(const Profile& profile, const RailMeshSpec& spec, const MeshSizes& sizes) {
   RailBand band;
   const double h = sizes.element;
-  const std::pair corners = running_range(profile, kCornerAngle);
-  band.fine = fine_columns(spec.contact_s, h, sizes.fine_width, corners, "rail");
-  const double begin = flank_end(profile, corners.first, profile.s_min()),
-               end = flank_end(profile, corners.second, profile.s_max());
+  const std::pair corners = band.corners = running_range(profile, kCornerAngle);
+  const auto [begin, end] = flank_ends(profile, corners, spec.contact_s, sizes);
+  const std::pair sides{begin + kFlankBesideFine, end - kFlankBesideFine};
+  band.fine = fine_columns(spec.contact_s, h, sizes.fine_width, sizes.to_sides ? sides : corners, "rail");
   const double radius = smallest_convex_radius(profile, begin, end);
   band.rows = band_rows(spec.layers, h, sizes.fine_depth, kBandOfRadius * radius, "head");
   const double depth = band.rows.depth.back();
@@ -99,14 +117,31 @@ RailBand rail_band(const Profile& profile, const RailMeshSpec& spec, const MeshS
   return band;
 }
 
+/// The columns between the places where the head's parts meet: flank, top, fine, top, flank. A corner that fine columns
+/// pass is at the nearest of them, and a top beside them then is one column.
+std::array<std::vector<double>, 5> columns_of_parts(const RailBand& band) {
+  std::vector<double> all = band.left;
+  all.insert(all.end(), band.fine.begin() + 1, band.fine.end());
+  all.insert(all.end(), band.right.begin() + 1, band.right.end());
+  const std::size_t first = band.left.size() - 1, last = first + band.fine.size() - 1;
+  const auto nearest = [&](double s) {
+    const auto nearer = [&](double a, double b) { return std::abs(a - s) < std::abs(b - s); };
+    return first + (std::min_element(band.fine.begin(), band.fine.end(), nearer) - band.fine.begin());
+  };
+  const std::size_t left = band.corners.first > band.fine.front() ? nearest(band.corners.first)
+                                                                  : first - band.left_side.corner,
+                    right = band.corners.second < band.fine.back() ? nearest(band.corners.second)
+                                                                   : last + band.right_side.corner,
+                    from = std::max(left, first), to = std::min(right, last);
+  const auto part = [&](std::size_t a, std::size_t b) {
+    return std::vector<double>(all.begin() + a, all.begin() + b + 1);
+  };
+  return {part(0, left), part(left, from), part(from, to), part(to, right), part(right, all.size() - 1)};
+}
+
 HeadBoundary head_boundary(const Profile& profile, const RailBand& band) {
   const double depth = band.rows.depth.back();
-  const std::size_t left_corner = band.left_side.distance.size() - 1 - band.left_side.corner,
-                    right_corner = band.right_side.corner;
-  const std::vector<double> left_flank(band.left.begin(), band.left.begin() + left_corner + 1),
-      left_top(band.left.begin() + left_corner, band.left.end());
-  const std::vector<double> right_top(band.right.begin(), band.right.begin() + right_corner + 1),
-      right_flank(band.right.begin() + right_corner, band.right.end());
+  const auto [left_flank, left_top, fine, right_top, right_flank] = columns_of_parts(band);
   const auto wanted = [&](const std::vector<double>& s) { return intervals_at_depth(profile, s, depth, band.element); };
   const std::size_t flank =
       std::min({std::max<std::size_t>(2, wanted(right_flank)), left_flank.size() - 1, right_flank.size() - 1});
@@ -118,7 +153,7 @@ HeadBoundary head_boundary(const Profile& profile, const RailBand& band) {
   };
   append(left_flank, flank);
   if (left_top.size() > 1) append(left_top, wanted(left_top));
-  append(band.fine, wanted(band.fine));
+  append(fine, wanted(fine));
   if (right_top.size() > 1) append(right_top, wanted(right_top));
   append(right_flank, flank);
 
@@ -219,7 +254,7 @@ void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spe
   frame.floor = -spec.block_height;
   frame.layered_ends = true;
   const auto side = [&](double s, double y) {
-    return [&profile, s, y](const std::vector<double>& depth) {
+    return [&profile, s, y](const std::vector<double>& depth, double) {
       const ProfilePoint p = profile.at(s);
       std::vector<Vec2> line;
       for (double d : depth) line.push_back({y, p.position.z - d / p.outward.z});

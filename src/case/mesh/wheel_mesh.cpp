@@ -16,7 +16,8 @@ namespace railstrata {
 
 namespace {
 
-constexpr double kFineAngle = std::numbers::pi / 4;   // steepest place of the fine columns
+constexpr double kFineAngle = std::numbers::pi / 4;  // steepest place of the fine columns
+constexpr double kFineAngleOfSection = 80 * std::numbers::pi / 180;
 constexpr double kTreadAngle = std::numbers::pi / 6;  // steepest place of columns along the normals
 constexpr double kFlangeChord = 8e-3;                 // a third of a radian on the flange tip's arcs
 constexpr double kFarOfLargest = 1.5;  // far stations of the ring: only its smooth deformation is carried there
@@ -56,7 +57,7 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
     const std::pair range = running_range(profile, angle);
     return std::pair{std::max(range.first, profile.s_min() + end), std::min(range.second, profile.s_max() - end)};
   };
-  frame.fine_range = within(kFineAngle);
+  frame.fine_range = within(sizes.to_sides ? kFineAngleOfSection : kFineAngle);
   frame.tread_range = within(kTreadAngle);
   frame.band_limit =
       std::min(0.4 * spec.section.rim_thickness,
@@ -65,6 +66,7 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
 
   const std::pair tread = frame.tread_range;
   const double corner = left_corner(profile, tread.first);
+  frame.fine_range.first = std::max(frame.fine_range.first, corner + end);
   frame.left_top = [&profile, corner, chord](double s) {
     std::vector<Vec2> points = surface_points(profile, corner, s, chord);
     points.pop_back();
@@ -75,10 +77,12 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
     points.erase(points.begin());
     return points;
   };
-  const auto side = [&profile](double s, double profile_end, double tread_end) {
-    return [&profile, s, profile_end, tread_end](const std::vector<double>& depth) {
-      const double z = std::max(profile.at(profile_end).position.z + 0.75 * depth.back(),
-                                offset_point(profile, tread_end, depth.back()).z);
+  const double flange = running_range(profile, kFineAngle).first;
+  const auto side = [&profile, flange](double s, double profile_end, double tread_end) {
+    return [&profile, flange, s, profile_end, tread_end](const std::vector<double>& depth, double band_end) {
+      const double below = depth.back(), end_z = profile.at(profile_end).position.z;
+      const double z = band_end < flange ? std::max(end_z, offset_point(profile, band_end, below).z)
+                                         : std::max(end_z + 0.75 * below, offset_point(profile, tread_end, below).z);
       return side_points(profile, s, profile_end, z, depth.size());
     };
   };

@@ -40,11 +40,13 @@ double width_of(const CaseSpec& spec, const LayerSpec& l) {
 }
 
 LayerMesh mesh_of(const CaseSpec& spec, const LayerSpec& l) {
-  LayerMesh out{l.name, l.thickness, width_of(spec, l), l.elements};
+  LayerMesh out{l.name, l.varies_across() ? largest_value(l.thickness_table) : l.thickness, width_of(spec, l),
+                l.elements};
   out.from = l.begin();
   out.to = l.end();
   for (const UnbondedStretch& s : l.unbonded) out.unbonded.push_back({s.from, s.to});
   out.unbonded_friction = l.unbonded_friction;
+  out.across = l.thickness_table;
   return out;
 }
 
@@ -329,11 +331,31 @@ double Model::likely_end(double position) const {
   return x_end;
 }
 
+std::vector<LayerSpec> layers_at_contact(const CaseSpec& spec, const Placement& placement) {
+  const auto y_of = [&](const Profile& profile, double s) {
+    if (spec.bem.bodies == ContactBodies::sections) s = kSectionPlace * std::round(s / kSectionPlace);
+    return profile.at(std::clamp(s, profile.s_min(), profile.s_max())).position.y;
+  };
+  const RigidContact& contact = placement.contact;
+  return layers_across(spec.layers, y_of(placement.rail, contact.rail_s), y_of(placement.wheel, contact.wheel_s));
+}
+
+CaseSpec case_at_contact(CaseSpec spec, const Placement& placement) {
+  spec.layers = layers_at_contact(spec, placement);
+  std::erase_if(spec.layers, [](const LayerSpec& layer) { return !(layer.thickness > 0); });
+  return spec;
+}
+
 MeshedSection meshed_section(const CaseSpec& spec, const Placement& placement, BodyId body, double contact_s,
                              const MeshSizes& sizes) {
   CaseSpec own = spec;
   own.mesh.element_size = sizes.element;
   for (LayerSpec& layer : own.layers) layer.elements = 0;
+  const auto layers = [&] {
+    std::vector<LayerMesh> meshes = layer_meshes(own, body);
+    for (LayerMesh& layer : meshes) layer.rows_follow = true;
+    return meshes;
+  };
   const GeometrySpec& g = spec.geometry;
   MeshedSection out;
   if (body == BodyId::rail) {
@@ -344,7 +366,7 @@ MeshedSection meshed_section(const CaseSpec& spec, const Placement& placement, B
     rail.x_end = sizes.element;
     rail.block_width = g.block_width;
     rail.block_height = g.block_height;
-    rail.layers = layer_meshes(own, body);
+    rail.layers = layers();
     out = {mesh_rail(placement.rail, placement.track, rail, sizes), materials_of(own, body, spec.rail_material)};
   } else {
     WheelMeshSpec wheel;
@@ -352,7 +374,7 @@ MeshedSection meshed_section(const CaseSpec& spec, const Placement& placement, B
     wheel.contact_s = contact_s;
     wheel.theta_end = sizes.element / g.wheel_radius;
     wheel.section = g.wheel_section;
-    wheel.layers = layer_meshes(own, body);
+    wheel.layers = layers();
     out = {mesh_wheel(placement.wheel, g.wheel_radius, {}, wheel, sizes), materials_of(own, body, spec.wheel_material)};
   }
   require_sound_mesh(out.body, body, spec);
@@ -414,6 +436,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, con
   m.wheel =
       mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);
   add_stretches(m);
+  m.spec.layers = layers_at_contact(spec, m.placement);
   for (const BodyId id : kBodies) require_sound_mesh(id == BodyId::rail ? m.rail : m.wheel, id, spec);
   return m;
 }

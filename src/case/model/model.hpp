@@ -73,6 +73,14 @@ struct Model {
   Vec2 wheel_section_normal(double s) const { return placement.wheel.at(s).outward; }
 };
 
+/// m, along the running surface, from one place of which a section is kept to the next.
+inline constexpr double kSectionPlace = 4e-3;
+
+/// The layers as thick as they are across at the contact, of sections at the nearest kept place; of a case only those
+/// that are there.
+std::vector<LayerSpec> layers_at_contact(const CaseSpec& spec, const Placement& placement);
+CaseSpec case_at_contact(CaseSpec spec, const Placement& placement);
+
 /// A body's mesh over a short way, for its section alone, and its materials as Model has them. Layers have as many rows
 /// as the sizes ask for. contact_s: arc length of the middle of the fine columns. Throws CaseError as build_model.
 struct MeshedSection {

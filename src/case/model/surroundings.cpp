@@ -99,11 +99,26 @@ void measure_edges(const CaseSpec& spec, const PlacedProfile& rail, const Placed
     if (const double y = 0.5 * direction * spec.geometry.block_width; spec.geometry.rail_shape == RailShape::block)
       nearest.offer(lateral(rail, y), direction, "the side of the block", y);
     for (const LayerSpec& layer : spec.layers) {
-      const double y = 0.5 * direction * layer.width;
+      const double y = direction > 0 ? layer.high() : layer.low();
+      if (!(layer.thickness_at(y) > 0)) continue;  // it has run out
       nearest.offer(lateral(layer.on == BodyId::rail ? rail : wheel, y), direction,
                     fmt::format("the edge of the {}'s layer \"{}\"", body_word(layer.on), layer.name), y);
     }
   }
+}
+
+/// PatchSurroundings::layer_change of one layer.
+double change_of(const LayerSpec& layer, const PlacedProfile& body, const SolvedPatch& patch) {
+  if (!layer.varies_across()) return 0;
+  constexpr int kPieces = 64;
+  double least = HUGE_VAL, most = 0;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double s = body.clamped(body.contact_s + patch.low + (patch.high - patch.low) * i / kPieces),
+                 thickness = layer.thickness_at(body.profile.at(s).position.y);
+    least = std::min(least, thickness);
+    most = std::max(most, thickness);
+  }
+  return (most - least) / largest_value(layer.thickness_table);
 }
 
 std::optional<FlangePlace> flange_place(const Placement& p) {
@@ -156,6 +171,8 @@ PatchSurroundings patch_surroundings(const CaseSpec& spec, const Placement& p, c
   out.curvature_rolling =
       std::max(std::cos(c.angle - c.roll) / c.rolling_radius, std::cos(c.angle) * std::abs(c.rail_turn));
   out.flange = flange_place(p);
+  for (const LayerSpec& layer : spec.layers)
+    out.layer_change = std::max(out.layer_change, change_of(layer, layer.on == BodyId::rail ? rail : wheel, patch));
   const auto locate = [&](const PlacedProfile& body, double& y, double& reach) {
     const ProfilePoint contact = body.profile.at(body.contact_s);
     y = contact.position.y;

@@ -50,6 +50,7 @@ struct PatchSurroundings {
   double bent_by_others = 0;       ///< curvature that the wheel's other patches give the surfaces, of the contact's
   double rail_y = 0, wheel_y = 0;  ///< m, the rigid contact point in each profile's own frame
   double rail_reach = 0, wheel_reach = 0;  ///< m, largest |y| of the patch in each profile's own frame
+  double layer_change = 0;  ///< largest difference of a layer's thickness below the patch, of its largest thickness
 };
 
 /// A body ends where its profile ends or has turned away from the contact plane by 45 degrees, a block also at its

@@ -14,7 +14,7 @@ ThermalBody thermal_body(const CaseSpec& spec, BodyId body) {
   ThermalBody out;
   out.base = thermal(body == BodyId::rail ? spec.rail_material : spec.wheel_material);
   for (const LayerSpec& layer : spec.layers)
-    if (layer.on == body) {
+    if (layer.on == body && layer.thickness > 0) {
       if (out.layer_thickness > 0) {
         out.deeper.push_back(thermal(layer.material));
         continue;

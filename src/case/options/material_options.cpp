@@ -229,6 +229,9 @@ bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(i
 bool ends(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).ends(); }
 bool unbonded(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).unbonded.empty(); }
 bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).graded(); }
+bool varies_across(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).varies_across(); }
+bool even_across(const CaseSpec& spec, std::size_t index) { return !varies_across(spec, index); }
+bool has_thickness(const CaseSpec& spec, std::size_t index) { return uniform(spec, index) && even_across(spec, index); }
 
 // Thickness, Poisson's ratio and the ratio of moduli: what tests/bem/layer_range_test.cpp and
 // tests/halfspace/layered_test.cpp hold against closed forms. The modulus leaves room for every ratio of steel's.
@@ -270,6 +273,17 @@ std::vector<Option> layer_modulus_options() {
                          R"([["0 mm", "420 GPa"], ["3 mm", "210 GPa"]])")};
 }
 
+Option thickness_table_option() {
+  return option("thickness_table", layer<&L::thickness_table>,
+                "Thickness as a function of lateral position, in place of thickness and width: rows of the body "
+                "profile's y and the thickness, linear between rows. Outside the rows the layer is absent; where it is "
+                "thinner, the material below fills the space")
+      .where(varies_across)
+      .with_rows(RowForm::by_value,
+                 {column("y", "", kLength, {-0.2, 0.2}), column("thickness", "", kLength, {0, kLayerThickness.max})},
+                 R"([["-20 mm", "0 mm"], ["-10 mm", "3 mm"], ["35 mm", "3 mm"]])");
+}
+
 }  // namespace
 
 OptionTable layer_table() {
@@ -285,10 +299,11 @@ OptionTable layer_table() {
        option("thickness", layer<&L::thickness>,
               "Thickness along the surface normal; with young_table it is the table's last depth", kLength,
               kLayerThickness)
-           .where(uniform)
+           .where(has_thickness)
            .with_remedy(kBeyondThickness),
-       option("width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength,
-              {kMilli, 0.2}),
+       option("width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength, {kMilli, 0.2})
+           .where(even_across),
+       thickness_table_option(),
        option("poisson", layer<&L::material, &M::poisson>, "Poisson's ratio", kNumber, kPoisson)
            .with_remedy(kBeyondPoisson),
        option("density", layer<&L::material, &M::density>, "Mass density", kDensity, kDensityRange),

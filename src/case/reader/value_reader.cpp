@@ -150,6 +150,7 @@ class ValueReader {
     if (!sound || (!named && !fits(w.option, w.key, rows))) return;
     target.set(rows);
     if (w.option.key == "young_table") take_moduli(w.key, spec_.layers.at(w.index));
+    if (w.option.key == "thickness_table") take_thickness(w.key, spec_.layers.at(w.index));
   }
 
   /// Numbers under the keys of the columns, every one.
@@ -241,12 +242,25 @@ class ValueReader {
     return true;
   }
 
+  static const Option& thickness_option() {
+    const OptionTable& table = *find_table("layer");
+    return *std::find_if(table.options.begin(), table.options.end(),
+                         [](const Option& o) { return o.key == "thickness"; });
+  }
+
+  void take_thickness(const std::string& key, LayerSpec& layer) {
+    const Option& thickness = thickness_option();
+    layer.thickness = largest_value(layer.thickness_table);
+    if (!thickness.range.holds(layer.thickness))
+      source_.complain(
+          key, fmt::format("{}: its largest thickness must be {}", key, describe(thickness.range, thickness.dimension)),
+          std::string(thickness.beyond));
+  }
+
   /// A graded layer takes its thickness and its mean stiffness from its table.
   void take_moduli(const std::string& key, LayerSpec& layer) {
     const std::vector<ModulusPoint>& rows = layer.young_table;
-    const OptionTable& table = *find_table("layer");
-    const auto thickness =
-        std::find_if(table.options.begin(), table.options.end(), [](const Option& o) { return o.key == "thickness"; });
+    const Option* thickness = &thickness_option();
     if (!thickness->range.holds(rows.back().depth))
       return source_.complain(fmt::format("{}.{}", key, rows.size() - 1),
                               fmt::format("{}: the last depth, the layer's thickness, must be {}", key,

@@ -119,6 +119,17 @@ void check_widths(const CaseSpec& spec, BodyId body, CaseSource& source) {
           "give all of them one width");
 }
 
+/// Beside a layer that varies across the others of its body are the same all along.
+void check_varying(const CaseSpec& spec, std::size_t i, CaseSource& source) {
+  const LayerSpec& layer = spec.layers[i];
+  for (std::size_t k = 0; layer.varies_across() && k < spec.layers.size(); ++k)
+    if (k != i && spec.layers[k].on == layer.on && spec.layers[k].changes_along())
+      return source.complain(key_of(i, "thickness_table"),
+                             fmt::format("{}: layer.{} changes along the {}; both at once are not meshed",
+                                         key_of(i, "thickness_table"), k, body_word(layer.on)),
+                             "give layer.thickness, or layers that are the same all along");
+}
+
 void check_stretch(const StretchSpec& stretch, std::size_t i, CaseSource& source) {
   const std::string key = fmt::format("stretch.{}.along", i);
   if (source.sound({key}) && stretch.along.empty())
@@ -134,6 +145,7 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
     check_ends(spec, i, source);
     check_unbonded(spec, i, source);
     check_interface(spec, i, source);
+    check_varying(spec, i, source);
   }
   check_sliding(spec, source);
   for (const BodyId body : kBodies) check_widths(spec, body, source);

@@ -34,4 +34,9 @@ std::vector<LayerSpec> layers_at(const std::vector<LayerSpec>& layers, double x)
   return out;
 }
 
+std::vector<LayerSpec> layers_across(std::vector<LayerSpec> layers, double rail_y, double wheel_y) {
+  for (LayerSpec& layer : layers) layer.thickness = layer.thickness_at(layer.on == BodyId::rail ? rail_y : wheel_y);
+  return layers;
+}
+
 }  // namespace railstrata

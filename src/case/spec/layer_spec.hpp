@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/body_id.hpp"
+#include "friction/friction_table.hpp"
 #include "spec/strength_spec.hpp"
 
 namespace railstrata {
@@ -42,6 +43,9 @@ struct LayerSpec {
   BodyId on = BodyId::rail;
   double thickness = 1e-3;  ///< of a graded layer: its table's last depth
   double width = 0.060;
+  /// Thickness over y of the body's profile [m], in place of thickness, which is then the table's largest or that at a
+  /// contact (layers_across), and of width: outside its rows there is no layer. Empty: uniform.
+  std::vector<TablePoint> thickness_table;
   MaterialSpec material;                  ///< young of a graded layer: the mean over its depth
   std::vector<ModulusPoint> young_table;  ///< a modulus that varies with depth, from 0 down; empty: uniform
   int elements = 0;                       ///< through the thickness; 0 = chosen
@@ -55,6 +59,14 @@ struct LayerSpec {
   /// Pa, and of its pressure: shear at which it slides, the two together; neither given: at none.
   std::optional<double> interface_shear_limit, interface_friction;
   bool graded() const { return !young_table.empty(); }
+  bool varies_across() const { return !thickness_table.empty(); }
+  /// m, y of the body's profile where the layer ends.
+  double low() const { return varies_across() ? thickness_table.front().at : -0.5 * width; }
+  double high() const { return varies_across() ? thickness_table.back().at : 0.5 * width; }
+  double thickness_at(double y) const {
+    if (!varies_across()) return thickness;
+    return y < low() || y > high() ? 0 : over_table(thickness_table, y);
+  }
   bool ends() const { return from || to; }
   bool slides() const { return interface_shear_limit || interface_friction; }
   bool changes_along() const { return ends() || !unbonded.empty(); }
@@ -67,6 +79,8 @@ struct LayerSpec {
 std::vector<double> layer_tops(const std::vector<LayerSpec>& layers);
 /// The layers there are at a place along the rail, endless and as thick as they are there, without their tapers.
 std::vector<LayerSpec> layers_at(const std::vector<LayerSpec>& layers, double x);
+/// The same layers, with thickness that at this place across each body.
+std::vector<LayerSpec> layers_across(std::vector<LayerSpec> layers, double rail_y, double wheel_y);
 
 /// Factors at a place along the rail; linear between two of them.
 struct StretchPoint {

@@ -26,6 +26,24 @@ struct RowFault {
   std::string message, remedy;
 };
 
+template <class Value>
+void take(const std::optional<double>& given, Value& value) {
+  if (given) value = *given;
+}
+
+DriveSpec drive_with(DriveSpec drive, const LoadSpec& load) {
+  take(load.speed, drive.speed);
+  take(load.friction_coefficient, drive.friction_coefficient);
+  if (load.traction_coefficient) drive.creepage.reset();
+  take(load.traction_coefficient, drive.traction_coefficient);
+  take(load.creepage, drive.creepage);
+  if (load.lateral_traction_coefficient) drive.lateral_creepage.reset();
+  if (load.lateral_creepage) drive.lateral_traction_coefficient.reset();
+  take(load.lateral_traction_coefficient, drive.lateral_traction_coefficient);
+  take(load.lateral_creepage, drive.lateral_creepage);
+  return drive;
+}
+
 std::optional<RowFault> fault_of(const CaseSpec& spec, const LoadSpec& load) {
   constexpr double kTightest = 5;  // m
   if (load.curve_radius && !(std::abs(*load.curve_radius) >= kTightest))
@@ -34,7 +52,7 @@ std::optional<RowFault> fault_of(const CaseSpec& spec, const LoadSpec& load) {
                                 format_quantity(*load.curve_radius, dimension::kLength),
                                 format_quantity(kTightest, dimension::kLength)),
                     "leave it out where the case's track is meant"};
-  const DriveSpec d = with_load(spec, load).drive;
+  const DriveSpec d = drive_with(spec.drive, load);
   const double wanted = std::hypot(d.traction().value_or(0), d.lateral_traction_coefficient.value_or(0));
   if (wanted > 0 && wanted >= d.friction_coefficient)
     return RowFault{load.friction_coefficient ? "friction_coefficient" : "traction_coefficient",
@@ -47,11 +65,6 @@ std::optional<RowFault> fault_of(const CaseSpec& spec, const LoadSpec& load) {
                                 d.friction_coefficient, *spec.friction.kinetic_coefficient),
                     "friction falls with slip: raise the row's"};
   return std::nullopt;
-}
-
-template <class Value>
-void take(const std::optional<double>& given, Value& value) {
-  if (given) value = *given;
 }
 
 void put(const UnitTable::Cell& cell, const Option& option, CaseSpec& spec, std::size_t index) {
@@ -81,15 +94,7 @@ CaseSpec with_load(const CaseSpec& spec, const LoadSpec& load) {
   take(load.yaw, out.geometry.yaw);
   take(load.roll, out.geometry.roll);
   take(load.curve_radius, out.geometry.curve_radius);
-  take(load.speed, out.drive.speed);
-  take(load.friction_coefficient, out.drive.friction_coefficient);
-  if (load.traction_coefficient) out.drive.creepage.reset();
-  take(load.traction_coefficient, out.drive.traction_coefficient);
-  take(load.creepage, out.drive.creepage);
-  if (load.lateral_traction_coefficient) out.drive.lateral_creepage.reset();
-  if (load.lateral_creepage) out.drive.lateral_traction_coefficient.reset();
-  take(load.lateral_traction_coefficient, out.drive.lateral_traction_coefficient);
-  take(load.lateral_creepage, out.drive.lateral_creepage);
+  out.drive = drive_with(out.drive, load);
   return out;
 }
 

@@ -78,8 +78,11 @@ void print_layers(const CaseSpec& spec) {
         fmt::format("{}{}{}", l.from ? fmt::format(", from {:g} mm", 1e3 * *l.from) : "",
                     l.to ? fmt::format(", to {:g} mm", 1e3 * *l.to) : "",
                     l.taper_length > 0 ? fmt::format(", tapered over {:g} mm", 1e3 * l.taper_length) : "");
-    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa{}\n", l.name, body_word(l.on),
-               1e3 * l.thickness, 1e3 * l.width, young, along);
+    const std::string across = l.varies_across()
+                                   ? fmt::format("up to {:.3g} mm thick from y = {:.3g} to {:.3g} mm",
+                                                 1e3 * largest_value(l.thickness_table), 1e3 * l.low(), 1e3 * l.high())
+                                   : fmt::format("{:.3g} mm thick, {:.3g} mm wide", 1e3 * l.thickness, 1e3 * l.width);
+    fmt::print("layer          {} on the {}: {}, E = {} GPa{}\n", l.name, body_word(l.on), across, young, along);
   }
 }
 

@@ -115,7 +115,8 @@ Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidConta
   return slip;
 }
 
-CasePatch bodies_of(const CaseSpec& spec) {
+CasePatch bodies_of(const CaseSpec& any_place, const Placement& placement) {
+  const CaseSpec spec = case_at_contact(any_place, placement);
   CasePatch patch;
   patch.wheel = layered_body(spec, BodyId::wheel);
   patch.rail = layered_body(spec, BodyId::rail);
@@ -177,7 +178,7 @@ PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const Bem
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
   LayeredHalfSpace out{{}, half_space(body == BodyId::wheel ? spec.wheel_material : spec.rail_material)};
   for (const LayerSpec& layer : spec.layers) {
-    if (layer.on != body) continue;
+    if (layer.on != body || !(layer.thickness > 0)) continue;
     const auto give = [](const std::optional<double>& stiffness) { return stiffness ? 1 / *stiffness : 0.0; };
     const Bond bond{give(layer.interface_normal_stiffness), give(layer.interface_shear_stiffness)};
     if (!layer.graded()) {
@@ -274,7 +275,7 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   if (const std::string note = note_of_instability(spec, estimate); !note.empty()) patch.notes.push_back(note);
   if (!spec.friction.lateral_table.empty()) contact.local_friction = friction_across(spec, placement, patch);
   contact.lateral_share = lateral_friction_share(spec);
-  fill_heat(spec, patch, estimate);
+  fill_heat(case_at_contact(spec, placement), patch, estimate);
   contact.speed = spec.drive.speed;
   if (!patch.influence->stretches()) return;
   const Plane stretch = patch.influence->stretch_by_rotation(contact.speed);
@@ -287,7 +288,7 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                           const NormalTarget& target, const PatchRoom& room) {
-  CasePatch patch = bodies_of(spec);
+  CasePatch patch = bodies_of(spec, placement);
   patch.grid = first_grid(spec, placement, options, target, room);
   InfluenceCache own;
   InfluenceCache& cache = options.cache ? *options.cache : own;
@@ -300,7 +301,7 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
 
 CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement,
                         const BemOptions& options, const NormalTarget& target, const PatchRoom& room) {
-  CasePatch patch = bodies_of(spec);
+  CasePatch patch = bodies_of(spec, placement);
   patch.grid = grid;
   InfluenceCache own;
   gap_and_influence(spec, placement, options, spec.bem.bodies, options.cache ? *options.cache : own, patch);

@@ -20,8 +20,8 @@ struct SectionSizes {
 
 namespace {
 
-constexpr double kStation = 2e-3;    // m, from one to the next of a smooth difference
-constexpr double kPlace = 4e-3;      // m, from the middle of a kept section to the next
+constexpr double kStation = 2e-3;  // m, from one to the next of a smooth difference
+constexpr double kPlace = kSectionPlace;
 constexpr double kOneAlone = 0.25;   // of kPlace: so far on both sides of its middle a section is alone
 constexpr double kSmallestWave = 1;  // 1/m, of the wave numbers
 constexpr double kLogStep = 0.415;   // from one wave number to the next
@@ -32,7 +32,12 @@ SectionSizes smooth_sizes(double place, const PatchGrid& grid) {
   const double half_width = 0.5 * grid.ny * grid.dy;
   const double farthest = (1 - kOneAlone) * kPlace,
                across = kPlace * std::ceil((half_width + kStation + farthest) / kPlace);
-  return {{.element = kStation, .fine_width = 2 * across, .fine_depth = 8e-3, .coarse_ratio = 3, .largest = 12e-3},
+  return {{.element = kStation,
+           .fine_width = 2 * across,
+           .fine_depth = 8e-3,
+           .coarse_ratio = 3,
+           .largest = 12e-3,
+           .to_sides = true},
           place,
           SectionRemainder::kSmoothTo,
           kOffsets * static_cast<int>(std::ceil(1.0 * SectionRemainder::nodes_along(grid) / kOffsets))};
@@ -42,28 +47,47 @@ SectionSizes smooth_sizes(double place, const PatchGrid& grid) {
 SectionSizes sizes_in_full(double place, double edge, const PatchGrid& grid) {
   const double station = std::max(grid.dy, kFinest);
   const double across = station * std::ceil((0.5 * grid.ny * grid.dy + 2 * station + 0.5 * kPlace) / station);
-  return {
-      {.element = station, .fine_width = 2 * across, .fine_depth = 8 * station, .coarse_ratio = 3, .largest = 12e-3},
-      edge + station * std::round((place - edge) / station),
-      2 * std::numbers::pi / std::max(grid.dx, kFinest),
-      0};
+  return {{.element = station,
+           .fine_width = 2 * across,
+           .fine_depth = 8 * station,
+           .coarse_ratio = 3,
+           .largest = 12e-3,
+           .to_sides = true},
+          edge + station * std::round((place - edge) / station),
+          2 * std::numbers::pi / std::max(grid.dx, kFinest),
+          0};
 }
 
-/// Arc length of the nearest side of a layer within the reach of the stations.
+/// Does the layer's thickness vary between these places of the profile?
+bool varies_between(const LayerSpec& layer, double y0, double y1) {
+  const double first = over_table(layer.thickness_table, y0);
+  const auto other = [&](const TablePoint& p) { return p.at > y0 && p.at < y1 && p.value != first; };
+  return over_table(layer.thickness_table, y1) != first ||
+         std::any_of(layer.thickness_table.begin(), layer.thickness_table.end(), other);
+}
+
+/// Arc length of the nearest side of a layer within the reach of the stations; the place itself where none is but the
+/// thickness of a layer varies below them.
 std::optional<double> nearest_side(const CaseSpec& spec, const Profile& profile, BodyId body, double place,
                                    double reach) {
   std::optional<double> nearest;
-  for (const LayerSpec& layer : spec.layers)
-    for (const double y : {-0.5 * layer.width, 0.5 * layer.width}) {
-      if (layer.on != body || y <= profile.y_min() || y >= profile.y_max()) continue;
+  bool varies = false;
+  const auto y_at = [&](double s) { return profile.at(std::clamp(s, profile.s_min(), profile.s_max())).position.y; };
+  for (const LayerSpec& layer : spec.layers) {
+    if (layer.on != body) continue;
+    varies = varies || varies_between(layer, y_at(place - reach), y_at(place + reach));
+    for (const double y : {layer.low(), layer.high()}) {
+      if (y <= profile.y_min() || y >= profile.y_max()) continue;
       const double s = profile.s_at_y(y), distance = std::abs(s - place);
       if (distance < (nearest ? std::abs(*nearest - place) : reach)) nearest = s;
     }
-  return nearest;
+  }
+  return nearest || !varies ? nearest : place;
 }
 
 /// What the section depends on: the case's numbers, and the profile by its points.
-std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, BodyId body, const SectionSizes& sizes) {
+std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, BodyId body,
+                           const LayeredHalfSpace& half_space, const SectionSizes& sizes) {
   constexpr int kPoints = 400;
   const bool wheel = body == BodyId::wheel;
   const Profile& profile = wheel ? placement.wheel : placement.rail;
@@ -80,10 +104,12 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
     key.insert(key.end(), {static_cast<double>(g.rail_shape), static_cast<double>(section_below_head(g, profile)),
                            g.cant, g.block_width, g.block_height});
   }
+  for (const HalfSpaceLayer& layer : half_space.layers) key.push_back(layer.thickness);
   for (const LayerSpec& layer : spec.layers) {
     if (layer.on != body) continue;
     key.insert(key.end(), {layer.thickness, layer.width, layer.material.young, layer.material.poisson});
     for (const ModulusPoint& point : layer.young_table) key.insert(key.end(), {point.depth, point.young});
+    for (const TablePoint& point : layer.thickness_table) key.insert(key.end(), {point.at, point.value});
   }
   for (int i = 0; i <= kPoints; ++i) {
     const double s = profile.s_min() + (profile.s_max() - profile.s_min()) * i / kPoints;
@@ -139,7 +165,7 @@ std::shared_ptr<const SectionRemainder> SectionStore::at(const CaseSpec& spec, c
                                                          const LayeredHalfSpace& half_space,
                                                          const SectionSizes& sizes) {
   constexpr std::size_t kEntries = 64;
-  std::vector<double> key = key_of(spec, placement, body, sizes);
+  std::vector<double> key = key_of(spec, placement, body, half_space, sizes);
   const std::lock_guard lock(mutex_);
   for (const Entry& entry : entries_)
     if (entry.key == key) return entry.remainder;

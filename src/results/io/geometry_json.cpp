@@ -32,13 +32,13 @@ std::vector<ProfilePoint> outline(const Profile& profile, double contact_s, doub
   return out;
 }
 
-/// Points of a profile, `depth` below its surface, in the model frame; `half_width`: of the profile's own y.
-template <class ToModel>
-Json curve(const Profile& profile, double contact_s, double depth, double half_width, ToModel&& to_model) {
+/// Points of a profile, below its surface by a depth at their own y, in the model frame; low … high: of the own y.
+template <class ToModel, class Depth>
+Json curve(const Profile& profile, double contact_s, double low, double high, Depth&& depth, ToModel&& to_model) {
   Json points = Json::array();
   for (const ProfilePoint& p : outline(profile, contact_s, kSpacing)) {
-    if (std::abs(p.position.y) > half_width) continue;
-    const Vec2 point = to_model(p.position - depth * p.outward);
+    if (p.position.y < low || p.position.y > high) continue;
+    const Vec2 point = to_model(p.position - depth(p.position.y) * p.outward);
     points.push_back({point.y, point.z});
   }
   return points;
@@ -125,24 +125,24 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement, const std::
       out["patches"].push_back({{"contact", contact_json(p.contact, placement)},
                                 {"load_N", p.load},
                                 {"hertz", hertz_json(hertz_under(spec, p))}});
-  out["rail_m"] = curve(placement.rail, c.rail_s, 0, kReach, rail);
-  out["wheel_m"] = curve(placement.wheel, c.wheel_s, 0, kReach, wheel);
+  const auto surface = [](double) { return 0.0; };
+  out["rail_m"] = curve(placement.rail, c.rail_s, -kReach, kReach, surface, rail);
+  out["wheel_m"] = curve(placement.wheel, c.wheel_s, -kReach, kReach, surface, wheel);
   if (Json heights = heights_json(spec); !heights.is_null()) out["heights"] = std::move(heights);
   out["layers"] = Json::array();
-  const std::vector<double> tops = layer_tops(spec.layers);
   for (std::size_t i = 0; i < spec.layers.size(); ++i) {
     const LayerSpec& l = spec.layers[i];
     const bool on_rail = l.on == BodyId::rail;
-    const double depth = tops[i] + l.thickness;
+    const auto depth = [&](double y) { return layer_tops(layers_across(spec.layers, y, y))[i] + l.thickness_at(y); };
     out["layers"].push_back(
         {{"name", l.name},
          {"on", body_word(l.on)},
          {"thickness_m", l.thickness},
-         {"width_m", l.width},
+         {"width_m", l.high() - l.low()},
          {"young_Pa", l.material.young},
          {"young_ratio", l.material.young / (on_rail ? spec.rail_material : spec.wheel_material).young},
-         {"bottom_m", on_rail ? curve(placement.rail, c.rail_s, depth, 0.5 * l.width, rail)
-                              : curve(placement.wheel, c.wheel_s, depth, 0.5 * l.width, wheel)}});
+         {"bottom_m", on_rail ? curve(placement.rail, c.rail_s, l.low(), l.high(), depth, rail)
+                              : curve(placement.wheel, c.wheel_s, l.low(), l.high(), depth, wheel)}});
     if (l.from) out["layers"].back()["from_m"] = *l.from;
     if (l.to) out["layers"].back()["to_m"] = *l.to;
     if (l.taper_length > 0) out["layers"].back()["taper_length_m"] = l.taper_length;

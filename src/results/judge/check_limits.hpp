@@ -72,6 +72,7 @@ inline constexpr double kCommonRailYield = 500e6;
 /// A cell or element, of the patch's shorter axis: where results suffer, and where they mean nothing. Reasons and
 /// figures of this and of the following limits: docs/checks.md.
 inline constexpr double kCellOfPatch = 0.1, kUnresolvedPatch = 0.35;
+inline constexpr double kLargestOfLayer = 0.1;  // 3 mm at 4 E0: 2 % of p_max
 inline constexpr double kLargestAngleSpanned = 20 * std::numbers::pi / 180;
 inline constexpr double kLargestOfRadius = 0.05;
 inline constexpr double kLargestOfEdgeDistance = 0.5;
@@ -133,6 +134,11 @@ inline constexpr std::array kCheckRows{
     CheckRow::warning("patch_wider_than_layer", "Patch beyond the layer",
                       "twice the distance of the patch's far edge from the layer's middle",
                       "a larger layer.width holds it", {.of_case = "layer.width"}, unit::kMillimetres, kTakesBack),
+    CheckRow::warning("layer_varies_below_patch", "Layer varies below the patch",
+                      "difference of a layer's thickness below the patch, of its largest thickness",
+                      "half-spaces have the layer as thick as it is at the contact; bem.bodies = \"sections\" follows "
+                      "it, but for the stresses below the surface",
+                      {.bem = kLargestOfLayer}, unit::kShare, kTakesBack),
     CheckRow::warning("patch_near_border_of_fine_zone", "Patch near the border of the fine mesh",
                       "the contact patch nearly fills the fine mesh", "a larger mesh.fine_width gives it room",
                       {.of_case = "mesh.fine_width less two elements"}, unit::kMillimetres),

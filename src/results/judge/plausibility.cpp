@@ -53,6 +53,7 @@ class Warnings {
 void warn_of_layers(const CaseSpec& spec, const PatchSurroundings& around, Warnings& out) {
   double beyond = 0, reach = 0, width = 0;
   for (const LayerSpec& layer : spec.layers) {
+    if (layer.varies_across()) continue;
     const double twice = 2 * (layer.on == BodyId::rail ? around.rail_reach : around.wheel_reach);
     if (twice - layer.width <= beyond) continue;
     beyond = twice - layer.width;
@@ -60,6 +61,7 @@ void warn_of_layers(const CaseSpec& spec, const PatchSurroundings& around, Warni
     width = layer.width;
   }
   out.above("patch_wider_than_layer", reach, width);
+  out.above("layer_varies_below_patch", around.layer_change);
 }
 
 std::string place(double rail_y, double wheel_y, double angle) {

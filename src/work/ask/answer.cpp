@@ -41,7 +41,7 @@ void follow(const CaseSpec& spec, const Placement& placement, const AskOptions& 
   out.moment = last.moment;
   out.stopped = out.stopped && last.step < last.steps;
   out.result = std::move(last.result);
-  summarise(spec, last, out);
+  summarise(case_at_contact(spec, placement), last, out);
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ Answer solve_contact(const CaseSpec& spec, const Placement& placement, const Ask
   std::optional<StopRequest> stop;
   if (how.control) stop.emplace(&how.control->stop);
   out.result = solve_bem(solved, placement, how.bem);
-  out.summary = bem_contact_summary(solved, out.result);
+  out.summary = bem_contact_summary(case_at_contact(solved, placement), out.result);
   return out;
 }
 
@@ -80,7 +80,7 @@ Answer ask(const CaseSpec& spec, const Placement& placement, const Wanted& wante
   Answer out = solve_contact(spec, placement, how);
   if (wanted.other_fits && spec.transient.kind == TransientKind::none)
     add_profile_errors(half_space_case(spec), placement, how, out.result.notes, out.summary.contact);
-  judge(spec, wanted, out, how);
+  judge(case_at_contact(spec, placement), wanted, out, how);
   sign(out.summary);
   return out;
 }
