@@ -147,7 +147,7 @@ void print_estimate(const Model& m, const RunEstimate& e) {
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps == 0) return;
   const std::string why = why_from_rest(m.spec);
-  fmt::print("rolling        {} steps, about {} here{}; {}\n", e.steps, duration_text(e.seconds),
+  fmt::print("run            {} steps, with the preload about {} here{}; {}\n", e.steps, duration_text(e.seconds),
              m.until_repeated ? ", more where windows do not repeat" : "",
              why.empty() ? "from a steady start" : "from rest: " + why);
 }
