@@ -215,7 +215,7 @@ nlohmann::ordered_json run_json(const Model& m, const RunEstimate& e) {
               {"limited_by", e.limits.where},
               {"step_s", e.limits.chosen},
               {"steps", e.steps},
-              {"rolling_wall_s", e.seconds},
+              {"wall_s", e.seconds},
               {"memory_bytes", e.memory_bytes},
               {"blocks", mesh_json(mesh_rows(m))},
               {"warnings", as_json(warnings_of(m, e))}});

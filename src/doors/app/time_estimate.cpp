@@ -176,7 +176,7 @@ void add_loads(const LoadedCase& loaded, const TimesWanted& wanted, std::vector<
   const std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
   const char* followed = loaded.spec.life.until > 0 ? ", and the way through life.until" : "";
   add(
-      "collective", fmt::format("for {} loads{}", rows.size(), followed),
+      "collective", fmt::format("for {}{}{}", rows.size(), rows.size() == 1 ? " load" : " loads", followed),
       [&] {
         const double loads = seconds_of_loads(loaded, rows, wanted.cell);
         return wanted.own + wanted.before + on_threads(loads, wanted.threads, rows.size());
