@@ -114,6 +114,17 @@ TEST(ContactInput, ALeftWheelIsTheMirrorOfARightOne) {
     EXPECT_EQ(resolved_case(spec_of(left, number)), resolved_case(spec_of(kTwoPositions, number)));
 }
 
+TEST(ContactInput, AConformalContactHasTheNormalsOfItsRows) {
+  const CaseSpec plane = spec_of(changed(kTwoPositions, "0022033", "0032033"));
+  EXPECT_EQ(plane.bem.normals, ContactNormals::plane);
+  EXPECT_EQ(plane.bem.spin_angle, SpinAngle::local);
+  const std::string conformal = changed(kTwoPositions, "0022033", "0042033");
+  for (const int number : {1, 2}) {
+    EXPECT_EQ(spec_of(conformal, number).bem.normals, ContactNormals::local) << "D = 1 keeps the discretisation";
+    EXPECT_EQ(spec_of(conformal, number).bem.spin_angle, SpinAngle::local);
+  }
+}
+
 TEST(ContactInput, FrictionFallsAndAFilmLiesBetween) {
   std::string text = changed(kTwoPositions, "0022033", "0422433");
   text = changed(text, "  0.350   0.320 ", "  0.14 0.19 1250. 0.0 1.0 0.02 1.0 ");

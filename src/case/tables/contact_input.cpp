@@ -430,7 +430,7 @@ class CaseWriter {
     const bool surface_slip = s_.discretisation == 3 || s_.discretisation == 4;
     table("bem");
     put("spin_angle", surface_slip ? "\"local\"" : "\"patch\"", s_.digits[kOptions].line);
-    if (s_.discretisation == 4) note("D = 4: a case solves a conformal contact in a plane");
+    if (s_.discretisation == 4) put("normals", "\"local\"", s_.digits[kOptions].line);
     if (s_.grid.line != 0)
       note("elements of {} mm x {} mm are no part of a case: --cell \"{} mm\" takes them", s_.grid[0], s_.grid[1],
            s_.grid[0]);

@@ -150,7 +150,7 @@ void print_estimate(const Model& m, const RunEstimate& e) {
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps == 0) return;
   const std::string why = why_from_rest(m.spec);
-  fmt::print("rolling        {} steps, about {} here{}; {}\n", e.steps, duration_text(e.seconds),
+  fmt::print("run            {} steps, with the preload about {} here{}; {}\n", e.steps, duration_text(e.seconds),
              m.until_repeated ? ", more where windows do not repeat" : "",
              why.empty() ? "from a steady start" : "from rest: " + why);
 }
@@ -218,7 +218,7 @@ nlohmann::ordered_json run_json(const Model& m, const RunEstimate& e) {
               {"limited_by", e.limits.where},
               {"step_s", e.limits.chosen},
               {"steps", e.steps},
-              {"rolling_wall_s", e.seconds},
+              {"wall_s", e.seconds},
               {"memory_bytes", e.memory_bytes},
               {"blocks", mesh_json(mesh_rows(m))},
               {"warnings", as_json(warnings_of(m, e))}});

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include <ctime>
 #include <memory>
 #include <numbers>
 
@@ -13,6 +14,8 @@
 #include "app/control.hpp"
 #include "app/profile_report.hpp"
 #include "app/progress.hpp"
+#include "app/time_estimate.hpp"
+#include "ask/cell_time.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "curving/curve_files.hpp"
@@ -33,7 +36,20 @@ struct CheckOptions {
   bool beam = false;                            ///< --beam: without finite elements
   std::vector<std::filesystem::path> measured;  ///< --measured
   std::string as;                               ///< --as: what a profile file is of
+  std::vector<std::string> vary;                ///< --vary: of a sweep whose time is asked
+  bool stresses = false;                        ///< --stresses, of the sweep
+  int passes = 0;                               ///< --passes whose time is asked
 };
+
+// Processor time of this process until it has read its case; the page of a command takes about as long again.
+double start_seconds = 0;
+constexpr double kStartAndPage = 2;
+
+std::vector<TimeEstimate> times_of(const LoadedCase& loaded, const CheckOptions& own, const CommandOptions& options,
+                                   double before = 0) {
+  return time_estimates(loaded, {cell_size(options.cell), options.threads, own.vary, own.stresses, own.passes, before,
+                                 kStartAndPage * start_seconds});
+}
 
 /// Every tenth row from the first: at rest, 100 Hz, 200 Hz, …
 void print_table(const Receptance& r, const std::vector<CsvColumn>& table) {
@@ -111,28 +127,33 @@ void tell_profiles(const Placement& placement) {
 }
 
 /// For a case of the half-space engine alone: reports where the bodies touch, and why `run` refuses it.
-ExitCode check_without_mesh(const LoadedCase& loaded, const std::vector<Diagnostic>& refused, bool json) {
+ExitCode check_without_mesh(const LoadedCase& loaded, const std::vector<Diagnostic>& refused, const CheckOptions& own,
+                            const CommandOptions& options) {
   const Placement placement = place(loaded.spec, loaded.folder());
   tell_profiles(placement);
-  if (json) {
+  const std::vector<TimeEstimate> times = times_of(loaded, own, options);
+  if (options.json) {
     nlohmann::ordered_json out = placement_json(loaded.spec, placement);
+    out["times"] = times_json(times);
     out["not_in_fem"] = nlohmann::ordered_json::array();
     for (const Diagnostic& d : refused) out["not_in_fem"].push_back(d.message);
     fmt::print("{}\n", out.dump(2));
     return ExitCode::ok;
   }
   print_case(loaded, placement);
+  print_times(times);
   fmt::print("\nfor `railstrata bem` alone; `run` refuses it:\n");
   for (const Diagnostic& d : refused) fmt::print("{}\n", printable(fmt::format("{}: {}", d.where, d.message)));
   return ExitCode::ok;
 }
 
 /// For a curve: where its wheelsets stand. Throws CaseError as `collective` does.
-ExitCode check_curve(const LoadedCase& loaded, bool json) {
+ExitCode check_curve(const LoadedCase& loaded, const CheckOptions& own, const CommandOptions& options) {
   const Placement placement = place(loaded.spec, loaded.folder());
   tell_profiles(placement);
-  const std::vector<BogieInCurve> bogies = solve_curve(loaded, &control());
-  if (json)
+  std::vector<BogieInCurve> bogies;
+  const double seconds = processor_seconds([&] { bogies = solve_curve(loaded, &control()); });
+  if (options.json)
     fmt::print("{}\n", curving_json(bogies).dump(2));
   else {
     print_case(loaded, placement);
@@ -140,6 +161,12 @@ ExitCode check_curve(const LoadedCase& loaded, bool json) {
     for (const std::string& line : curving_lines(bogies)) fmt::print("{}\n", printable(line));
   }
   require_equilibrium(bogies);
+  if (options.json) return ExitCode::ok;
+  const bool both = loaded.spec.collective.curve.rail == CurveRail::both;
+  const LoadedCase one = both ? with_overrides(loaded, {"curve.rail=\"outer\""}) : loaded;
+  fmt::print("\n");
+  print_times(times_of(with_curve_loads(one, bogies), own, options, seconds));
+  if (both) fmt::print("               of one of both rails\n");
   return ExitCode::ok;
 }
 
@@ -180,24 +207,28 @@ ExitCode command_check(const CheckOptions& own, const CommandOptions& options) {
   if (own.receptance) return check_receptance(own, options);
   if (!own.mesh) require_nothing_to_write(options);
   const LoadedCase loaded = load_case_of(options, uses::kAny);
+  start_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   if (own.mesh) require_support(uses::kFiniteElements, loaded);
-  if (!own.mesh && !loaded.spec.collective.curve.bogies.empty()) return check_curve(loaded, options.json);
+  if (!own.mesh && !loaded.spec.collective.curve.bogies.empty()) return check_curve(loaded, own, options);
   if (const std::vector<Diagnostic> refused = refused_by(uses::kFiniteElements, loaded); !refused.empty())
-    return check_without_mesh(loaded, refused, options.json);
+    return check_without_mesh(loaded, refused, own, options);
   const Model model = model_for_run(loaded);
   tell_profiles(model.placement);
   if (own.mesh) write_meshes(options, loaded, model);
   require_memory(model);
   const RunEstimate estimate = estimate_run(model);
+  const std::vector<TimeEstimate> times = times_of(loaded, own, options);
   const std::string lacking = lacking_here(loaded);
   if (options.json) {
     nlohmann::ordered_json out = run_json(model, estimate);
+    out["times"] = times_json(times);
     if (!lacking.empty()) out["not_here"] = lacking;
     fmt::print("{}\n", out.dump(2));
     return ExitCode::ok;
   }
   print_case(loaded, model.placement);
   print_estimate(model, estimate);
+  print_times(times);
   if (!lacking.empty()) fmt::print("not here       {}\n", printable(lacking));
   for (const Warning& w : warnings_of(model, estimate)) fmt::print("warning        {}: {}\n", w.name, w.text);
   fmt::print("\n{}", mesh_table(model));
@@ -227,6 +258,11 @@ CommandWork declare_check(CLI::App& sub, CommandOptions& options) {
                  "With --receptance: tables of measurements to hold it against, with columns frequency [Hz], one of "
                  "receptance [nm/N], mobility [m/(s N)] and accelerance [m/(s^2 N)], and phase [deg] if known")
       ->needs(receptance);
+  add_cell(sub, options);
+  auto* vary = add_repeated(sub, "--vary", own->vary, "KEY=VALUES", "Estimate the time of such a sweep too");
+  sub.add_flag("--stresses", own->stresses, "With --vary: of the sweep with --stresses")->needs(vary);
+  sub.add_option("--passes", own->passes, "Estimate the time of so many passes by the stationary method too")
+      ->check(CLI::Range(1, 1000000));
   add_no_report(sub, options);
   return [own, &options] { return command_check(*own, options); };
 }

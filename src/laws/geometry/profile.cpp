@@ -73,9 +73,10 @@ Profile Profile::from_segments(ProfileKind kind, std::string name, std::vector<P
   return out;
 }
 
-Profile Profile::from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points, double rounding) {
+Profile Profile::from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points, double rounding,
+                             double knots_moved) {
   if (const auto defect = find_defect(points)) throw CaseError(name + ": " + defect->message, defect->remedy);
-  SmoothingSpline spline = fit_smoothing_spline(points, rounding);
+  SmoothingSpline spline = fit_smoothing_spline(points, rounding, knots_moved);
   require_following(name, spline, points);
   Profile out;
   out.kind_ = kind;

@@ -51,7 +51,9 @@ class Profile {
   /// points, total chord length outside 5–500 mm (metre/millimetre mix-up), loops, y = 0 not covered, a curve that
   /// between its points swings out to more than 1.25 times the length of their chords, or that misses neighbours by
   /// more than they lie apart.
-  static Profile from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points, double rounding = 0);
+  /// knots_moved: by which part of their distance the knots stand nearer to the first point, 0 to 1.
+  static Profile from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points, double rounding = 0,
+                             double knots_moved = 0);
 
   /// The same curve upside down, z reversed: a rail's as that of a wheel, with the material above it, and back.
   Profile upturned() const;

@@ -71,11 +71,12 @@ bool leaves_open(const Profile& p) { return p.listed() && (p.listed()->scatter.n
 Profile other_fit(const Profile& p, int k) {
   if (!leaves_open(p)) return p;
   const auto& [points, scatter] = *p.listed();
-  const auto fit = [&p](const std::vector<Vec2>& to, double rounding) {
-    return Profile::from_points(p.kind(), p.name(), to, rounding);
+  const auto fit = [&p](const std::vector<Vec2>& to, double rounding, double knots_moved = 0) {
+    return Profile::from_points(p.kind(), p.name(), to, rounding, knots_moved);
   };
   if (far_apart(p)) return fit(every_other(points, static_cast<std::size_t>(k % 2)), scatter.rounding);
-  if (k < kMovedFits) return fit(moved_points(p, k), scatter.rounding);
+  // rounding of heights every so often is no chance: it moves whole stretches, and what it does depends on the knots
+  if (k < kMovedFits) return fit(moved_points(p, k), scatter.rounding, (k + 0.5) / kMovedFits);
   if (k == kMovedFits) return fit(points, 2 * std::sqrt(12.0) * scatter.noise);
   return fit(every_other(points, 1), scatter.rounding);
 }

@@ -14,8 +14,9 @@ bool far_apart(const Profile& profile);
 bool leaves_open(const Profile& profile);
 
 /// Fit number k of kOtherFits. The first kMovedFits are of points on the curve that are moved and rounded by as much as
-/// those of the list are; then one that takes the list's scatter for twice as large, and one without every other point.
-/// Of points far apart all are of lists without every other point. The same for the same k on every machine.
+/// those of the list are, with knots elsewhere; then one that takes the list's scatter for twice as large, and one
+/// without every other point. Of points far apart all are of lists without every other point. The same for the same k
+/// on every machine.
 Profile other_fit(const Profile& profile, int k);
 
 }  // namespace railstrata

@@ -118,10 +118,10 @@ std::vector<double> knots_of(const std::vector<double>& t, const std::vector<cha
   return knots;
 }
 
-std::vector<char> spaced_knots(const std::vector<double>& t, double spacing) {
+std::vector<char> spaced_knots(const std::vector<double>& t, double spacing, double moved) {
   std::vector<char> chosen(t.size(), 0);
   chosen.front() = chosen.back() = 1;
-  double last = t.front();
+  double last = t.front() - moved * spacing;
   for (std::size_t i = 1; i + 1 < t.size(); ++i)
     if (t[i] - last >= spacing * (1 - 1e-3) && t.back() - t[i] >= 0.5 * spacing) {
       chosen[i] = 1;
@@ -190,7 +190,7 @@ double widest_knots(const PointScatter& s) {
 
 }  // namespace
 
-SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points, double rounding) {
+SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points, double rounding, double knots_moved) {
   std::vector<double> t = chord_lengths(points);
   const PointScatter scatter = scatter_of(points, rounding);
   const double tolerance = std::max(4 * scatter.noise, kSmallestTolerance),
@@ -198,7 +198,7 @@ SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points, double rou
   const bool interpolate = !scatter.dense && wanted <= scatter.spacing;
   const double spacing =
       interpolate ? 0.0 : std::min(std::clamp(wanted, kClosestKnots, widest_knots(scatter)), t.back() / 5);
-  std::vector<char> chosen = spaced_knots(t, spacing);
+  std::vector<char> chosen = spaced_knots(t, spacing, knots_moved);
   for (int round = 0;; ++round) {
     const Basis basis(knots_of(t, chosen));
     const Coefficients c = least_squares(basis, t, points);

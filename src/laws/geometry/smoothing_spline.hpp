@@ -22,6 +22,7 @@ struct SmoothingSpline {
 };
 
 /// Needs at least 5 points, neighbours distinct. Lengths in metres; `rounding`: the last digit of the heights, 0: none.
-SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points, double rounding = 0);
+/// knots_moved: as of Profile::from_points.
+SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points, double rounding = 0, double knots_moved = 0);
 
 }  // namespace railstrata

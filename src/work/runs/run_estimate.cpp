@@ -1,28 +1,38 @@
 #include "runs/run_estimate.hpp"
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
-#include "body/traversal.hpp"
+#include "core/parallel.hpp"
+#include "fem/stepper.hpp"
 #include "record/this_process.hpp"
 
 namespace railstrata {
 namespace {
 
-/// Seconds of one evaluation of the internal forces of a body: the best of a quarter of a second, because other
-/// programs may hold the cores.
-double force_seconds(const Body& body) {
-  Field u(body.mass.size(), 0.0), f(body.mass.size(), 0.0);
-  const PlasticHistory history = initial_history(body);
-  Traversal elements(body);
-  double best = 1e9;
-  for (double spent = 0, last = 0; spent < 0.25; spent += last, best = std::min(best, last)) {
-    const auto start = std::chrono::steady_clock::now();
-    elements.internal_force(u, 0.0, f, history);
-    last = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+/// Wall seconds of a step where nothing else takes the cores: the processor time of steps from the undeformed state,
+/// with all that a step does, over the threads.
+double step_seconds(Stepper& stepper) {
+  constexpr double kTrial = 0.4;  // s
+  const std::clock_t begin = std::clock();
+  double spent = 0;
+  int steps = 0;
+  for (; steps < 2 || spent < kTrial * max_threads(); ++steps) {
+    stepper.step();
+    spent = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   }
-  return best;
+  return spent / steps / max_threads();
+}
+
+/// The undeformed bodies, in place of a preload.
+PreloadResult undeformed(const RollingSystem& system) {
+  PreloadResult out;
+  out.tractions = SurfaceTractions(system.rail_surface().columns, system.rail_surface().stations.nodes());
+  for (const std::size_t body : {kRail, kWheel}) {
+    out.u[body].assign(system.bodies[body].mass.size(), 0.0);
+    out.history[body] = initial_history(system.bodies[body]);
+  }
+  return out;
 }
 
 // Bytes that a run takes beyond its bodies: vectors and coarse level of the preload, samples. Peaks of runs of 0.05,
@@ -35,16 +45,17 @@ double preload_memory(const RollingSystem& system) {
 }  // namespace
 
 RunEstimate estimate_run(const Model& model) {
-  // Node update, ties and contact, which leave less of the elements in the caches than there is here: the steps of five
-  // cases of 37,000 to 152,000 elements took 2.15, 1.41, 1.66, 1.70 and 1.79 times these forces on two cores.
-  constexpr double kWholeStep = 1.7;
+  constexpr double kPreload = 3000;  // steps; 900 to 3,600 in three cases of 35,000 to 155,000 elements
   const RollingSystem system(model);
   RunEstimate e;
-  StepPlan plan(system);
-  e.limits = plan.limits;
-  e.steps = std::lround(model.likely_end() / (model.spec.drive.speed * e.limits.chosen));
-  e.seconds =
-      kWholeStep * static_cast<double>(e.steps) * (force_seconds(system.rail()) + force_seconds(system.wheel()));
+  if (model.spec.run.rolling) {
+    Stepper stepper(system, undeformed(system));
+    e.limits = stepper.plan().limits;
+    e.steps = std::lround(model.likely_end() / (model.spec.drive.speed * e.limits.chosen));
+    e.seconds = (kPreload + static_cast<double>(e.steps)) * step_seconds(stepper);
+  } else {
+    e.limits = StepPlan(system).limits;
+  }
   e.memory_bytes = peak_memory() + preload_memory(system);
   return e;
 }

@@ -9,7 +9,7 @@ struct RunEstimate {
   StepLimits limits;
   long steps = 0;  ///< over the path, of one that ends when windows repeat over two of them; 0 for a static case
   double seconds =
-      0;  ///< of explicit rolling: measured force evaluations on this machine, these threads; the preload comes on top
+      0;  ///< wall time on this machine with these threads: preload and rolling, by a trial of its steps; static: 0
   double memory_bytes = 0;  ///< at the peak: of this process with both bodies ready, and what a run takes beyond them
 };
 
