@@ -183,11 +183,7 @@ class TableReader {
               ? "a comment stands on a line of its own that begins with #"
               : "write numbers with a decimal point, or with a decimal comma between semicolons; the unit stands in "
                 "the column's name");
-    try {
-      value = in_si(column, column.unit.empty() ? number : number + " " + column.unit);
-    } catch (const UnitError& e) {
-      at.refuse(fmt::format("the column {}: {}", column.option->key, e.what()), e.remedy);
-    }
+    value = with_its_unit(column, number, at);
     const std::string_view key = column.option->key;
     if (!(value > 0) && std::find(form_.loads.begin(), form_.loads.end(), key) != form_.loads.end()) {
       lifted_ = true;
@@ -203,10 +199,14 @@ class TableReader {
   }
 
   /// Refuses a unit of another dimension where it stands.
-  void unit_check(const Column& column, const Place& at) {
-    quantity(column, column.option->range.holds(0) ? "0" : "1e-3", at);
-    lifted_ = false;
-    table_.chainage = 0;
+  void unit_check(const Column& column, const Place& at) const { with_its_unit(column, "1", at); }
+
+  double with_its_unit(const Column& column, const std::string& number, const Place& at) const {
+    try {
+      return in_si(column, column.unit.empty() ? number : number + " " + column.unit);
+    } catch (const UnitError& e) {
+      at.refuse(fmt::format("the column {}: {}", column.option->key, e.what()), e.remedy);
+    }
   }
 
   double in_si(const Column& column, const std::string& text) const {
