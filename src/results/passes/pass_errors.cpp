@@ -20,7 +20,7 @@ constexpr std::size_t kCompared = 4;  // passes, as many as a class takes
 /// How a column of passes.csv is compared.
 enum class Compared { by_share, by_size, as_place };
 struct ComparedColumn {
-  const char *name, *words;  ///< words: empty where nothing is said of it
+  const char *name, *words;  ///< words: empty: not_converged leaves it out
   Compared how;
 };
 constexpr std::array kColumns{ComparedColumn{"accumulated_strain", "accumulated strain", Compared::by_share},

@@ -21,7 +21,7 @@ struct SeriesContacts {
 
 class SteadySeries {
  public:
-  /// What is told while it goes on.
+  /// Called while it goes on.
   struct Listener {
     std::function<void(int pass)> begins;
     std::function<void(const PassRow& row, const FollowedPass& pass)> ends;
