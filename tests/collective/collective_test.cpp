@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "ask/answer.hpp"
+#include "collective/collective_errors.hpp"
 #include "collective/collective_files.hpp"
 #include "collective/measured_wear.hpp"
 #include "core/faults.hpp"
@@ -59,6 +60,47 @@ TEST(Collective, ARowThatCannotBeSolvedIsToldAndTheOthersGoOn) {
   EXPECT_EQ(json["totals"]["passages"], 30);
   EXPECT_EQ(json["totals"]["passages_left_out"], 1);
   EXPECT_EQ(json["loads"][1]["name"], "beside the rail");
+}
+
+// Three wheels, on cells of 0.5 mm and, as truth, of half of that.
+TEST(Collective, AnswersOnCellsHalfAsLargeLieWithinTheBars) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[material.rail]\nyield_strength = \"300 MPa\"\n[[load]]\npassages = 1e4\n"
+                                       "wheel_load = \"60 kN\"\n[[load]]\npassages = 100\nwheel_load = \"20 kN\"\n"
+                                       "lateral_shift = \"3 mm\"\n[[load]]\nname = \"heavy\"\npassages = 10\n"
+                                       "wheel_load = \"80 kN\"\n",
+                                   "a.toml")
+                            .spec;
+  const Placement placement = place(spec, {});
+  const auto answered = [&](double cell, std::vector<CollectiveRow>& rows, CollectiveOptions& options) {
+    options.bem.cell = cell;
+    rows = plan_collective(spec);
+    solve_collective(rows, {}, options);
+    CollectiveDamage out{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
+    out.lives = collective_lives(spec, rows, out.rail, out.wheel);
+    return out;
+  };
+  std::vector<CollectiveRow> rows, finer;
+  CollectiveOptions options, fine;
+  CollectiveDamage damage = answered(0.5e-3, rows, options), truth = answered(0.25e-3, finer, fine);
+  EXPECT_EQ(deciding_loads(rows), (std::vector<std::size_t>{0, 2})) << "the most energy; the largest pressure";
+  damage.error = collective_errors(spec, rows, damage, placement, {}, options);
+  ASSERT_TRUE(damage.error.is_object());
+  const auto here = collective_numbers(rows, damage), there = collective_numbers(finer, truth);
+  for (const char* place : {"/totals/friction_energy_J_m", "/totals/usfd_area_m2", "/totals/usfd_deepest/depth_m",
+                            "/totals/usfd_deepest/rail_y_m", "/totals/rcf_damage_largest/damage",
+                            "/totals/largest_pressure/p_max_Pa", "/worst_shakedown/wandering"}) {
+    const nlohmann::ordered_json::json_pointer at(place);
+    const double bar = damage.error.at(at).get<double>(), value = here.at(at).get<double>();
+    EXPECT_LE(std::abs(value - there.at(at).get<double>()), bar) << place;
+    EXPECT_LT(bar, 0.3 * std::abs(value) + 3e-3) << place;
+  }
+  const std::vector<ReportAnswer> answers = collective_answers(rows, damage);
+  EXPECT_GE(std::count_if(answers.begin(), answers.end(),
+                          [](const ReportAnswer& a) { return a.text.find(" ± ") != std::string::npos; }),
+            3);
+  EXPECT_TRUE(collective_errors(spec, plan_collective(spec), damage, placement, {}, options).is_null())
+      << "nothing solved";
 }
 
 // A layer of t lasts t over the depth that a collective wears, grinding of t at once ends it, in MGT of 2 F/g a wheel.

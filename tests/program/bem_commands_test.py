@@ -524,6 +524,29 @@ young_ratio = 2.0
             self.assertTrue((out / name).exists(), name)
         self.refused(2, ["collective", BASE, "--out", self.folder / "none"], "`railstrata collective` needs load")
 
+    @slow
+    def test_answers_of_collectives_on_cells_half_as_large_lie_within_their_bars(self):
+        def within(bars, here, there, place):
+            if isinstance(bars, dict):
+                for key in set(bars) - {"loads", "share_of_friction_energy", "wheel"}:
+                    within(bars[key], here[key], there[key], f"{place}/{key}")
+            elif isinstance(bars, list):
+                for k, bar in enumerate(bars):
+                    within(bar, here[k], there[k], f"{place}/{k}")
+            elif bars is not None:
+                self.assertLessEqual(abs(here - there), bars, place)
+
+        for name in "mixed_traffic", "measured_wheels", "vehicle_code":
+            results = []
+            for cell in "0.5 mm", "0.25 mm":
+                out = self.folder / f"{name} {cell}"
+                rc, text, err = railstrata("collective", LOADS.parent / f"{name}.toml", "--cell", cell, "-q",
+                                           "--no-report", "--out", out)
+                self.assertEqual(rc, 0, err)
+                self.assertRegex(text, "Wear: .* ± ")
+                results.append(json.loads((out / "collective.json").read_text()))
+            within(results[0]["error"], *results, name)
+
     def test_a_curve_has_a_collective_of_either_rail(self):
         curve = self.case("[geometry]\nwheel_profile = \"S1002\"\nrail_profile = \"UIC60\"\n[curve]\n"
                           "radius = \"1500 m\"\nrail = \"both\"\n[[bogie]]\ntype = \"wagon\"\nmgt = 10\n")

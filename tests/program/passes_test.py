@@ -110,6 +110,35 @@ class Passes(FromOutside):
         self.refused(2, ["passes", BASE, *COARSE, *jumps, "--set", 'passes.lateral_deviation="2 mm"', "--out",
                          self.folder / "none"], "never repeat", "lateral_deviation")
 
+    @slow
+    def test_a_grid_four_times_finer_gives_numbers_within_the_bars(self):
+        line = SOURCE / "cases" / "line" / "carter.toml"  # ratchets below 250 MPa: p0/k = 4
+        hardens = 'material.rail.kinematic_hardening=[{modulus = "20 GPa", recall = 50}]'
+        for name, words in (("above", strength(232)), ("near", strength(245)),
+                            ("hardening", [*strength(250), "--set", hardens])):
+            def passes(finer):
+                keys = (f"passes.patch_cells={4 * finer}", f"passes.patch_rows={6 * finer}")
+                grid = [word for key in keys for word in ("--set", key)]
+                out = self.passes(f"{name}_{finer}", *words, *grid, "--cell", f"{0.4 / finer} mm", "--passes", 2,
+                                  "--no-report", case=line)
+                return json.loads((out / "passes.json").read_text())
+
+            coarse, fine = passes(1), passes(4)
+            bars = coarse["error"]["last_pass"]
+            self.assertIn("net_strain", bars)
+            for column, bar in bars.items():
+                value, truth = (result["last_pass"][column] for result in (coarse, fine))
+                self.assertLessEqual(abs(value - truth), bar, f"{name}: {column} {value} {truth}")
+            self.assertIn(" ± ", coarse["verdict"])
+            self.assertLess(fine["error"]["last_pass"]["net_strain"], 0.5 * bars["net_strain"])
+
+    def test_the_coarsest_grid_has_no_bar_and_says_why(self):
+        out = self.passes("coarsest", *strength(400), "--set", "passes.patch_cells=2", "--passes", 1, "--no-report")
+        result = json.loads((out / "passes.json").read_text())
+        self.assertIsNone(result["error"])
+        self.assertIn("patch_cells", result["no_error"])
+        self.assertNotIn("±", result["verdict"])
+
     def test_the_grid_has_the_rows_and_the_window_that_are_asked_for(self):
         few = [*strength(400), "--passes", 1, "--no-report"]
         usual = json.loads((self.passes("usual", *few) / "passes.json").read_text())["grid"]

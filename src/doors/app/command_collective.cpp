@@ -18,6 +18,7 @@
 #include "clock/clock_files.hpp"
 #include "clock/clock_state.hpp"
 #include "collective/collective.hpp"
+#include "collective/collective_errors.hpp"
 #include "collective/collective_files.hpp"
 #include "collective/life_files.hpp"
 #include "collective/measured_wear.hpp"
@@ -40,12 +41,15 @@ namespace {
 
 constexpr const char* kRowFolder = "shown_load";
 
-void solve(const LoadedCase& loaded, double cell, std::vector<CollectiveRow>& rows) {
-  InfluenceCache cache;
+CollectiveOptions options_of(double cell, InfluenceCache& cache) {
   CollectiveOptions how;
   how.bem.cell = cell;
   how.bem.cache = &cache;
   how.control = &control_by_signals();
+  return how;
+}
+
+void solve(const LoadedCase& loaded, const CollectiveOptions& how, std::vector<CollectiveRow>& rows) {
   solve_collective(rows, loaded.folder(), how);
   how.control->progress("");
 }
@@ -217,6 +221,16 @@ std::vector<BogieInCurve> solve_curve_of(const LoadedCase& loaded) {
   return out;
 }
 
+/// With its bars.
+CollectiveDamage damage_of(const LoadedCase& loaded, const std::vector<CollectiveRow>& rows, const Placement& placement,
+                           const CollectiveOptions& how) {
+  CollectiveDamage out{rail_damage(rows, placement, how.bem.cell), wheel_damage(rows, placement, how.bem.cell)};
+  out.lives = collective_lives(loaded.spec, rows, out.rail, out.wheel);
+  out.error = collective_errors(loaded.spec, rows, out, placement, loaded.folder(), how);
+  how.control->progress("");
+  return out;
+}
+
 /// bogies: that the loads of the case are of, for the tables.
 ExitCode collective_of(const CommandOptions& options, const LoadedCase& loaded, const std::vector<BogieInCurve>& bogies,
                        const TrafficOptions& followed, const MeasuredOptions& wanted) {
@@ -236,20 +250,22 @@ ExitCode collective_of(const CommandOptions& options, const LoadedCase& loaded, 
   write_origin(out, loaded, options.command_line, options.threads);
   if (!bogies.empty()) write_curving(out / "curving.csv", table_origin(loaded), bogies);
   spdlog::info("{}: {} loads; results go to {}", loaded.spec.title, rows.size(), out.string());
-  solve(loaded, cell, rows);
+  InfluenceCache cache;
+  const CollectiveOptions how = options_of(cell, cache);
+  solve(loaded, how, rows);
   write_collective_table(out / "collective.csv", table_origin(loaded), rows);
   if (control().stop) {
     spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
     if (traffic) traffic->warn_of_stop();
     return ExitCode::interrupted;
   }
-  CollectiveDamage damage{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
-  damage.lives = collective_lives(loaded.spec, rows, damage.rail, damage.wheel);
+  CollectiveDamage damage = damage_of(loaded, rows, placement, how);
   std::optional<TrafficRange> followed_to;
   CollectiveFront front;
   if (traffic) {
     followed_to = traffic->follow(followed.range, damage);
     if (!followed_to) return ExitCode::interrupted;
+    if (damage.error.is_object()) damage.error["lives"] = nullptr;  // those of the traffic have none
     front = traffic_front({loaded.spec, rows, damage.rail, *followed_to, horizon, cell});
   }
   write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage.rail);

@@ -95,6 +95,19 @@ double largest_strain(const PassResult& result) {
   return out;
 }
 
+/// null where they are not known.
+Json errors_json(const PassSeries& series, const PassAnswer& answer) {
+  if (!answer.error.known()) return nullptr;
+  Json last = Json::object(), classes = Json::array();
+  for (const auto& [column, error] : answer.error.last) last[column] = json_number(error);
+  for (const PassClass kind : answer.error.classes) classes.push_back(class_text(kind));
+  return {{"last_pass", last},
+          {"net_strain_per_pass", json_number(answer.error.of("cycle_net") / series.cycle)},
+          {"strain", answer.error.strain},
+          {"classes_on_coarser_grids", classes},
+          {"not_converged", not_converged(answer.error, series.table)}};
+}
+
 std::vector<ZoneTop> zones_of(const RailPasses& rail) {
   std::vector<ZoneTop> out;
   double top = 0;
@@ -320,6 +333,8 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   out["net_strain_per_pass"] = verdict.rate;
   out["trend"] = verdict.trend;
   out["last_pass"] = last_pass_json(series.table);
+  out["error"] = errors_json(series, answer);
+  if (!answer.error.known()) out["no_error"] = answer.no_error;
   if (series.jump.length > 0)
     out["jump"] = {{"tolerance", spec.passes.jump_tolerance},
                    {"passes_in_table", series.table.rows()},

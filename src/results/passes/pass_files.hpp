@@ -86,6 +86,8 @@ struct PassAnswer {
   Summary elastic;                  ///< of the first of the tractions, with its shakedown where there are strengths
   std::vector<std::string> doubts;  ///< failed checks and warnings of the contact that all passes use
   std::optional<double> ductility;  ///< equivalent strain that the material bears
+  PassErrors error;
+  std::string no_error;  ///< why it is not known
 };
 void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec, const RailPasses& rail,
                         const PassSeries& series, const PassResult& last, const PassWay& way, const PassAnswer& answer);

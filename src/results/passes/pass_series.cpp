@@ -8,16 +8,10 @@
 #include "damage/low_cycle.hpp"
 #include "material/strain_claim.hpp"
 #include "passes/pass_files.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 namespace {
-
-/// "3.1e-4"
-std::string strain_text(double v) {
-  std::string text = fmt::format("{:.1e}", v);
-  if (const std::size_t e = text.find('e'); e + 2 < text.size() && text[e + 2] == '0') text.erase(e + 2, 1);
-  return text;
-}
 
 /// ", falling as the pass to the power of -0.34"
 std::string trend_text(const PassVerdict& v) {
@@ -46,7 +40,10 @@ std::string life_text(const PassProgress& s) {
 }
 
 std::string class_sentence(const PassProgress& s) {
-  const std::string where = fmt::format("{:.1f} mm depth", 1e3 * s.last.net_depth);
+  const double at = s.error.of("net_depth_mm"), cycle = s.error.of("cycle_net");
+  const std::string where = fmt::format("{:.1f}{} mm depth", kToMilli * s.last.net_depth,
+                                        std::isnan(at) ? "" : fmt::format(" ± {:.1f}", at)),
+                    rate = strain_text(s.verdict.rate, cycle / s.cycle);
   switch (s.verdict.kind) {
     case PassClass::elastic_shakedown:
       if (!s.ever_yielded) return "Stays elastic: no point has yielded.";
@@ -55,16 +52,15 @@ std::string class_sentence(const PassProgress& s) {
       return fmt::format(
           "Closed cycles (plastic shakedown): {} plastic strain in every pass, {} of it remains: low-cycle fatigue, "
           "{}.",
-          strain_text(s.last.largest.accumulated), strain_text(s.verdict.rate), life_text(s));
+          strain_text(s.last.largest.accumulated, s.error.of("accumulated_strain")), rate, life_text(s));
     case PassClass::ratchetting:
-      return fmt::format("Ratchets: {} net strain per pass at {}, the same from pass to pass.",
-                         strain_text(s.verdict.rate), where);
+      return fmt::format("Ratchets: {} net strain per pass at {}, the same from pass to pass.", rate, where);
     case PassClass::transient:
       break;
   }
   return fmt::format("{}: {} net strain in pass {} at {}{}; more passes will show.",
-                     s.verdict.trend > kConstantTrend ? "Still settling" : "No claim yet", strain_text(s.verdict.rate),
-                     s.last.pass, where, trend_text(s.verdict));
+                     s.verdict.trend > kConstantTrend ? "Still settling" : "No claim yet", rate, s.last.pass, where,
+                     trend_text(s.verdict));
 }
 
 }  // namespace
@@ -146,6 +142,8 @@ std::vector<PassStrain> remembered_passes(const CsvTable& state, std::size_t row
   }
   return out;
 }
+
+std::string passes_text(int passes) { return fmt::format("{} {}", passes, passes == 1 ? "pass" : "passes"); }
 
 PassProgress progress_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last) {
   PassProgress out;

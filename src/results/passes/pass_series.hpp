@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/material_strength.hpp"
+#include "passes/pass_errors.hpp"
 #include "passes/rail_passes.hpp"
 #include "record/csv.hpp"
 #include "steady/pass_jump.hpp"
@@ -51,10 +52,15 @@ struct PassProgress {
   int first_quiet = 0;                ///< the pass from which on nothing flowed
   std::optional<double> ductility{};  ///< passes.ductility of the case, equivalent strain
   std::optional<StrainLifeOfMaterial> strain_life{};
+  PassErrors error{};
+  int cycle = 1;  ///< as of PassSeries
 };
 
 /// strains: of every pass, the last one that of the row.
 PassProgress progress_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last);
+
+/// "1 pass", "20 passes"
+std::string passes_text(int passes);
 
 /// One sentence: "Ratchets: 3.1e-04 net strain per pass at 2.1 mm depth, the same from pass to pass."; a second one
 /// where the strain is no longer small.

@@ -130,6 +130,12 @@ Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& r
   return zone_lives(spec, loads, rail, wheel);
 }
 
+double passages_of(const std::vector<CollectiveRow>& rows) {
+  double out = 0;
+  for (const CollectiveRow& row : rows) out += row.sound() ? row.passages : 0;
+  return out;
+}
+
 double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law) {
   double area = 0;
   for (const WheelKind& kind : kinds_of(rows))
@@ -144,6 +150,14 @@ const CollectiveRow* worst_row(const std::vector<CollectiveRow>& rows) {
   for (const CollectiveRow& row : rows)
     if (row.sound() && std::isfinite(factor(row)) && (!worst || factor(row) < factor(*worst))) worst = &row;
   return worst;
+}
+
+const CollectiveRow* most_pressed_row(const std::vector<CollectiveRow>& rows) {
+  const CollectiveRow* most = nullptr;
+  const auto pressure = [](const CollectiveRow& r) { return r.summary.contact.patch.p_max; };
+  for (const CollectiveRow& row : rows)
+    if (row.sound() && (!most || pressure(row) > pressure(*most))) most = &row;
+  return most;
 }
 
 long faults(const std::vector<CollectiveRow>& rows) {

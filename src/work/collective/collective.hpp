@@ -71,12 +71,18 @@ WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement
 Lives collective_lives(const CaseSpec& spec, const std::vector<CollectiveRow>& rows, const RailDamage& rail,
                        const WheelDamage& wheel);
 
+/// Of the sound rows.
+double passages_of(const std::vector<CollectiveRow>& rows);
+
 /// m² per `passages` of all sound rows: the sum over their streamlines of depth times width, times
 /// collective.wear_factor. What rail_damage must conserve.
 double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law);
 
 /// The sound row with the smallest factor for wandering traffic; null where none is known.
 const CollectiveRow* worst_row(const std::vector<CollectiveRow>& rows);
+
+/// The sound row with the largest pressure; null: none is sound.
+const CollectiveRow* most_pressed_row(const std::vector<CollectiveRow>& rows);
 
 /// Rows that were not solved, or whose checks failed.
 long faults(const std::vector<CollectiveRow>& rows);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "collective/collective_errors.hpp"
 #include "collective/life_files.hpp"
 #include "collective/wear_words.hpp"
 #include "judge/judgement.hpp"
@@ -99,101 +100,6 @@ ReportCheck unsolved_check(const std::vector<CollectiveRow>& rows) {
   return out;
 }
 
-/// Of the sound rows.
-double passages_of(const std::vector<CollectiveRow>& rows) {
-  double out = 0;
-  for (const CollectiveRow& row : rows) out += row.sound() ? row.passages : 0;
-  return out;
-}
-
-double mgt_of(const Lives& lives) { return lives.tonnes / 1e6; }
-
-/// The depth of a thousand passages, and how far the sum over all of them can be trusted.
-ReportAnswer wear_answer(const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
-  const RailDamage& d = both.rail;
-  const WearLaw wanted = rows.front().spec.collective.wear_law;
-  const std::vector<KnownWear> known = known_wear(d);
-  const auto asked = std::find_if(known.begin(), known.end(), [&](const KnownWear& w) { return w.law == wanted; });
-  if (asked == known.end()) return {};
-  const std::vector<double> depth = smoothed_wear(d, wanted);
-  const auto deepest = std::max_element(depth.begin(), depth.end());
-  const double passages = passages_of(rows);
-  const double micro = as_shown(unit::kMicrometres, *deepest),
-               y = d.y[static_cast<std::size_t>(deepest - depth.begin())], mgt = mgt_of(both.lives);
-  const std::string per_traffic =
-      mgt > 0 ? fmt::format(", {:.3g} mm per 100 MGT", 100 / mgt * as_shown(unit::kMillimetres, *deepest)) : "";
-  ReportAnswer out{"plain", "Wear",
-                   fmt::format("{:.3g} µm per 1000 passages{} at y = {:.1f} mm of the rail ({})",
-                               1000 / passages * micro, per_traffic, as_shown(unit::kMillimetres, y), asked->words)};
-  if (const std::string steel = steel_words(rows, wanted); !steel.empty()) out.text += "; " + steel;
-  if (const std::string map = map_words(rows, wanted); !map.empty()) {
-    out.tone = "open";
-    out.text += "; " + map;
-  }
-  if (*deepest <= kMostWearOfOneProfile) return out;
-  out.tone = "open";
-  out.text += fmt::format(
-      "; {:.0f} µm after all {:.0f} passages assumes an unworn profile; use `railstrata collective --steps`, which "
-      "removes the wear step by step, for a forecast",
-      micro, passages);
-  return out;
-}
-
-/// What the vehicle code has for the same wheels, mean over those that give it.
-ReportAnswer comparison_answer(const std::vector<CollectiveRow>& rows) {
-  constexpr double kFar = 0.2;  // of the vehicle code's
-  std::string text;
-  bool far = false;
-  bool turned = false;
-  const auto compare = [&](const char* name, const Unit& unit, std::optional<double> LoadSpec::*given, auto&& here) {
-    double wheels = 0, theirs = 0, ours = 0;
-    for (const CollectiveRow& row : rows) {
-      if (!row.sound() || !(row.given.*given)) continue;
-      wheels += row.passages;
-      theirs += row.passages * *(row.given.*given);
-      ours += row.passages * here(row.summary);
-    }
-    if (!(wheels > 0)) return;
-    far = far || std::abs(ours - theirs) > kFar * std::abs(theirs);
-    turned = turned || ours * theirs < 0;
-    text += fmt::format("{}{} {} here, {} there", text.empty() ? "" : "; ", name, with_unit(unit, ours / wheels, 3),
-                        with_unit(unit, theirs / wheels, 3));
-  };
-  compare("T-gamma", unit::kNewtons, &LoadSpec::t_gamma, [](const Summary& s) { return s.damage.t_gamma; });
-  compare("friction energy", unit::kNewtons, &LoadSpec::friction_energy,
-          [](const Summary& s) { return s.damage.friction_energy; });
-  compare("Y", unit::kKilonewtons, &LoadSpec::guiding_force, [](const Summary& s) { return -s.contact.F_y; });
-  if (text.empty()) return {};
-  if (turned) text += "; Y has the opposite sign: are y, psi and roll positive to the field side?";
-  const bool matched = rows.front().spec.collective.match_guiding_force;
-  const long unmatched =
-      std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return std::isnan(r.moved); });
-  double farthest = 0;
-  for (const CollectiveRow& row : rows) farthest = std::fmax(farthest, std::abs(row.moved));
-  if (farthest > 0)
-    text += fmt::format("; shifts moved by up to {} to reach this Y", with_unit(unit::kMillimetres, farthest, 2));
-  if (unmatched > 0)
-    text += fmt::format("; {} of {} loads do not reach it within {}", unmatched, rows.size(),
-                        with_unit(unit::kMillimetres, kFarthestMatch, 1));
-  const auto two = std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return r.patches.size() > 1; });
-  if (far && two > 0)
-    text += fmt::format(
-        "; {} of {} loads touch at two places, where a few µm of shift move the load from tread to flange{}", two,
-        rows.size(), matched ? "" : " (collective.match_guiding_force adjusts the shift)");
-  return {far ? "open" : "plain", "Comparison with the vehicle code", "mean of the wheels: " + text};
-}
-
-/// Where the damage function grows most, and when it comes to a visible crack.
-ReportAnswer rcf_answer(const CollectiveDamage& both) {
-  const std::vector<double>& damage = both.rail.rcf_damage;
-  const auto most = std::max_element(damage.begin(), damage.end());
-  if (most == damage.end() || !(*most > 0)) return {};
-  const double y = both.rail.y[static_cast<std::size_t>(most - damage.begin())], mgt = mgt_of(both.lives);
-  return {*most >= 1 ? "bad" : "open", "Rolling contact fatigue",
-          fmt::format("damage {:.3g} at y = {:.1f} mm of the rail, where 1 is a visible crack{}", *most,
-                      as_shown(unit::kMillimetres, y), mgt > 0 ? fmt::format(": after {:.3g} MGT", mgt / *most) : "")};
-}
-
 ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
   ReportTable t{.id = "loads",
                 .title = "Loads",
@@ -228,7 +134,8 @@ ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
   return t;
 }
 
-ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+ReportTable totals_table(const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
+  const RailDamage& damage = both.rail;
   ReportTable t{
       .id = "totals",
       .title = "All passages together",
@@ -236,12 +143,26 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
                           "rail has 0.2 or less. RCF damage: Burstow's function for R260 over the width of each patch; "
                           "1 is a visible crack, below zero wear removes the cracks.",
                           rows.front().spec.collective.wear_factor),
-      .columns = {"what", "unit", "total", "largest", "at y [mm]"},
+      .columns = {"what", "unit", "total", "±", "largest", "±", "at y [mm]"},
       .rows = {}};
+  const auto bar = [&](const std::string& place, double factor) {
+    const Json::json_pointer at("/totals/" + place);
+    return both.error.is_object() && both.error.contains(at) && both.error.at(at).is_number()
+               ? Json(factor * both.error.at(at).get<double>())
+               : Json(nullptr);
+  };
+  struct Bars {
+    Json total{}, largest{};
+  };
   const auto add = [&](const std::string& what, const char* units, const Json& total, const std::vector<double>& values,
-                       auto&& shown) {
+                       auto&& shown, const Bars& bars = {}) {
     const auto at = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
-    t.rows.push_back({what, units, total, shown(values[at]), as_shown(unit::kMillimetres, damage.y[at])});
+    t.rows.push_back(
+        {what, units, total, bars.total, shown(values[at]), bars.largest, as_shown(unit::kMillimetres, damage.y[at])});
+  };
+  const auto wear_bars = [&](const KnownWear& wear, double factor) {
+    return Bars{bar(wear.key + "_area_m2", factor * unit::kSquareMillimetres.factor),
+                bar(wear.key + "_deepest/depth_m", factor * unit::kMicrometres.factor)};
   };
   for (const KnownWear& wear : known_wear(damage))
     for (const std::string& words : {steel_words(rows, wear.law), map_words(rows, wear.law)})
@@ -250,20 +171,24 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
   const auto plain = [](double v) { return v; };
   const double passages = passages_of(rows);
   add("passages; over one place", "", passages, damage.passages, plain);
-  add("friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
-      damage.friction_energy, [](double v) { return unit::kSurfaceEnergy.factor * v; });
+  add(
+      "friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
+      damage.friction_energy, [](double v) { return unit::kSurfaceEnergy.factor * v; },
+      Bars{bar("friction_energy_J_m", 1), nullptr});
   for (const KnownWear& wear : known_wear(damage)) {
     std::vector<double> of_thousand = smoothed_wear(damage, wear.law);
     for (double& depth : of_thousand) depth *= 1000 / passages;
-    add("wear of 1000 passages, " + wear.words, "mm²; µm",
+    add(
+        "wear of 1000 passages, " + wear.words, "mm²; µm",
         as_shown(unit::kSquareMillimetres, worn_area(damage, of_thousand)), of_thousand,
-        [](double v) { return as_shown(unit::kMicrometres, v); });
+        [](double v) { return as_shown(unit::kMicrometres, v); }, wear_bars(wear, 1000 / passages));
   }
   for (const KnownWear& wear : known_wear(damage))
-    add("wear of all, " + wear.words, "mm²; µm",
+    add(
+        "wear of all, " + wear.words, "mm²; µm",
         as_shown(unit::kSquareMillimetres, worn_area(damage, damage.depth(wear.law))), smoothed_wear(damage, wear.law),
-        [](double v) { return as_shown(unit::kMicrometres, v); });
-  add("RCF damage", "", nullptr, damage.rcf_damage, plain);
+        [](double v) { return as_shown(unit::kMicrometres, v); }, wear_bars(wear, 1));
+  add("RCF damage", "", nullptr, damage.rcf_damage, plain, Bars{nullptr, bar("rcf_damage_largest/damage", 1)});
   return t;
 }
 
@@ -423,49 +348,42 @@ void write_rail_damage(const std::filesystem::path& file, const std::vector<std:
   write_csv(file, origin, columns);
 }
 
-Json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
+Json collective_numbers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
   const RailDamage& damage = both.rail;
-  double passages = 0, left_out = 0;
-  for (const CollectiveRow& row : rows) (row.sound() ? passages : left_out) += row.passages;
-  Json totals{{"passages", passages},
-              {"passages_left_out", left_out},
-              {"friction_energy_J_m", worn_area(damage, damage.friction_energy)}};
+  Json totals{{"friction_energy_J_m", worn_area(damage, damage.friction_energy)}};
   for (const KnownWear& wear : known_wear(damage)) {
     totals[wear.key + "_area_m2"] = worn_area(damage, damage.depth(wear.law));
     totals[wear.key + "_deepest"] = extreme(damage, smoothed_wear(damage, wear.law), "depth_m");
   }
   totals["rcf_damage_largest"] = extreme(damage, damage.rcf_damage, "damage");
+  if (const CollectiveRow* pressed = most_pressed_row(rows))
+    totals["largest_pressure"] = {{"p_max_Pa", pressed->summary.contact.patch.p_max}, {"load", pressed->name}};
   totals["wheel"] = wheel_json(both.wheel);
-  totals["wear_of_steels"] = wear_of_steels(rows);
   const CollectiveRow* worst = worst_row(rows);
-  Json all = Json::array();
-  for (const CollectiveRow& row : rows) all.push_back(row_json(row));
-  return {{"title", title},
-          {"cell_m", damage.cell},
-          {"totals", totals},
+  return {{"totals", totals},
           {"worst_shakedown", worst ? Json{{"load", worst->name},
                                            {"wandering", worst->summary.shakedown.least(&ShakedownFactors::wandering)},
                                            {"where", remarks_of(worst->summary_json).decided_by}}
                                     : Json(nullptr)},
-          {"lives", lives_json(both.lives)},
-          {"loads", all}};
+          {"lives", lives_json(both.lives)}};
 }
 
-std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
-  std::vector<ReportAnswer> out;
-  if (const CollectiveRow* worst = worst_row(rows))
-    if (const std::optional<Judgement> answer = judgement_of(worst->summary)) {
-      const LastsRow& words = lasts_row(answer->lasts);
-      out.push_back({std::string(words.tone), std::string(words.title),
-                     fmt::format("load \"{}\", {}", worst->name, answer->reason)});
-    }
-  ReportAnswer life = life_answer(both.lives);
-  if (const auto failed = std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return !r.sound(); });
-      failed > 0 && !life.text.empty())
-    life.text += fmt::format("; without {} of {} loads, which failed", failed, rows.size());
-  for (const ReportAnswer& answer : {life, rcf_answer(both), wear_answer(rows, both), comparison_answer(rows)})
-    if (!answer.text.empty()) out.push_back(answer);
-  return out;
+Json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
+  double passages = 0, left_out = 0;
+  for (const CollectiveRow& row : rows) (row.sound() ? passages : left_out) += row.passages;
+  const Json numbers = collective_numbers(rows, both);
+  Json totals{{"passages", passages}, {"passages_left_out", left_out}};
+  totals.update(numbers["totals"]);
+  totals["wear_of_steels"] = wear_of_steels(rows);
+  Json all = Json::array();
+  for (const CollectiveRow& row : rows) all.push_back(row_json(row));
+  return {{"title", title},
+          {"cell_m", both.rail.cell},
+          {"totals", totals},
+          {"worst_shakedown", numbers["worst_shakedown"]},
+          {"lives", numbers["lives"]},
+          {"error", both.error},
+          {"loads", all}};
 }
 
 ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
@@ -484,7 +402,7 @@ ReportVerdict write_collective_page(const std::filesystem::path& page, const std
     report.answers.push_back(compared);
   report.tables = front.tables;
   if (!damage.lives.rows.empty()) report.tables.push_back(lives_table(damage.lives));
-  report.tables.push_back(totals_table(rows, damage.rail));
+  report.tables.push_back(totals_table(rows, damage));
   report.tables.push_back(rows_table(rows));
   report.charts = followed ? front.charts : charts_of(damage.rail);
   if (const std::optional<ReportChart> life = life_chart(damage.lives))

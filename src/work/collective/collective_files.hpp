@@ -38,7 +38,11 @@ struct CollectiveDamage {
   RailDamage rail;
   WheelDamage wheel;
   Lives lives{};
+  nlohmann::ordered_json error{};  ///< collective_errors (collective/collective_errors.hpp); null: not known
 };
+
+/// The numbers of the answer alone: totals, worst_shakedown, lives, as in collective.json.
+nlohmann::ordered_json collective_numbers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage);
 
 /// collective.json: totals, where the extremes are, and every row in short.
 nlohmann::ordered_json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows,
@@ -46,6 +50,9 @@ nlohmann::ordered_json collective_json(const std::string& title, const std::vect
 
 /// What the passages do, the worst first: whether and how long the rail lasts, rolling contact fatigue, wear.
 std::vector<ReportAnswer> collective_answers(const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage);
+
+/// What the vehicle code has for the same wheels, mean over those that give it; no text: none does.
+ReportAnswer comparison_answer(const std::vector<CollectiveRow>& rows);
 
 /// What stands first on the page of a collective that was followed through its traffic; empty: it was not.
 struct CollectiveFront {

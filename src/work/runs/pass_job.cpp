@@ -11,8 +11,6 @@
 
 namespace railstrata {
 
-std::string passes_text(int passes) { return fmt::format("{} {}", passes, passes == 1 ? "pass" : "passes"); }
-
 PassJob::PassJob(const char* to_repeat, LoadedCase loaded, const PassOrder& order, Control& control)
     : CaseJob({"passes", "identity.txt", to_repeat}, std::move(loaded), order, control), wanted_(order) {}
 

@@ -12,9 +12,6 @@ namespace railstrata {
 inline constexpr const char *kPassTable = "passes.csv", *kPassState = "state.csv", *kPassSummary = "passes.json",
                             *kPressedProfile = "rail_profile.csv";
 
-/// "1 pass", "20 passes"
-std::string passes_text(int passes);
-
 class PassJob : public CaseJob {
  protected:
   /// to_repeat: as of JobKind.

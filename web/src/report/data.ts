@@ -230,6 +230,8 @@ export interface PassesSummary {
   net_strain_per_pass: number|null;
   trend?: number|null;
   last_pass: Record<string, number|null>;
+  error?: {last_pass: Record<string, number>; classes_on_coarser_grids: string[]; not_converged: string[]}|null;
+  no_error?: string;
   ductility?: {strain: number; reached: number; passes: number | null; earliest: number | null; latest: number | null};
   shakedown?: {factors: Record<string, number|null>; verdict: string};
   zones?: {name: string; zone: number; top_m: number}[];

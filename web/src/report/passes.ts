@@ -28,6 +28,11 @@ const several = (all: SectionHistory[]) => all.length > 1;
 const called = (s: SectionHistory, all: SectionHistory[], words: string) =>
     (several(all) ? `${words}: ${s.name}` : words);
 const strain = (v: number|null|undefined) => (v === 0 ? "0" : powerText(v));
+/// " ± " and the error of a number of the last pass; nothing where it is not known.
+const barText = (s: PassesSummary, column: string, text: (v: number) => string) => {
+  const bar = s.error?.last_pass[column];
+  return typeof bar === "number" ? ` ± ${text(bar)}` : "";
+};
 const depthText = (metres: number) => `${(1e3 * metres).toFixed(2)} mm`;
 
 // ---- verdict
@@ -63,6 +68,18 @@ function ductilityWords(s: PassesSummary): string|null {
       `trend so far.`;
 }
 
+/// What the grid leaves open beyond its bars.
+function errorWords(s: PassesSummary): string|null {
+  if (s.error === undefined) return null;
+  if (s.error === null) return s.no_error ? `Error of the grid not known: ${s.no_error}.` : null;
+  const other = s.error.classes_on_coarser_grids.find((kind) => kind !== s.class);
+  const words = [
+    s.error.not_converged.length ? `Not converged with the grid: ${s.error.not_converged.join(", ")}.` : "",
+    other ? `The class depends on the grid: ${other} on a coarser one.` : "",
+  ];
+  return words.filter((w) => w).join(" ") || null;
+}
+
 function verdictCard(s: PassesStory, all: PassesStory[]): HTMLElement {
   const {summary} = s;
   const bad = summary.class === "ratchetting" && !(summary.doubts ?? []).length;
@@ -73,6 +90,7 @@ function verdictCard(s: PassesStory, all: PassesStory[]): HTMLElement {
     summary.law ? `What the law allows in the long run – ${summary.law}.` : null,
     shakedownWords(summary),
     ductilityWords(summary),
+    errorWords(summary),
   ];
   const title = summary.verdict ?? summary.class;
   return element(
@@ -91,11 +109,26 @@ function factsTable(all: PassesStory[]): HTMLElement {
   const rows: [string, (s: PassesSummary) => string][] = [
     ["class", (s) => s.class],
     ["passes", (s) => countText(s.passes)],
-    ["net strain per pass, mean of a round of wheels", (s) => strain(s.net_strain_per_pass)],
-    ["accumulated in the last pass", (s) => strain(s.last_pass.accumulated_strain)],
-    ["where, depth [mm]", (s) => numberText(s.last_pass.net_depth_mm, 3)],
-    ["most compressive σ_x [MPa]", (s) => numberText(s.last_pass.sigma_x_min_MPa, 3)],
-    ["most compressive σ_y [MPa]", (s) => numberText(s.last_pass.sigma_y_min_MPa, 3)],
+    [
+      "net strain per pass, mean of a round of wheels",
+      (s) => strain(s.net_strain_per_pass) + barText(s, "cycle_net", (v) => strain(v / (s.passes_per_cycle ?? 1)))
+    ],
+    [
+      "accumulated in the last pass",
+      (s) => strain(s.last_pass.accumulated_strain) + barText(s, "accumulated_strain", strain)
+    ],
+    [
+      "where, depth [mm]",
+      (s) => numberText(s.last_pass.net_depth_mm, 3) + barText(s, "net_depth_mm", (v) => numberText(v, 2))
+    ],
+    [
+      "most compressive σ_x [MPa]",
+      (s) => numberText(s.last_pass.sigma_x_min_MPa, 3) + barText(s, "sigma_x_min_MPa", (v) => numberText(v, 2))
+    ],
+    [
+      "most compressive σ_y [MPa]",
+      (s) => numberText(s.last_pass.sigma_y_min_MPa, 3) + barText(s, "sigma_y_min_MPa", (v) => numberText(v, 2))
+    ],
     ["shakedown factor, wandering traffic", (s) => numberText(s.shakedown?.factors.wandering, 3)],
     ["shakedown factor, one track", (s) => numberText(s.shakedown?.factors.single_track, 3)],
     ["by these factors it", (s) => s.shakedown?.verdict ?? "–"],
