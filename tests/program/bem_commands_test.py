@@ -182,6 +182,15 @@ class HalfSpaceCommands(FromOutside):
         self.assertNotIn("not_in_fem", json.loads(self.done("check", BASE, *drive, "--json")))
         self.assertEqual(len(json.loads(self.done("check", BASE, *beyond, "--json"))["not_in_fem"]), 2)
 
+    def test_check_estimates_the_commands_that_take_the_case(self):
+        told = json.loads(self.done("check", BASE, *COARSE, "--json", "--vary", "drive.traction_coefficient=0.1,0.2",
+                                    "--set", "load=[{passages=9}, {passages=4, wheel_load='70 kN'}]"))
+        times = {row["command"]: row for row in told["times"]}
+        self.assertEqual(set(times), {"bem", "collective", "sweep"})
+        self.assertEqual([times["collective"]["of"], times["sweep"]["of"]], ["for 2 loads", "for 2 cases"])
+        for row in times.values():
+            self.assertGreater(row["seconds"], 0, row)
+
     def test_check_of_a_contact_that_cannot_be_meshed_names_the_engine_that_takes_it(self):
         flange = ["--set", "geometry.wheel_profile=S1002", "--set", "geometry.rail_profile=UIC60", "--set",
                   "geometry.track=CN", "--set", "geometry.lateral_shift=11 mm"]

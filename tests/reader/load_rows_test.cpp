@@ -222,6 +222,14 @@ TEST(LoadRows, ASeriesMayHaveUnitsInParenthesesAndWheelsThatLift) {
   expect_says(note, "2 samples of a wheel became 1 loads; 1 of a lifted wheel were left out");
 }
 
+TEST(LoadRows, AHeadingNeedsAUnitOfItsColumnAndNoValue) {
+  CaseSpec spec;
+  EXPECT_EQ(read_load_table("passages,wheel_load [kN],wheel_radius [mm]\n1000,80,430\n2000,85,460\n", "l.csv", spec,
+                            nullptr),
+            "");
+  EXPECT_DOUBLE_EQ(*spec.loads.at(1).wheel_radius, 0.46);
+}
+
 TEST(LoadRows, TGammaIsNoTimeInGammas) {
   CaseSpec spec;
   EXPECT_EQ(read_load_table("wheel_load_kN,t_gamma_N\n80,20\n80,20\n", "l.csv", spec, nullptr), "");

@@ -24,7 +24,7 @@ Matrix shares_of(const std::vector<double>& nodes, const std::vector<double>& at
   return out;
 }
 
-/// c += a b, four columns of `a` at a time.
+/// c += a b, four columns of `a` at a time; rows of zeros in `b` cost nothing.
 template <class B>
 void add_product(const Eigen::Ref<const Matrix>& a, const B& b, Eigen::Ref<Matrix> c) {
   const Eigen::Index rows = a.rows(), stride = a.outerStride(), whole = a.cols() / 4 * 4;
@@ -33,6 +33,7 @@ void add_product(const Eigen::Ref<const Matrix>& a, const B& b, Eigen::Ref<Matri
     for (Eigen::Index k = 0; k < whole; k += 4) {
       const double* __restrict from = a.data() + k * stride;
       const double b0 = b(k, j), b1 = b(k + 1, j), b2 = b(k + 2, j), b3 = b(k + 3, j);
+      if (b0 == 0 && b1 == 0 && b2 == 0 && b3 == 0) continue;
       for (Eigen::Index i = 0; i < rows; ++i)
         to[i] += b0 * from[i] + b1 * from[i + stride] + b2 * from[i + 2 * stride] + b3 * from[i + 3 * stride];
     }
@@ -54,9 +55,10 @@ void add_block(Matrix& to, double share, const Matrix& of, Eigen::Index row, Eig
   }
 }
 
-/// The first kernels of a body, of the section less the half-space, between the stations t of the contact plane.
+/// D of a body at its wave numbers, between the stations t of the contact plane.
 std::vector<Matrix> difference_at(const PlacedRemainder& placed, const SectionRemainder& body,
-                                  const std::vector<double>& t, std::size_t count) {
+                                  const std::vector<double>& t) {
+  const std::size_t count = body.k.size();
   const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)}, down{along.z, -along.y};
   std::vector<double> own;
   for (const Vec2 p : body.stations) own.push_back(dot(p - placed.contact, along));
@@ -65,8 +67,8 @@ std::vector<Matrix> difference_at(const PlacedRemainder& placed, const SectionRe
   while (shares.row(first).isZero(0)) ++first;
   while (shares.row(last).isZero(0)) --last;
   const Eigen::Index n = last - first + 1, m = shares.cols();
-  const Matrix near = shares.middleRows(first, n), back = near.transpose();
-  Eigen::Matrix3d axes;  // rows: the plane's in those of the section
+  const Matrix near = shares.middleRows(first, n);  // four to a station
+  Eigen::Matrix3d axes;                             // rows: the plane's in those of the section
   axes << 1, 0, 0, 0, along.y, along.z, 0, down.y, down.z;
   std::vector<Matrix> out(count, Matrix::Zero(3 * m, 3 * m));
   for (std::size_t k = 0; k < count; ++k)
@@ -80,22 +82,25 @@ std::vector<Matrix> difference_at(const PlacedRemainder& placed, const SectionRe
         for (Eigen::Index c = 0; c < 3; ++c)
           for (Eigen::Index d = 0; d < 3; ++d) add(axes(a, c) * axes(b, d), body.own[k], c, d);
         add_product(turned, near, across);
-        auto at = out[k].block(a * m, b * m, m, m);
-        add_product(back, across, at);
-        if (a == b) continue;
-        const bool turns_over = a == 0 && !body.in_full;  // of forces ahead; those of waves are symmetric
-        out[k].block(b * m, a * m, m, m) = (turns_over ? -1 : 1) * at.transpose();
+        auto mirrored = out[k].block(b * m, a * m, m, m);
+        add_product(across.transpose().eval(), near, mirrored);
+        if (a != b) out[k].block(a * m, b * m, m, m) = mirrored.transpose();
       }
+  if (body.in_full) return out;
+  Matrix limit = out.back();  // but of the coupling of x with the others, which is odd in k
+  limit.topRightCorner(m, 2 * m).setZero();
+  limit.bottomLeftCorner(2 * m, m).setZero();
+  for (Matrix& rest : out) rest -= limit;
   return out;
 }
 
 /// Of the sections that are kept on both sides of the contact.
-std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t, std::size_t count) {
+std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t) {
   std::vector<Matrix> sum;
   for (const RemainderShare& kept : placed.kept) {
-    const std::vector<Matrix> own = difference_at(placed, *kept.remainder, t, count);
-    sum.resize(count, Matrix::Zero(own.front().rows(), own.front().cols()));
-    for (std::size_t k = 0; k < count; ++k) sum[k] += kept.share * own[k];
+    const std::vector<Matrix> own = difference_at(placed, *kept.remainder, t);
+    sum.resize(own.size(), Matrix::Zero(own.front().rows(), own.front().cols()));
+    for (std::size_t k = 0; k < own.size(); ++k) sum[k] += kept.share * own[k];
   }
   return sum;
 }
@@ -130,18 +135,6 @@ Eigen::Matrix3d in_the_middle(const Matrix& kernel) {
   return own;
 }
 
-/// Between nodes along x; x_in, x_out: how many rows, the first, are of the direction x. Seen from the other side x is
-/// the other way round.
-template <class Kernel>
-void add_offsets(const Kernel& kernel, Eigen::Index x_in, Eigen::Index x_out, Matrix& force, Matrix& u) {
-  const Eigen::Index nodes = u.cols();
-  for (Eigen::Index o = 0; o < nodes; ++o) add_product(kernel(o), force.leftCols(nodes - o), u.rightCols(nodes - o));
-  force.topRows(x_in) *= -1;
-  u.topRows(x_out) *= -1;
-  for (Eigen::Index o = 1; o < nodes; ++o) add_product(kernel(o), force.rightCols(nodes - o), u.leftCols(nodes - o));
-  u.topRows(x_out) *= -1;
-}
-
 /// Of waves, real parts on the left and imaginary ones on the right: Q = q_x/i, u_x = i U.
 template <class Kernel>
 void add_waves(const Kernel& kernel, Eigen::Index x_in, Eigen::Index x_out, Matrix& force, Matrix& u) {
@@ -162,34 +155,23 @@ void add_waves(const Kernel& kernel, Eigen::Index x_in, Eigen::Index x_out, Matr
 }  // namespace
 
 RowsDifference::Part RowsDifference::part_of(const PlacedRemainder& placed, const PatchGrid& grid) {
-  if (placed.kept.front().remainder->in_full) return part_in_full(placed, grid);
-  const double kNode = SectionRemainder::kNode;
-  std::vector<double> stations, nodes, cells;
-  const int half = std::max(2, static_cast<int>(std::ceil(0.5 * grid.ny * grid.dy / kNode))),
-            along = SectionRemainder::nodes_along(grid);
-  for (int m = -half; m <= half; ++m) stations.push_back(m * kNode);
-  for (int m = 0; m < along; ++m) nodes.push_back(m * kNode);
-  for (int i = 0; i <= grid.nx; ++i) cells.push_back(i * grid.dx);
-  Part out;
-  out.shares = shares_of(stations, rows_of(grid));
-  out.of_rows = out.shares.transpose();
-  out.along = shares_of(nodes, cells).transpose();
-  out.kernel = std::make_shared<const Kernel>(difference_at(placed, stations, nodes.size()));
-  out.rigid = in_the_middle(out.kernel->front());
-  return out;
-}
-
-RowsDifference::Part RowsDifference::part_in_full(const PlacedRemainder& placed, const PatchGrid& grid) {
+  constexpr double kStation = 3e-3;  // m
   const SectionRemainder& body = *placed.kept.front().remainder;
   const std::vector<double> rows = rows_of(grid);
-  const WaveQuadrature waves(body.k.front(), body.k.back(), (grid.nx + 1) * grid.dx);
-  const auto count = static_cast<Eigen::Index>(waves.k.size());
-  Kernel kernel = at_waves(difference_at(placed, rows, body.k.size()), body.k, waves.k);
-  const auto smooth = std::upper_bound(waves.k.begin(), waves.k.end(), SectionRemainder::kSmoothTo) - waves.k.begin();
-  const Eigen::Matrix3d local = in_the_middle(kernel[static_cast<std::size_t>(smooth - 1)]);
+  std::vector<double> stations;
+  const int half = std::max(2, static_cast<int>(std::ceil(0.5 * grid.ny * grid.dy / kStation)));
+  for (int m = -half; m <= half; ++m) stations.push_back(m * kStation);
+  if (body.in_full) stations = rows;
   Part out;
-  out.waves = true;
-  out.shares = out.of_rows = Matrix::Identity(grid.ny, grid.ny);
+  out.in_full = body.in_full;
+  out.shares = shares_of(stations, rows);
+  out.of_rows = out.shares.transpose();
+  const WaveQuadrature waves(body.k.front(), body.k.back(), (grid.nx + 1) * grid.dx);
+  Kernel kernel = at_waves(difference_at(placed, stations), body.k, waves.k);
+  const auto count = static_cast<Eigen::Index>(waves.k.size());
+  const auto smooth = std::upper_bound(waves.k.begin(), waves.k.end(), SectionRemainder::kSmoothTo) - waves.k.begin();
+  Eigen::Matrix3d local = Eigen::Matrix3d::Zero();
+  if (body.in_full) local = in_the_middle(kernel[static_cast<std::size_t>(smooth - 1)]);
   out.along.resize(grid.nx + 1, 2 * count);
   for (Eigen::Index q = 0; q < count; ++q) {
     Matrix& at = kernel[static_cast<std::size_t>(q)];
@@ -245,11 +227,9 @@ std::shared_ptr<const RowsDifference> RowsDifference::part(int first_y, int nx, 
   out->ny_ = ny;
   const auto cut = [&](Part& part) {
     part.shares = Matrix(part.shares.middleCols(first_y, ny));
-    if (!part.waves) keep_stations(part);
+    if (!part.in_full) keep_stations(part);
     part.of_rows = part.shares.transpose();
-    Eigen::Index functions = part.along.cols();
-    while (part.along.topRows(nx + 1).col(functions - 1).isZero(0)) --functions;
-    part.along = Matrix(part.along.topLeftCorner(nx + 1, functions));
+    part.along = Matrix(part.along.topRows(nx + 1));
   };
   std::for_each(out->pair_.begin(), out->pair_.end(), cut);
   cut(out->wheel_);
@@ -283,10 +263,7 @@ void RowsDifference::add(const Part& part, const In& in, const Out& out, int row
   const auto kernel = [&](Eigen::Index i) {
     return (*part.kernel)[static_cast<std::size_t>(i)].block(to, from, outputs, inputs);
   };
-  if (part.waves)
-    add_waves(kernel, along_surface ? n : 0, moves_along ? n : 0, force, u);
-  else
-    add_offsets(kernel, along_surface ? n : 0, moves_along ? n : 0, force, u);
+  add_waves(kernel, along_surface ? n : 0, moves_along ? n : 0, force, u);
   for (std::size_t a = 0; a < 3; ++a) {
     if (!out[a]) continue;
     Matrix of_cells = Matrix::Zero(n, rows);

@@ -5,8 +5,7 @@
 // body is a real symmetric matrix D(k) between stations across the surface. Less D at the largest k, the mesh's own
 // local error,
 //   u(x) = 1/pi Re ∫ D(k) τ(k) e^{ikx} dk,   τ(k) = sum over the cells of force e^{-ikx},
-// by a fixed quadrature in k: no periods, no images. A smooth one is integrated once for the distances between nodes
-// along x, as far apart as the stations; cells are shares of nodes.
+// by a fixed quadrature in k: no periods, no images.
 #include <Eigen/Core>
 #include <array>
 #include <memory>
@@ -47,19 +46,18 @@ class RowsDifference {
   std::shared_ptr<const RowsDifference> part(int first_y, int nx, int ny) const;
 
  private:
-  using Kernel = std::vector<Eigen::MatrixXd>;  ///< of each wave number or offset; index direction * n + station
-  /// A kernel with what its stations, waves or nodes ask for.
+  using Kernel = std::vector<Eigen::MatrixXd>;  ///< of each wave number; index direction * n + station
+  /// A kernel with what its stations and waves ask for.
   struct Part {
-    bool waves = false;                    ///< in full: by wave numbers and not by offsets
-    Eigen::MatrixXd shares;                ///< stations x rows: of a row's force
-    Eigen::MatrixXd of_rows;               ///< transposed: of a row's displacement
-    Eigen::MatrixXd along;                 ///< cells along x x nodes, or x cosines and negative sines of the waves
-    std::shared_ptr<const Kernel> kernel;  ///< of waves with the weight of the quadrature and of a cell
+    bool in_full = false;
+    Eigen::MatrixXd shares;                           ///< stations x rows: of a row's force
+    Eigen::MatrixXd of_rows;                          ///< transposed: of a row's displacement
+    Eigen::MatrixXd along;                            ///< cells along x x cosines and negative sines of the waves
+    std::shared_ptr<const Kernel> kernel;             ///< with the weights of the quadrature and of a cell
     Eigen::Matrix3d rigid = Eigen::Matrix3d::Zero();  ///< m/N, motion of the body as a whole by forces
   };
   static Part part_of(const PlacedRemainder& placed, const PatchGrid& grid);
   static void keep_stations(Part& part);  ///< that have shares of its rows
-  static Part part_in_full(const PlacedRemainder& placed, const PatchGrid& grid);
   void add(const Part& part, const In& in, const Out& out, int rows) const;
 
   int nx_, ny_;

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <optional>
 
-#include "bem/wave_quadrature.hpp"
 #include "section/section_compliance.hpp"
 
 namespace railstrata {
@@ -15,7 +14,6 @@ struct SectionSizes {
   MeshSizes mesh;
   double place = 0;    ///< m, arc length of the middle of the stations
   double largest = 0;  ///< 1/m, of the wave numbers
-  int offsets = 0;     ///< of a smooth one
 };
 
 namespace {
@@ -27,9 +25,7 @@ constexpr double kSmallestWave = 1;  // 1/m, of the wave numbers
 constexpr double kLogStep = 0.415;   // from one wave number to the next
 constexpr double kFinest = 0.25e-3;  // m, of stations
 
-SectionSizes smooth_sizes(double place, const PatchGrid& grid) {
-  constexpr int kOffsets = 32;
-  const double half_width = 0.5 * grid.ny * grid.dy;
+SectionSizes smooth_sizes(double place, double half_width) {
   const double farthest = (1 - kOneAlone) * kPlace,
                across = kPlace * std::ceil((half_width + kStation + farthest) / kPlace);
   return {{.element = kStation,
@@ -39,8 +35,7 @@ SectionSizes smooth_sizes(double place, const PatchGrid& grid) {
            .largest = 12e-3,
            .to_sides = true},
           place,
-          SectionRemainder::kSmoothTo,
-          kOffsets * static_cast<int>(std::ceil(1.0 * SectionRemainder::nodes_along(grid) / kOffsets))};
+          SectionRemainder::kSmoothTo};
 }
 
 /// Stations as near as the rows of cells, one of them at the edge; waves down to the length of a cell.
@@ -54,8 +49,7 @@ SectionSizes sizes_in_full(double place, double edge, const PatchGrid& grid) {
            .largest = 12e-3,
            .to_sides = true},
           edge + station * std::round((place - edge) / station),
-          2 * std::numbers::pi / std::max(grid.dx, kFinest),
-          0};
+          2 * std::numbers::pi / std::max(grid.dx, kFinest)};
 }
 
 /// Does the layer's thickness vary between these places of the profile?
@@ -93,9 +87,13 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
   const Profile& profile = wheel ? placement.wheel : placement.rail;
   const GeometrySpec& g = spec.geometry;
   const MaterialSpec& m = wheel ? spec.wheel_material : spec.rail_material;
-  std::vector<double> key{
-      static_cast<double>(wheel),         sizes.place, sizes.mesh.element, sizes.mesh.fine_width, sizes.largest,
-      static_cast<double>(sizes.offsets), m.young,     m.poisson};
+  std::vector<double> key{static_cast<double>(wheel),
+                          sizes.place,
+                          sizes.mesh.element,
+                          sizes.mesh.fine_width,
+                          sizes.largest,
+                          m.young,
+                          m.poisson};
   if (wheel) {
     const WheelSection& w = g.wheel_section;
     key.insert(key.end(), {static_cast<double>(g.wheel_shape), g.wheel_radius, w.rim_thickness, w.web_thickness,
@@ -151,11 +149,9 @@ std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const
   out.own = std::move(section.at);
   out.stations = std::move(section.stations);
   out.by_rotation = std::move(section.by_rotation);
-  if (out.in_full) out.k = k;
-  for (auto* of : {&out.own, &out.half_space}) {
+  out.k = k;
+  for (auto* of : {&out.own, &out.half_space})
     for (Eigen::MatrixXd& at : *of) at = by_direction(at);
-    if (!out.in_full) *of = by_offset(std::move(*of), k, SectionRemainder::kNode, sizes.offsets);
-  }
   return std::make_shared<const SectionRemainder>(std::move(out));
 }
 
@@ -180,7 +176,8 @@ std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placem
   const bool wheel = body == BodyId::wheel;
   const Profile& profile = wheel ? placement.wheel : placement.rail;
   const double places = (wheel ? placement.contact.wheel_s : placement.contact.rail_s) / kPlace,
-               nearest = kPlace * std::round(places), reach = 0.5 * smooth_sizes(nearest, grid).mesh.fine_width;
+               half_width = 0.5 * grid.ny * grid.dy, nearest = kPlace * std::round(places);
+  const double reach = 0.5 * smooth_sizes(nearest, half_width).mesh.fine_width;
   if (const auto side = nearest_side(spec, profile, body, nearest, reach))
     return {{at(spec, placement, body, half_space, sizes_in_full(nearest, *side, grid)), 1}};
   const double before = std::floor(places);
@@ -189,7 +186,7 @@ std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placem
   for (const auto& [step, share] : {std::pair{0.0, 1 - further}, std::pair{1.0, further}}) {
     if (!(share > 0)) continue;
     const double place = std::clamp(kPlace * (before + step), profile.s_min(), profile.s_max());
-    out.push_back({at(spec, placement, body, half_space, smooth_sizes(place, grid)), share});
+    out.push_back({at(spec, placement, body, half_space, smooth_sizes(place, half_width)), share});
   }
   return out;
 }

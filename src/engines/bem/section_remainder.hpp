@@ -1,8 +1,6 @@
 #pragma once
 // What the section of a body gives beyond the half-space of the same layers, at stations across its running surface.
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -15,18 +13,13 @@ namespace railstrata {
 
 struct SectionRemainder {
   static constexpr double kSmoothTo = 500;  ///< 1/m, the largest wave number of a remainder that is smooth
-  static constexpr double kNode = 3e-3;     ///< m, between nodes along x and across that stand for a smooth one
-  /// Nodes so far apart as the stations over the cells of a grid and one more ahead.
-  static int nodes_along(const PatchGrid& grid) {
-    return std::max(4, static_cast<int>(std::ceil(grid.nx * grid.dx / kNode)) + 1);
-  }
-  double radius = 0;     ///< m, of a wheel where the stations are; 0: a rail
+  double radius = 0;                        ///< m, of a wheel where the stations are; 0: a rail
   bool in_full = false;  ///< a layer ends near the patch: stations as near as rows of cells, waves as short as cells
   std::vector<Vec2> stations;       ///< m, in the axes of the model; of a wheel relative to its axle
   std::vector<double> by_rotation;  ///< SectionCompliance::by_rotation
-  std::vector<double> k;            ///< 1/m, wave numbers of one in full
-  /// Index direction * stations + station. Compliance of the section and, in the contact plane, of the half-space: at
-  /// each k; of a smooth one by_offset, at multiples of kNode along x.
+  std::vector<double> k;            ///< 1/m, wave numbers
+  /// Compliance of the section and, in the contact plane, of the half-space at each k. Index direction * stations +
+  /// station.
   std::vector<Eigen::MatrixXd> own, half_space;
 };
 

@@ -10,8 +10,9 @@
 namespace railstrata {
 
 WaveQuadrature::WaveQuadrature(double lowest, double highest, double reach) {
-  constexpr double kRadians = 8;  // of a wave in a panel of eight points
-  const double even = std::min(kRadians / reach, highest);
+  constexpr double kRadians = 8;    // of a wave in a panel of eight points
+  constexpr double kLittle = 0.25;  // of the even part: a panel of its own would cost more than it gives
+  const double even = kRadians / reach > (1 - kLittle) * highest ? highest : kRadians / reach;
   k.push_back(lowest / std::numbers::e);  // the integral of what is linear in ln k is its value there
   weight.push_back(lowest);
   const int low = std::max(1, static_cast<int>(std::ceil(std::log(even / lowest) / 4)));
@@ -41,33 +42,6 @@ std::vector<Eigen::MatrixXd> at_waves(const std::vector<Eigen::MatrixXd>& values
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(values.front().rows(), values.front().cols());
     for (int i = 0; i < s.count; ++i) sum += s.weight[i] * values[static_cast<std::size_t>(s.first + i)];
     out.push_back(std::move(sum));
-  }
-  return out;
-}
-
-std::vector<Eigen::MatrixXd> by_offset(std::vector<Eigen::MatrixXd> waves, const std::vector<double>& k, double spacing,
-                                       int count) {
-  const Eigen::Index n = waves.front().rows(), stations = n / 3;
-  const auto couples_x = [&](Eigen::Index row, Eigen::Index column) { return (row < stations) != (column < stations); };
-  Eigen::MatrixXd limit = waves.back();
-  for (Eigen::Index c = 0; c < n; ++c)
-    for (Eigen::Index r = 0; r < n; ++r)
-      if (couples_x(r, c)) limit(r, c) = 0;
-  for (Eigen::MatrixXd& at : waves) at -= limit;
-  const WaveQuadrature quadrature(k.front(), k.back(), spacing * count);
-  waves = at_waves(waves, k, quadrature.k);
-  std::vector<Eigen::MatrixXd> out;
-  for (int o = 0; o < count; ++o) {
-    Eigen::MatrixXd even = Eigen::MatrixXd::Zero(n, n), odd = even;
-    for (std::size_t q = 0; q < waves.size(); ++q) {
-      const double phase = quadrature.k[q] * spacing * o, weight = quadrature.weight[q] / std::numbers::pi;
-      even += weight * std::cos(phase) * waves[q];
-      odd += weight * std::sin(phase) * waves[q];
-    }
-    for (Eigen::Index c = 0; c < n; ++c)
-      for (Eigen::Index r = 0; r < n; ++r)
-        if (couples_x(r, c)) even(r, c) = r < stations ? -odd(r, c) : odd(r, c);  // u_x = i U, Q = q_x/i
-    out.push_back(std::move(even));
   }
   return out;
 }
