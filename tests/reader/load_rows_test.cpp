@@ -224,9 +224,9 @@ TEST(LoadRows, ASeriesMayHaveUnitsInParenthesesAndWheelsThatLift) {
 
 TEST(LoadRows, AHeadingNeedsAUnitOfItsColumnAndNoValue) {
   CaseSpec spec;
-  EXPECT_EQ(read_load_table("passages,wheel_load [kN],wheel_radius [mm]\n1000,80,430\n2000,85,460\n", "l.csv", spec,
-                            nullptr),
-            "");
+  EXPECT_EQ(
+      read_load_table("passages,wheel_load [kN],wheel_radius [mm]\n1000,80,430\n2000,85,460\n", "l.csv", spec, nullptr),
+      "");
   EXPECT_DOUBLE_EQ(*spec.loads.at(1).wheel_radius, 0.46);
 }
 

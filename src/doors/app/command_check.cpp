@@ -271,8 +271,8 @@ CommandWork declare_check(CLI::App& sub, CommandOptions& options) {
 
 extern const Command kCheckCommand{
     "check",
-    "Read a case and report what a run would be: contact point, mesh, stable step, memory, time. Solves trials of a second or so for the times. Of a "
-    "profile file: what was read",
+    "Read a case and report what a run would be: contact point, mesh, stable step, memory, time. Solves trials of a "
+    "second or so for the times. Of a profile file: what was read",
     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 "
     "mm\"\n  railstrata check cases/paper/base.toml --json\n  railstrata check cases/quick --mesh --out "
     "/tmp/mesh\n  railstrata check cases/along/receptance.toml --receptance --beam --set track.preset=medium\n  "
