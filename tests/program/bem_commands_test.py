@@ -80,7 +80,9 @@ class HalfSpaceCommands(FromOutside):
             summary = json.loads(self.done("bem", case, *small, "--threads", "1", "--json", "--no-report", "--force",
                                            "--out", self.folder / "shipped"))
             names = {w["name"] for w in summary["warnings"]}
-            self.assertLessEqual(names, {"von_mises_above_common_rail_yield"}, case)
+            # stresses below a taper are those of half-spaces, which is said
+            tapers = {"layer_varies_below_patch"} if "thickness_table" in case.read_text() else set()
+            self.assertLessEqual(names, {"von_mises_above_common_rail_yield", *tapers}, case)
 
     def test_a_transient_leaves_its_history_a_series_for_paraview_and_its_last_state(self):
         out = self.folder / "rest"

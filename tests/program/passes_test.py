@@ -23,9 +23,9 @@ def rows(file):
 
 
 class Passes(FromOutside):
-    def passes(self, name, *words, case=BASE):
+    def passes(self, name, *words, case=BASE, cell="1 mm"):
         out = self.folder / name
-        rc, _, err = railstrata("passes", case, *COARSE, "--out", out, *words)
+        rc, _, err = railstrata("passes", case, "--cell", cell, "--threads", "1", "-q", *SMOOTH, "--out", out, *words)
         self.assertEqual(rc, 0, err)
         return out
 
@@ -119,8 +119,8 @@ class Passes(FromOutside):
             def passes(finer):
                 keys = (f"passes.patch_cells={4 * finer}", f"passes.patch_rows={6 * finer}")
                 grid = [word for key in keys for word in ("--set", key)]
-                out = self.passes(f"{name}_{finer}", *words, *grid, "--cell", f"{0.4 / finer} mm", "--passes", 2,
-                                  "--no-report", case=line)
+                out = self.passes(f"{name}_{finer}", *words, *grid, "--passes", 2, "--no-report", case=line,
+                                  cell=f"{0.4 / finer} mm")
                 return json.loads((out / "passes.json").read_text())
 
             coarse, fine = passes(1), passes(4)

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "ask/answer.hpp"
 #include "core/control.hpp"
 #include "study/claim.hpp"
 #include "study/study_plan.hpp"
