@@ -222,6 +222,16 @@ TEST(LoadRows, ASeriesMayHaveUnitsInParenthesesAndWheelsThatLift) {
   expect_says(note, "2 samples of a wheel became 1 loads; 1 of a lifted wheel were left out");
 }
 
+TEST(LoadRows, ASeriesHasItsTimeInAnyScript) {
+  for (const char* time : {"Zeit", "Temps", "Tid", "时间", "里程"}) {
+    CaseSpec spec;
+    const std::string names = std::string(time) + (time == std::string("里程") ? " [m]" : " [s]");
+    read_load_table(names + ";轮重 [kN];横移量 [mm]\n0;80;1\n0.1;82;1\n", "s.csv", spec, nullptr);
+    ASSERT_EQ(spec.loads.size(), 1u) << time;
+    EXPECT_DOUBLE_EQ(*spec.loads[0].wheel_load, 81e3);
+  }
+}
+
 TEST(LoadRows, AHeadingNeedsAUnitOfItsColumnAndNoValue) {
   CaseSpec spec;
   EXPECT_EQ(

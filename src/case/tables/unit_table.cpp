@@ -112,7 +112,10 @@ std::optional<std::string> unit_after(const std::string& name, std::string_view 
 
 /// A word, not a number of a table without names.
 bool is_word(const std::string& name) {
-  return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front()));
+  constexpr unsigned char kBeyondAscii = 0x80;  // letters of other scripts
+  if (name.empty()) return false;
+  const auto first = static_cast<unsigned char>(name.front());
+  return std::isalpha(first) || first >= kBeyondAscii;
 }
 
 class TableReader {
