@@ -14,7 +14,6 @@ namespace railstrata {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSafety = 1.25;
 constexpr std::size_t kCompared = 4;  // passes, as many as a class takes
 
 /// How a column of passes.csv is compared.
@@ -34,8 +33,6 @@ constexpr std::array kColumns{ComparedColumn{"accumulated_strain", "accumulated 
                               ComparedColumn{"cycle_accumulated", "", Compared::by_share},
                               ComparedColumn{"cycle_net", "", Compared::by_share}};
 
-double bar(double difference, double coarser) { return kSafety * std::abs(difference) / (coarser - 1); }
-
 /// The last row of the column that has a number: a round may not be over yet.
 std::size_t last_number(const std::vector<double>& values) {
   std::size_t n = values.size();
@@ -54,10 +51,10 @@ double error_of(const ComparedColumn& column, const ComparedPasses& passes, cons
     const double difference = f[n] - g[static_cast<std::size_t>(same - there.begin())];
     const bool share = column.how == Compared::by_share;
     if (share && !(f[n] >= kNoFlow)) {
-      if (n == last) out = std::max(out, bar(difference, other.coarser));
+      if (n == last) out = std::max(out, grid_bar(difference, other.coarser));
       continue;
     }
-    out = std::max(out, bar(difference, other.coarser) * (share ? f[last] / f[n] : 1));
+    out = std::max(out, grid_bar(difference, other.coarser) * (share ? f[last] / f[n] : 1));
   }
   return out;
 }
@@ -73,6 +70,11 @@ double row_at(const std::vector<double>& rows, double depth) {
 }
 
 }  // namespace
+
+double grid_bar(double difference, double coarser) {
+  constexpr double kSafety = 1.25;
+  return kSafety * std::abs(difference) / (coarser - 1);
+}
 
 double PassErrors::of(const std::string& column) const {
   for (const auto& [name, error] : last)
@@ -109,7 +111,7 @@ PassErrors pass_errors(const ComparedPasses& passes, const std::vector<ComparedP
     out.last.emplace_back(column.name, error);
   }
   for (const ComparedPasses& other : coarser) {
-    out.strain = std::max(out.strain, bar(passes.strain - other.strain, other.coarser));
+    out.strain = std::max(out.strain, grid_bar(passes.strain - other.strain, other.coarser));
     out.classes.push_back(other.kind);
   }
   return out;

@@ -20,6 +20,10 @@
 
 namespace railstrata {
 
+/// Half width of a number's bar by its difference from a grid `coarser` times as coarse, of first order, with the
+/// factor of safety for three grids.
+double grid_bar(double difference, double coarser);
+
 /// What the error of a series needs of the series itself and of each coarser one.
 struct ComparedPasses {
   double coarser = 1;  ///< r

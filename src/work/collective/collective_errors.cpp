@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "passes/pass_errors.hpp"
 #include "record/json.hpp"
 #include "record/number_text.hpp"
 
@@ -127,7 +128,6 @@ std::vector<std::size_t> deciding_loads(const std::vector<CollectiveRow>& rows) 
 Json collective_errors(const CaseSpec& spec, const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
                        const Placement& placement, const std::filesystem::path& folder,
                        const CollectiveOptions& options) {
-  constexpr double kSafety = 1.25;
   constexpr std::array kCoarser{2.0, 4.0};
   const std::vector<std::size_t> deciding = deciding_loads(rows);
   if (deciding.empty()) return nullptr;
@@ -148,7 +148,7 @@ Json collective_errors(const CaseSpec& spec, const std::vector<CollectiveRow>& r
     CollectiveDamage other{rail_damage(there, placement, larger.bem.cell),
                            wheel_damage(there, placement, larger.bem.cell)};
     other.lives = collective_lives(spec, there, other.rail, other.wheel);
-    const double factor = kSafety / (r - 1);
+    const double factor = grid_bar(1, r);
     widen(numbers, collective_numbers(there, other), factor / share, out);
     widen(rows, there, deciding, factor, least);
   }

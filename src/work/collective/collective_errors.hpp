@@ -4,12 +4,12 @@
 // The loads that decide are solved once more on cells r = 2 and 4 times as large, the others stay; the same sums of
 // them give each number once more. A number f with f_r there is taken to be of first order:
 //
-//   ± = 1.25 max over r of |f - f_r| / (r - 1) / share,
+//   ± = max over r of grid_bar(f - f_r, r) / share     (passes/pass_errors.hpp),
 //
-// with the factor of safety for three grids [Roache1994] and the share of the friction energy of all loads that the
-// deciding ones have. What cancels between loads is no accuracy: sums have at least the mean relative bar of the
-// loads' friction energy, the largest pressure the largest relative one of the loads' pressures, and that of their
-// contacts (judge/cell_errors.hpp). Places have a cell of the profile more.
+// with the share of the friction energy of all loads that the deciding ones have. What cancels between loads is no
+// accuracy: sums have at least the mean relative bar of the loads' friction energy, the largest pressure the largest
+// relative one of the loads' pressures, and that of their contacts (judge/cell_errors.hpp). Places have a cell of the
+// profile more.
 #include <filesystem>
 #include <string>
 #include <vector>
