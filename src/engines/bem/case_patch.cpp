@@ -64,6 +64,7 @@ void gap_and_influence(const CaseSpec& spec, const Placement& placement, const B
       if (patch.profile.gap[k] < ProfileGap::kNoSurface) patch.profile.gap[k] += patch.surface.sinking[k];
   }
   const double film = patch.contact.third_body.flexibility();
+  patch.sections = bodies == ContactBodies::sections ? cache.sections() : nullptr;
   patch.influence = bodies == ContactBodies::half_spaces
                         ? cache.get(patch.wheel, patch.rail, patch.grid, film)
                         : cache.get(patch.wheel, patch.rail, patch.grid, film, {spec, placement});

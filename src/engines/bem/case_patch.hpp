@@ -26,6 +26,7 @@ struct CasePatch {
   ProfileGap profile;   ///< its gap with the sinking of the rail's surface
   RailSurface surface;  ///< empty planes: the surface of the profile
   std::shared_ptr<const InfluenceOperator> influence;
+  std::shared_ptr<SectionStore> sections;  ///< null: half-spaces
   RollingContact contact;  ///< gap, load, friction, spin and rigid slip of the geometry; creepages and forces are left
                            ///< to the caller (drive_contact)
   NormalSolution frictionless;  ///< under its target, as the grid was fitted to it

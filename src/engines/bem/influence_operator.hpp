@@ -121,6 +121,7 @@ class InfluenceCache {
   /// With the sections of the bodies (bem.bodies).
   std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail,
                                                const PatchGrid& grid, double film, const SectionsAsked& sections);
+  const std::shared_ptr<SectionStore>& sections() const { return sections_; }
 
  private:
   /// rail: null: of the wheel alone.

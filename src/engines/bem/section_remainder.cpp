@@ -5,6 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "core/faults.hpp"
+#include "geometry/profile_names.hpp"
 #include "section/section_compliance.hpp"
 
 namespace railstrata {
@@ -20,10 +22,12 @@ namespace {
 
 constexpr double kStation = 2e-3;  // m, from one to the next of a smooth difference
 constexpr double kPlace = kSectionPlace;
-constexpr double kOneAlone = 0.25;   // of kPlace: so far on both sides of its middle a section is alone
-constexpr double kSmallestWave = 1;  // 1/m, of the wave numbers
-constexpr double kLogStep = 0.415;   // from one wave number to the next
-constexpr double kFinest = 0.25e-3;  // m, of stations
+constexpr double kOneAlone = 0.25;         // of kPlace: so far on both sides of its middle a section is alone
+constexpr double kSmallestWave = 1;        // 1/m, of the wave numbers
+constexpr double kLogStep = 0.415;         // from one wave number to the next
+constexpr double kDepthBelow = 16e-3;      // m, to which states are asked for
+constexpr double kLargestOfBlock = 60e-3;  // m, of its elements
+constexpr double kFinest = 0.25e-3;        // m, of stations
 
 SectionSizes smooth_sizes(double place, double half_width) {
   const double farthest = (1 - kOneAlone) * kPlace,
@@ -134,59 +138,128 @@ Eigen::MatrixXd by_direction(const Eigen::MatrixXd& by_station) {
   return out;
 }
 
-std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                                     const LayeredHalfSpace& half_space, const SectionSizes& sizes) {
-  const bool wheel = body == BodyId::wheel;
-  const MeshedSection meshed = meshed_section(spec, placement, body, sizes.place, sizes.mesh);
-  SectionRemainder out;
-  out.radius = wheel ? spec.geometry.wheel_radius - placement.wheel.at(sizes.place).position.z : 0;
-  out.in_full = sizes.largest > SectionRemainder::kSmoothTo;
-  const std::vector<double> k = wave_numbers(sizes.largest);
-  const QuadraticSection mesh = quadratic_section(meshed.body);
-  SectionCompliance section = section_compliance(mesh, section_stiffness(mesh, meshed.materials, out.radius), 1, k);
-  out.half_space =
-      half_space_compliance(half_space, wheel, section.spacing, static_cast<int>(section.stations.size()), k);
-  out.own = std::move(section.at);
-  out.stations = std::move(section.stations);
-  out.by_rotation = std::move(section.by_rotation);
-  out.k = k;
-  for (auto* of : {&out.own, &out.half_space})
-    for (Eigen::MatrixXd& at : *of) at = by_direction(at);
-  return std::make_shared<const SectionRemainder>(std::move(out));
-}
+struct PlacedSizes {
+  SectionSizes sizes;
+  double share = 1;
+};
 
-}  // namespace
-
-std::shared_ptr<const SectionRemainder> SectionStore::at(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                                         const LayeredHalfSpace& half_space,
-                                                         const SectionSizes& sizes) {
-  constexpr std::size_t kEntries = 64;
-  std::vector<double> key = key_of(spec, placement, body, half_space, sizes);
-  const std::lock_guard lock(mutex_);
-  for (const Entry& entry : entries_)
-    if (entry.key == key) return entry.remainder;
-  if (entries_.size() == kEntries) entries_.erase(entries_.begin());
-  auto made = remainder_of(spec, placement, body, half_space, sizes);
-  entries_.push_back({std::move(key), made});
-  return made;
-}
-
-std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                              const LayeredHalfSpace& half_space, const PatchGrid& grid) {
+/// The kept places on both sides of the contact; one where a layer ends or varies nearby.
+std::vector<PlacedSizes> places_of(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                   const PatchGrid& grid) {
   const bool wheel = body == BodyId::wheel;
   const Profile& profile = wheel ? placement.wheel : placement.rail;
   const double places = (wheel ? placement.contact.wheel_s : placement.contact.rail_s) / kPlace,
                half_width = 0.5 * grid.ny * grid.dy, nearest = kPlace * std::round(places);
   const double reach = 0.5 * smooth_sizes(nearest, half_width).mesh.fine_width;
   if (const auto side = nearest_side(spec, profile, body, nearest, reach))
-    return {{at(spec, placement, body, half_space, sizes_in_full(nearest, *side, grid)), 1}};
+    return {{sizes_in_full(nearest, *side, grid), 1}};
   const double before = std::floor(places);
   const double further = std::clamp((places - before - kOneAlone) / (1 - 2 * kOneAlone), 0.0, 1.0);
-  std::vector<RemainderShare> out;
+  std::vector<PlacedSizes> out;
   for (const auto& [step, share] : {std::pair{0.0, 1 - further}, std::pair{1.0, further}}) {
     if (!(share > 0)) continue;
     const double place = std::clamp(kPlace * (before + step), profile.s_min(), profile.s_max());
-    out.push_back({at(spec, placement, body, half_space, smooth_sizes(place, half_width)), share});
+    out.push_back({smooth_sizes(place, half_width), share});
+  }
+  return out;
+}
+
+/// Of a wheel's surface at a place; 0: of a rail.
+double radius_at(const CaseSpec& spec, const Placement& placement, BodyId body, double place) {
+  return body == BodyId::wheel ? spec.geometry.wheel_radius - placement.wheel.at(place).position.z : 0;
+}
+
+SectionRemainder remainder_of(const CaseSpec& spec, const Placement& placement, BodyId body,
+                              const LayeredHalfSpace& half_space, const SectionSizes& sizes) {
+  const MeshedSection meshed = meshed_section(spec, placement, body, sizes.place, sizes.mesh);
+  SectionRemainder out;
+  out.radius = radius_at(spec, placement, body, sizes.place);
+  out.in_full = sizes.largest > SectionRemainder::kSmoothTo;
+  const std::vector<double> k = wave_numbers(sizes.largest);
+  const QuadraticSection mesh = quadratic_section(meshed.body);
+  SectionCompliance section = section_compliance(mesh, section_stiffness(mesh, meshed.materials, out.radius), 1, k);
+  out.half_space = half_space_compliance(half_space, body == BodyId::wheel, section.spacing,
+                                         static_cast<int>(section.stations.size()), k);
+  out.own = std::move(section.at);
+  out.stations = std::move(section.stations);
+  out.by_rotation = std::move(section.by_rotation);
+  out.k = k;
+  for (auto* of : {&out.own, &out.half_space})
+    for (Eigen::MatrixXd& at : *of) at = by_direction(at);
+  return out;
+}
+
+SectionInterior interior_on(const MeshedSection& meshed, double radius, const SectionSizes& sizes) {
+  const QuadraticSection mesh = quadratic_section(meshed.body);
+  return section_interior(meshed.body, mesh, section_stiffness(mesh, meshed.materials, radius), meshed.materials,
+                          radius, wave_numbers(sizes.largest));
+}
+
+/// The same layers all over a block under a plane, so large that it is a half-space.
+struct LargeBlock {
+  CaseSpec spec;
+  Placement placement;
+};
+
+LargeBlock large_block(const CaseSpec& spec, const Placement& placement, BodyId body) {
+  constexpr double kWidth = 1, kHeight = 0.5;  // m
+  LargeBlock out{case_at_contact(spec, placement), placement};
+  std::erase_if(out.spec.layers, [body](const LayerSpec& layer) { return layer.on != body; });
+  for (LayerSpec& layer : out.spec.layers) {
+    layer.on = BodyId::rail;
+    layer.width = kWidth;
+    layer.thickness_table.clear();
+  }
+  if (body == BodyId::wheel) out.spec.rail_material = spec.wheel_material;
+  out.spec.geometry.rail_shape = RailShape::block;
+  out.spec.geometry.block_width = kWidth;
+  out.spec.geometry.block_height = kHeight;
+  out.placement.rail = circular_profile(ProfileKind::rail, HUGE_VAL, 0.6 * kWidth);
+  out.placement.track.cant = 0;
+  return out;
+}
+
+}  // namespace
+
+std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                              const LayeredHalfSpace& half_space, const PatchGrid& grid) {
+  std::vector<RemainderShare> out;
+  for (const PlacedSizes& at : places_of(spec, placement, body, grid))
+    out.push_back({remainders_.get(key_of(spec, placement, body, half_space, at.sizes),
+                                   [&] { return remainder_of(spec, placement, body, half_space, at.sizes); }),
+                   at.share});
+  return out;
+}
+
+std::vector<InteriorShare> SectionStore::below(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                               const LayeredHalfSpace& half_space, const PatchGrid& grid) {
+  const auto difference = [&](const SectionSizes& sizes) {
+    const MeshedSection meshed = meshed_section(spec, placement, body, sizes.place, sizes.mesh);
+    SectionInterior out = interior_on(meshed, radius_at(spec, placement, body, sizes.place), sizes);
+    const ContactBand& band = meshed.body.contact;
+    const LargeBlock block = large_block(spec, placement, body);
+    SectionSizes alike = sizes;
+    alike.place = block.placement.rail.s_at_y(0);
+    alike.mesh.fine_width = band.s.back() - band.s.front();
+    alike.mesh.fine_depth = band.depth.back();
+    alike.mesh.largest = kLargestOfBlock;
+    const auto of_block = [&] {
+      return interior_on(meshed_section(block.spec, block.placement, BodyId::rail, alike.place, alike.mesh), 0, alike);
+    };
+    std::vector<double> key = key_of(block.spec, block.placement, BodyId::rail, half_space, alike);
+    key.push_back(alike.mesh.fine_depth);
+    const auto flat = blocks_.get(key, of_block);
+    if (flat->at.front().size() != out.at.front().size())
+      throw NumericalError("a section's rows of elements are not those of a block");
+    for (std::size_t i = 0; i < out.at.size(); ++i) out.at[i] -= flat->at[i];
+    return out;
+  };
+  std::vector<InteriorShare> out;
+  for (const PlacedSizes& at : places_of(spec, placement, body, grid)) {
+    SectionSizes sizes = at.sizes;
+    sizes.mesh.fine_depth = std::max(sizes.mesh.fine_depth, kDepthBelow);
+    out.push_back({interiors_.get(key_of(spec, placement, body, half_space, sizes), [&] { return difference(sizes); }),
+                   at.share});
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include "bem/patch_grid.hpp"
 #include "halfspace/layered.hpp"
 #include "model/model.hpp"
+#include "section/section_interior.hpp"
 
 namespace railstrata {
 
@@ -29,9 +30,38 @@ struct RemainderShare {
   double share = 1;
 };
 
-struct SectionSizes;
+/// One of the interiors that are kept on both sides of a place, and its share there.
+struct InteriorShare {
+  std::shared_ptr<const SectionInterior> difference;
+  double share = 1;
+};
 
-/// Remainders of sections that were asked for before. Safe to share between threads.
+/// What was made before, by its key. Safe to share between threads.
+template <class Made>
+class KeptByKey {
+ public:
+  template <class Make>
+  std::shared_ptr<const Made> get(const std::vector<double>& key, Make&& make) {
+    constexpr std::size_t kEntries = 64;
+    const std::lock_guard lock(mutex_);
+    for (const Entry& entry : entries_)
+      if (entry.key == key) return entry.made;
+    if (entries_.size() == kEntries) entries_.erase(entries_.begin());
+    auto made = std::make_shared<const Made>(make());
+    entries_.push_back({key, made});
+    return made;
+  }
+
+ private:
+  struct Entry {
+    std::vector<double> key;
+    std::shared_ptr<const Made> made;
+  };
+  std::mutex mutex_;
+  std::vector<Entry> entries_;
+};
+
+/// Sections that were asked for before. Safe to share between threads.
 class SectionStore {
  public:
   /// Of the section with its foot or bore held, around the contact, at least as wide as the grid where the running
@@ -39,16 +69,13 @@ class SectionStore {
   /// nearby. half_space: its layers. Throws CaseError where the section cannot be meshed.
   std::vector<RemainderShare> get(const CaseSpec& spec, const Placement& placement, BodyId body,
                                   const LayeredHalfSpace& half_space, const PatchGrid& grid);
+  /// The states below the surface, less those of a large block with the same layers.
+  std::vector<InteriorShare> below(const CaseSpec& spec, const Placement& placement, BodyId body,
+                                   const LayeredHalfSpace& half_space, const PatchGrid& grid);
 
  private:
-  std::shared_ptr<const SectionRemainder> at(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                             const LayeredHalfSpace& half_space, const SectionSizes& sizes);
-  struct Entry {
-    std::vector<double> key;
-    std::shared_ptr<const SectionRemainder> remainder;
-  };
-  std::mutex mutex_;
-  std::vector<Entry> entries_;
+  KeptByKey<SectionRemainder> remainders_;
+  KeptByKey<SectionInterior> interiors_, blocks_;
 };
 
 }  // namespace railstrata

@@ -10,6 +10,7 @@
 
 #include "bem/interface_slip.hpp"
 #include "bem/loaded_wheel.hpp"
+#include "bem/section_below.hpp"
 #include "core/faults.hpp"
 #include "rules/support.hpp"
 
@@ -168,6 +169,9 @@ BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const Pa
   r.surroundings = patch_surroundings(spec, own, solved_patch(r.grid, p.solution.normal, from));
   r.surroundings.cut_off = cut_off(spec, p, r.surroundings);
   if (r.grid.line) r.surroundings.edges = {};  // its theory knows none
+  own.contact = p.contact;
+  if (p.patch.sections)
+    r.sections = std::make_shared<const SectionsBelowPatch>(SectionsBelowPatch{p.patch.sections, spec, std::move(own)});
   return r;
 }
 
@@ -238,12 +242,24 @@ BemResult mean_result(const CaseSpec& spec, const Placement& placement, const st
   return out;
 }
 
-/// sign: of the friction on this body, over that on the rail.
-Subsurface interior(const LayeredHalfSpace& body, const BemPatch& patch, double sign) {
+Subsurface interior(BodyId id, const LayeredHalfSpace& body, const BemPatch& patch) {
+  const double sign = id == BodyId::rail ? 1 : -1;  // of the friction over that on the rail
   const ContactField& f = patch.together ? *patch.together : patch.field;
   Plane q_x = of_cells(patch, f.q_x), q_y = of_cells(patch, f.q_y);
   for (Plane* q : {&q_x, &q_y}) scale_by(*q, sign);
-  return {body, patch.grid, of_cells(patch, f.p), std::move(q_x), std::move(q_y)};
+  PlaneLoads loads{of_cells(patch, f.p), std::move(q_x), std::move(q_y)};
+  Subsurface out(body, patch.grid, loads.p, loads.q_x, loads.q_y);
+  if (!patch.sections) return out;
+  const auto& [store, spec, placement] = *patch.sections;
+  const RigidContact& contact = placement.contact;
+  const bool wheel = id == BodyId::wheel;
+  const auto section = std::make_shared<const LoadedSection>(
+      LoadedSection{store->below(spec, placement, id, body, patch.grid),
+                    wheel ? placement.wheel.at(contact.wheel_s).position - Vec2{0, spec.geometry.wheel_radius}
+                          : rail_to_model(placement.track, placement.rail.at(contact.rail_s).position),
+                    contact.angle - (wheel ? contact.roll : 0), patch.grid, std::move(loads)});
+  out.stand_on(std::make_unique<const SectionBelow>(section, patch.grid));
+  return out;
 }
 
 }  // namespace
@@ -323,8 +339,12 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   return r;
 }
 
-Subsurface rail_interior(const LayeredHalfSpace& rail, const BemPatch& patch) { return interior(rail, patch, 1); }
-Subsurface wheel_interior(const LayeredHalfSpace& wheel, const BemPatch& patch) { return interior(wheel, patch, -1); }
+Subsurface rail_interior(const LayeredHalfSpace& rail, const BemPatch& patch) {
+  return interior(BodyId::rail, rail, patch);
+}
+Subsurface wheel_interior(const LayeredHalfSpace& wheel, const BemPatch& patch) {
+  return interior(BodyId::wheel, wheel, patch);
+}
 Subsurface rail_interior(const BemResult& r) { return rail_interior(r.rail, r); }
 Subsurface wheel_interior(const BemResult& r) { return wheel_interior(r.wheel, r); }
 

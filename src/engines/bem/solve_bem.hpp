@@ -50,6 +50,13 @@ struct SolverEffort {
   double wall_s = 0;
 };
 
+/// What the states below a patch ask for where the bodies are their sections.
+struct SectionsBelowPatch {
+  std::shared_ptr<SectionStore> store;
+  CaseSpec spec;
+  Placement placement;  ///< its contact is that of the patch
+};
+
 /// One patch in its contact plane.
 struct BemPatch {
   ContactField field;
@@ -69,6 +76,7 @@ struct BemPatch {
   /// rolling the dissipation, as elastic displacements take no work round.
   double motion_power = std::numeric_limits<double>::quiet_NaN();
   PatchSurroundings surroundings;
+  std::shared_ptr<const SectionsBelowPatch> sections;  ///< null: half-spaces
 };
 
 struct InterfaceSlip;  // interface_slip.hpp

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bem/layer_correction.hpp"
+#include "bem/section_below.hpp"
 #include "core/stop_request.hpp"
 #include "halfspace/line_contact.hpp"
 
@@ -106,6 +107,13 @@ Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plan
 Subsurface::~Subsurface() = default;
 Subsurface::Subsurface(Subsurface&&) noexcept = default;
 
+void Subsurface::stand_on(std::unique_ptr<const SectionBelow> section) { section_ = std::move(section); }
+
+void Subsurface::follow(const Subsurface& whole) {
+  kernels_ = whole.kernels_;
+  if (whole.section_) section_ = whole.section_->on(grid_);
+}
+
 bool Subsurface::gives_at(double depth) const {
   double bottom = 0;
   return std::any_of(body_.layers.begin(), body_.layers.end(), [&](const HalfSpaceLayer& layer) {
@@ -145,6 +153,7 @@ StatePlane Subsurface::plane(double depth, bool below_interface) const {
     stop_if_requested();
     layered_->add(loads_, below_interface, out);
   }
+  if (section_) section_->add(out);
   return out;
 }
 

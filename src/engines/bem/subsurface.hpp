@@ -75,6 +75,7 @@ struct SubsurfacePeaks {
 };
 
 class LayerCorrection;
+class SectionBelow;
 
 /// Spectra of the influence below homogeneous half-spaces, for bodies that ask for the same depths on the same cells
 /// again. Threads may share one.
@@ -104,6 +105,9 @@ class Subsurface {
 
   /// Takes the influence of its planes, and of bodies made from it, from these; they must outlive it.
   void share(InteriorKernels* kernels) { kernels_ = kernels; }
+
+  /// Adds what the body's section changes to the states, here and in bodies made from it.
+  void stand_on(std::unique_ptr<const SectionBelow> section);
 
   const PatchGrid& grid() const { return grid_; }
   StatePlane plane(double depth) const;
@@ -139,6 +143,7 @@ class Subsurface {
  private:
   StatePlane plane(double depth, bool below_interface) const;
   bool gives_at(double depth) const;
+  void follow(const Subsurface& whole);
   PatchGrid loaded(int rim) const;
   /// Takes the first-order error of stepwise tractions out of a plane nearer to the surface than a cell.
   void straighten_steps(double depth, StatePlane& out) const;
@@ -150,6 +155,7 @@ class Subsurface {
   int reach_x_, reach_y_;  ///< cells from a traction to the farthest cell
   std::unique_ptr<LayerCorrection> layered_;
   InteriorKernels* kernels_ = nullptr;
+  std::unique_ptr<const SectionBelow> section_;  // null: a half-space
 };
 
 }  // namespace railstrata

@@ -137,7 +137,7 @@ std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {
   auto wide = std::make_unique<Subsurface>(body_, g, padded(loads_.p), padded(loads_.q_x), padded(loads_.q_y), period_);
   wide->reach_x_ = reach_x_ + more_x;
   wide->reach_y_ = reach_y_ + more_y;
-  wide->share(kernels_);
+  wide->follow(*this);
   return wide;
 }
 
@@ -203,7 +203,7 @@ std::unique_ptr<Subsurface> Subsurface::refined(int times) const {
   for (Plane* plane : {&p, &q_x, &q_y})
     for (double& v : *plane) v *= scale;
   auto fine = std::make_unique<Subsurface>(body_, g, std::move(p), std::move(q_x), std::move(q_y), period_);
-  fine->share(kernels_);
+  fine->follow(*this);
   return fine;
 }
 
@@ -227,7 +227,7 @@ std::unique_ptr<Subsurface> Subsurface::coarsened() const {
   };
   auto coarse = std::make_unique<Subsurface>(body_, g, means(loads_.p), means(loads_.q_x), means(loads_.q_y),
                                              std::max(2.5, period_ / kCells));
-  coarse->share(kernels_);
+  coarse->follow(*this);
   return coarse;
 }
 

@@ -1,23 +1,21 @@
 #include "section/section_compliance.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "crack/gauss.hpp"
+#include "section/wave_factor.hpp"
 
 namespace railstrata {
 
-namespace {
+int station_count(const QuadraticSection& mesh, int columns) {
+  return static_cast<int>(mesh.surface.size()) / 2 / columns - 1;
+}
 
-using SparseLoads = Eigen::MatrixXd;
-
-/// Forces of the hats, each of one newton per metre along the sweep, on free nodes.
-SparseLoads hat_loads(const QuadraticSection& mesh, int columns, int count) {
-  SparseLoads out = SparseLoads::Zero(3 * mesh.free_nodes, 3 * count);
+Eigen::MatrixXd hat_loads(const QuadraticSection& mesh, int columns, int count) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * mesh.free_nodes, 3 * count);
   const double spacing = mesh.s[static_cast<std::size_t>(2 * columns)] - mesh.s.front();
   const auto add = [&](std::size_t surface_node, int station, double force) {
     if (station < 0 || station >= count) return;
@@ -40,27 +38,22 @@ SparseLoads hat_loads(const QuadraticSection& mesh, int columns, int count) {
   return out;
 }
 
-}  // namespace
-
 SectionCompliance section_compliance(const QuadraticSection& mesh, const SectionStiffness& stiffness, int columns,
                                      const std::vector<double>& k) {
-  using Factor = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>;
-  const int intervals = static_cast<int>(mesh.surface.size()) / 2 / columns, count = intervals - 1;
+  const int count = station_count(mesh, columns);
   SectionCompliance out;
   out.spacing = mesh.s[static_cast<std::size_t>(2 * columns)] - mesh.s.front();
   for (int m = 0; m < count; ++m)
     out.stations.push_back(mesh.nodes[mesh.surface[static_cast<std::size_t>(2 * columns * (m + 1))]]);
   out.k = k;
   out.at.resize(k.size());
-  const SparseLoads loads = hat_loads(mesh, columns, count);
+  const WaveFactor::Rows loads = hat_loads(mesh, columns, count);
   if (stiffness.rotation.size() > 0) {
-    const Eigen::VectorXd moved = loads.transpose() * Factor(stiffness.at(0)).solve(stiffness.rotation);
+    const Eigen::VectorXd moved = loads.transpose() * WaveFactor(stiffness.at(0)).solve(stiffness.rotation);
     for (int m = 0; m < count; ++m) out.by_rotation.push_back(moved[3 * m + 2]);
   }
   for_each_that_throws(k.size(), [&](std::size_t i) {
-    const Factor factor(stiffness.at(k[i]));
-    if (factor.info() != Eigen::Success) throw NumericalError("a section's stiffness has no factor");
-    const Eigen::MatrixXd half = factor.matrixL().solve(factor.permutationP() * loads);
+    const WaveFactor::Rows half = WaveFactor(stiffness.at(k[i])).half(loads);
     out.at[i] = half.transpose() * half;
   });
   return out;

@@ -20,6 +20,11 @@ struct SectionCompliance {
   std::vector<double> by_rotation;  ///< m s², displacement along z by a squared angular velocity; empty: not revolved
 };
 
+/// Forces of the hats at `count` stations, each of one newton per metre along the sweep, on free nodes.
+Eigen::MatrixXd hat_loads(const QuadraticSection& mesh, int columns, int count);
+/// Stations whose hats stand whole on the band's surface.
+int station_count(const QuadraticSection& mesh, int columns);
+
 /// columns: of the band's surface from one station to the next. Wave numbers are solved in parallel.
 SectionCompliance section_compliance(const QuadraticSection& mesh, const SectionStiffness& stiffness, int columns,
                                      const std::vector<double>& k);

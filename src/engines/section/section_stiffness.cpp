@@ -10,7 +10,7 @@ namespace railstrata {
 
 namespace {
 
-using Strains = Eigen::Matrix<double, 6, 24>;  // xx, yy, zz, yz, xz, xy of (U, v, w) at eight nodes
+using Strains = Eigen::Matrix<double, 6, 24>;
 using ElementMatrix = Eigen::Matrix<double, 24, 24>;
 
 struct Shape {
@@ -38,13 +38,7 @@ Shape quadratic_shape(double a, double b) {
   return s;
 }
 
-/// Strains at a point: B0 + k B1; weight: of the area.
-struct PointStrains {
-  Strains b0 = Strains::Zero(), b1 = Strains::Zero();
-  double weight = 0;
-};
-
-PointStrains strains_at(const std::array<Vec2, 8>& x, const Shape& s, double radius) {
+PointStrains strains_of(const std::array<Vec2, 8>& x, const Shape& s, double radius) {
   Vec2 by_a{}, by_b{}, at{};
   for (std::size_t n = 0; n < 8; ++n) {
     by_a = by_a + s.by_a[n] * x[n];
@@ -92,7 +86,7 @@ ElementStiffness element_stiffness(const std::array<Vec2, 8>& x, const Elastic& 
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
       const Shape shape = quadratic_shape(kAt[i], kAt[j]);
-      const PointStrains p = strains_at(x, shape, radius);
+      const PointStrains p = strains_of(x, shape, radius);
       const double weight = p.weight * kWeight[i] * kWeight[j];
       for (std::size_t n = 0; n < 8; ++n)
         for (std::size_t of = 0; of < 8; ++of)
@@ -114,6 +108,10 @@ Eigen::SparseMatrix<double> SectionStiffness::at(double k) const {
   Eigen::SparseMatrix<double> out = k0;
   out.coeffs() += k * k1.coeffs() + k * k * k2.coeffs();
   return out;
+}
+
+PointStrains point_strains(const std::array<Vec2, 8>& nodes, double a, double b, double radius) {
+  return strains_of(nodes, quadratic_shape(a, b), radius);
 }
 
 SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vector<Elastic>& materials, double radius) {

@@ -13,6 +13,14 @@
 
 namespace railstrata {
 
+/// Strains xx, yy, zz, yz, xz, xy of (U, v, w) at the nodes of an element, shears twice the tensor's: B0 + k B1.
+struct PointStrains {
+  Eigen::Matrix<double, 6, 24> b0 = Eigen::Matrix<double, 6, 24>::Zero(), b1 = b0;
+  double weight = 0;  ///< of the area
+};
+/// At the element's coordinates a, b from -1 to 1. radius: as section_stiffness.
+PointStrains point_strains(const std::array<Vec2, 8>& nodes, double a, double b, double radius);
+
 struct SectionStiffness {
   /// Lower triangles of one pattern; index 3 n + direction of free nodes n. Per m along the sweep, Pa m^j.
   Eigen::SparseMatrix<double> k0, k1, k2;

@@ -1,0 +1,48 @@
+#pragma once
+// What the section of a body changes in the states below its contact.
+//
+// S(k) gives the states of the real section by waves of line loads on stations of its surface, less those of a large
+// block with the same layers on the same elements, whose local error falls out with it. Under the tractions τ,
+//   s(x) = 1/pi Re ∫ S(k) τ(k) e^{ikx} dk,   τ(k) = sum over the cells of force e^{-ikx}.
+// Depths count along the surface's normal, below the last row of elements the state of that row stands.
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "bem/section_remainder.hpp"
+#include "bem/subsurface.hpp"
+
+namespace railstrata {
+
+/// A body in its contact plane and what acts on it, in its own axes.
+struct LoadedSection {
+  std::vector<InteriorShare> kept;
+  Vec2 contact;      ///< m, the origin of the contact plane where the stations are given
+  double angle = 0;  ///< rad, of the plane
+  PatchGrid grid;
+  PlaneLoads loads;
+};
+
+class SectionBelow {
+ public:
+  /// grid: where states are asked for.
+  SectionBelow(std::shared_ptr<const LoadedSection> section, const PatchGrid& grid);
+  /// The same for states on another grid.
+  std::unique_ptr<SectionBelow> on(const PatchGrid& grid) const;
+  void add(StatePlane& plane) const;
+
+ private:
+  struct Part {
+    std::vector<double> y;       // m in the plane, of the columns
+    std::vector<double> depth;   // m, of the rows
+    Eigen::MatrixXd real, imag;  // as SectionInterior's rows; by wave
+  };
+  void add_part(const InteriorShare& kept);
+  std::shared_ptr<const LoadedSection> section_;
+  PatchGrid grid_;
+  std::vector<double> k_;
+  std::vector<Part> parts_;
+  Eigen::MatrixXd cos_, sin_;  // by wave and column of cells
+};
+
+}  // namespace railstrata

@@ -1,0 +1,27 @@
+#pragma once
+// States below a section's surface under waves of line loads, at the middles of the elements of its band.
+#include <Eigen/Core>
+#include <vector>
+
+#include "mesh/swept.hpp"
+#include "section/section_stiffness.hpp"
+
+namespace railstrata {
+
+/// States (halfspace/interior.hpp) by forces at stations, both in the axes x, along the surface, into the body at their
+/// own places. Row 6 (row * columns + column) + component: e_xx, e_yy, s_yz, s_zz are amplitudes of e^{ikx}, e_xy and
+/// s_xz of i e^{ikx}. Column 3 m + direction at station m as in SectionCompliance.
+struct SectionInterior {
+  std::vector<Vec2> stations;       ///< m, in the section's plane
+  std::vector<Vec2> columns;        ///< m, points of the surface above the middles of the elements
+  std::vector<double> depth;        ///< m, of the rows' middles below the surface
+  std::vector<double> k;            ///< 1/m, increasing
+  std::vector<Eigen::MatrixXd> at;  ///< strains 1/(Pa m), tractions 1/m, of each k
+};
+
+/// body: whose quadratic section `mesh` is. A station at each corner of its columns. Wave numbers are solved in
+/// parallel.
+SectionInterior section_interior(const SweptBody& body, const QuadraticSection& mesh, const SectionStiffness& stiffness,
+                                 const std::vector<Elastic>& materials, double radius, const std::vector<double>& k);
+
+}  // namespace railstrata
