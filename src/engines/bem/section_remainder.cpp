@@ -202,7 +202,7 @@ struct LargeBlock {
 };
 
 LargeBlock large_block(const CaseSpec& spec, const Placement& placement, BodyId body) {
-  constexpr double kWidth = 1, kHeight = 0.5;  // m
+  constexpr double kWidth = 2, kHeight = 1;  // m
   LargeBlock out{case_at_contact(spec, placement), placement};
   std::erase_if(out.spec.layers, [body](const LayerSpec& layer) { return layer.on != body; });
   for (LayerSpec& layer : out.spec.layers) {
