@@ -14,10 +14,9 @@ namespace railstrata {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
-constexpr int kComponents = 6;
+constexpr int kComponents = SectionInterior::kComponents;
 constexpr std::array<Plane StatePlane::*, kComponents> kOfState{
     &StatePlane::e_xx, &StatePlane::e_yy, &StatePlane::e_xy, &StatePlane::s_xz, &StatePlane::s_yz, &StatePlane::s_zz};
-constexpr int kFirstTraction = 3;
 constexpr bool is_imaginary(int component) { return component == 2 || component == 3; }
 
 /// Places along the plane.
@@ -30,6 +29,10 @@ std::vector<double> along_plane(const std::vector<Vec2>& points, const LoadedSec
 
 LagrangeStencil within(const std::vector<double>& at, double t, int most) {
   return lagrange_stencil(at.data(), static_cast<int>(at.size()), std::clamp(t, at.front(), at.back()), most);
+}
+
+std::size_t column_at(const std::vector<double>& columns, double y) {
+  return static_cast<std::size_t>(within(columns, y, 1).first);
 }
 
 /// Forces on the stations of a wave e^{-ikx}: real parts in the first column, imaginary ones in the second; of x over
@@ -61,22 +64,39 @@ Matrix forces_of_wave(const LoadedSection& section, const std::vector<double>& s
   return out;
 }
 
-/// Rows of elements and their weights at a depth: linear between their middles, below the last one as there.
+/// Up to three rows of elements and their weights at a depth.
 struct RowsAt {
-  int first = 0;
-  std::array<double, 2> strain{1, 0}, traction{1, 0};
+  LagrangeStencil rows;
+  double strain = 1, traction = 1;  // of the sums
 };
 
-/// Tractions on the surface are what acts there, whatever the body: their difference is 0.
-RowsAt rows_at(const std::vector<double>& depth, double z) {
-  const int last = static_cast<int>(depth.size()) - 1;
-  if (last == 0) return {};
-  const int above = static_cast<int>(std::upper_bound(depth.begin(), depth.end(), z) - depth.begin());
-  RowsAt out;
-  out.first = std::clamp(above - 1, 0, last - 1);
-  const double from = depth[out.first], share = std::min(1.0, (z - from) / (depth[out.first + 1] - from));
-  out.strain = out.traction = {1 - share, share};
-  if (z < depth.front()) out.traction = {z / depth.front(), 0};
+/// The row that holds a depth in a column; of two the upper one, or the lower one.
+int row_at(const SectionInterior& of, std::size_t column, double z, bool lower) {
+  const int columns = static_cast<int>(of.columns.size()), rows = static_cast<int>(of.elements.size()) / columns;
+  int r = 0;
+  const auto bottom = [&](int row) { return of.elements[static_cast<std::size_t>(row * columns) + column].bottom; };
+  const auto margin = [&](int row) { return 0.02 * (bottom(row) - (row > 0 ? bottom(row - 1) : 0.0)); };
+  while (r + 1 < rows && z > bottom(r) + (lower ? -margin(r) : margin(r))) ++r;
+  return r;
+}
+
+/// A parabola through the middles of rows of one layer, also beyond them; below the last row falling as stresses below
+/// a load do. Tractions on the surface are what acts there, whatever the body: their difference is 0.
+RowsAt rows_at(const SectionInterior& of, std::size_t column, double z) {
+  const int columns = static_cast<int>(of.columns.size()), count = static_cast<int>(of.elements.size()) / columns;
+  const auto element = [&](int row) { return of.elements[static_cast<std::size_t>(row * columns) + column]; };
+  const int own = row_at(of, column, z, false);
+  const auto alike = [&](int row) { return row >= 0 && row < count && element(row).layer == element(own).layer; };
+  int first = own, last = own;
+  while (alike(first - 1)) --first;
+  while (alike(last + 1)) ++last;
+  std::vector<double> depth;
+  for (int row = first; row <= last; ++row) depth.push_back(element(row).depth);
+  const double lowest = element(count - 1).depth, within_band = std::min(z, lowest);
+  RowsAt out{lagrange_stencil(depth.data(), static_cast<int>(depth.size()), within_band, 3)};
+  out.rows.first += first;
+  if (z > lowest) out.strain = out.traction = std::pow(lowest / z, 2);
+  if (z < element(0).depth) out.traction = z / element(0).depth;
   return out;
 }
 
@@ -111,45 +131,72 @@ std::unique_ptr<SectionBelow> SectionBelow::on(const PatchGrid& grid) const {
 void SectionBelow::add_part(const InteriorShare& kept) {
   const SectionInterior& of = *kept.difference;
   Part part;
+  part.of = &of;
   part.y = along_plane(of.columns, *section_);
-  part.depth = of.depth;
   const std::vector<double> stations = along_plane(of.stations, *section_);
   const auto count = static_cast<Eigen::Index>(k_.size());
-  part.real = part.imag = Matrix::Zero(of.at.front().rows(), count);
   std::vector<double> log;
   for (const double k : of.k) log.push_back(std::log(k));
+  std::vector<LagrangeStencil> at;
+  Matrix force(of.at.front().cols(), 2 * count);
   for (Eigen::Index q = 0; q < count; ++q) {
     const double k = k_[static_cast<std::size_t>(q)];
-    const Matrix force = kept.share * forces_of_wave(*section_, stations, k);
-    const LagrangeStencil s =
-        lagrange_stencil(log.data(), static_cast<int>(log.size()), std::log(k), k < of.k.front() ? 2 : 4);
-    for (int i = 0; i < s.count; ++i) {
-      const Matrix state = s.weight[i] * (of.at[static_cast<std::size_t>(s.first + i)] * force);
-      part.real.col(q) += state.col(0);
-      part.imag.col(q) += state.col(1);
+    at.push_back(lagrange_stencil(log.data(), static_cast<int>(log.size()), std::log(k), k < of.k.front() ? 2 : 4));
+    force.middleCols(2 * q, 2) = kept.share * forces_of_wave(*section_, stations, k);
+  }
+  part.real = part.imag = Matrix::Zero(of.at.front().rows(), count);
+  for (int i = 0; i < static_cast<int>(of.k.size()); ++i) {
+    const auto holds = [i](const LagrangeStencil& s) { return i >= s.first && i < s.first + s.count; };
+    const Eigen::Index from = std::find_if(at.begin(), at.end(), holds) - at.begin(),
+                       to = std::find_if(at.rbegin(), at.rend(), holds).base() - at.begin();
+    const Matrix states =
+        of.at[static_cast<std::size_t>(i)] * force.middleCols(2 * from, 2 * std::max(to - from, Eigen::Index{0}));
+    for (Eigen::Index q = from; q < to; ++q) {
+      const LagrangeStencil& s = at[static_cast<std::size_t>(q)];
+      const double weight = s.weight[static_cast<std::size_t>(i - s.first)];
+      part.real.col(q) += weight * states.col(2 * (q - from));
+      part.imag.col(q) += weight * states.col(2 * (q - from) + 1);
     }
   }
   parts_.push_back(std::move(part));
 }
 
+/// In full those of one material at the surface.
+LagrangeStencil SectionBelow::columns_at(const Part& part, double y) const {
+  const std::vector<double>& scale = part.of->block_strain;
+  if (scale.empty()) return within(part.y, y, 4);
+  const LagrangeStencil two = within(part.y, y, 2);
+  const auto first = static_cast<std::size_t>(two.first);
+  return scale[first] == scale[first + 1] ? two : within(part.y, y, 1);
+}
+
 void SectionBelow::add(StatePlane& plane) const {
   const auto waves = static_cast<Eigen::Index>(k_.size());
+  const std::vector<double>& scale = section_->kept.front().difference->block_strain;
+  for (int j = 0; in_full() && j < grid_.ny; ++j)
+    for (int component = 0; component < SectionInterior::kStrains; ++component) {
+      Plane& of = plane.*kOfState[static_cast<std::size_t>(component)];
+      for (int i = 0; i < grid_.nx; ++i) of[grid_.index(i, j)] *= scale[column_at(parts_.front().y, grid_.y(j))];
+    }
   for (const Part& part : parts_) {
-    const RowsAt rows = rows_at(part.depth, plane.depth);
-    const auto columns = static_cast<Eigen::Index>(part.y.size());
+    std::vector<RowsAt> rows;
+    for (std::size_t c = 0; c < part.y.size(); ++c) rows.push_back(rows_at(*part.of, c, plane.depth));
     for (int component = 0; component < kComponents; ++component) {
-      const std::array<double, 2>& weight = component < kFirstTraction ? rows.strain : rows.traction;
       Matrix real = Matrix::Zero(grid_.ny, waves), imag = real;
       for (int j = 0; j < grid_.ny; ++j) {
-        const LagrangeStencil s = within(part.y, grid_.y(j), 4);
-        for (int i = 0; i < s.count; ++i)
-          for (int r = 0; r < 2; ++r) {
-            if (weight[static_cast<std::size_t>(r)] == 0) continue;
-            const Eigen::Index row = kComponents * ((rows.first + r) * columns + s.first + i) + component;
-            const double share = s.weight[i] * weight[static_cast<std::size_t>(r)];
-            real.row(j) += share * part.real.row(row);
-            imag.row(j) += share * part.imag.row(row);
+        const LagrangeStencil s = columns_at(part, grid_.y(j));
+        for (int i = 0; i < s.count; ++i) {
+          const auto column = static_cast<std::size_t>(s.first + i);
+          const RowsAt& at = rows[column];
+          for (int r = 0; r < at.rows.count; ++r) {
+            const double share =
+                s.weight[i] * at.rows.weight[r] * (component < SectionInterior::kStrains ? at.strain : at.traction);
+            const auto element =
+                static_cast<Eigen::Index>(static_cast<std::size_t>(at.rows.first + r) * part.y.size() + column);
+            real.row(j) += share * part.real.row(kComponents * element + component);
+            imag.row(j) += share * part.imag.row(kComponents * element + component);
           }
+        }
       }
       // Re (c e^{ikx}), or of i times that.
       const Matrix sum =
@@ -157,6 +204,20 @@ void SectionBelow::add(StatePlane& plane) const {
       Eigen::Map<Matrix>((plane.*kOfState[static_cast<std::size_t>(component)]).data(), grid_.ny, grid_.nx) += sum;
     }
   }
+}
+
+const BandElement& SectionBelow::element_at(double y, double depth, bool below_interface) const {
+  const Part& part = parts_.front();
+  const std::size_t column = column_at(part.y, y);
+  const auto row = static_cast<std::size_t>(row_at(*part.of, column, depth, below_interface));
+  return part.of->elements[row * part.y.size() + column];
+}
+
+double SectionBelow::bottom_of(int layer) const {
+  double out = 0;
+  for (const BandElement& e : parts_.front().of->elements)
+    if (e.layer == layer) out = std::max(out, e.bottom);
+  return out;
 }
 
 }  // namespace railstrata

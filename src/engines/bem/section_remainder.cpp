@@ -26,6 +26,8 @@ constexpr double kOneAlone = 0.25;         // of kPlace: so far on both sides of
 constexpr double kSmallestWave = 1;        // 1/m, of the wave numbers
 constexpr double kLogStep = 0.415;         // from one wave number to the next
 constexpr double kDepthBelow = 16e-3;      // m, to which states are asked for
+constexpr double kFullDepthBelow = 8e-3;   // m, the same in full
+constexpr double kFinestBelow = 0.5e-3;    // m, of stations for them
 constexpr double kLargestOfBlock = 60e-3;  // m, of its elements
 constexpr double kFinest = 0.25e-3;        // m, of stations
 
@@ -43,8 +45,8 @@ SectionSizes smooth_sizes(double place, double half_width) {
 }
 
 /// Stations as near as the rows of cells, one of them at the edge; waves down to the length of a cell.
-SectionSizes sizes_in_full(double place, double edge, const PatchGrid& grid) {
-  const double station = std::max(grid.dy, kFinest);
+SectionSizes sizes_in_full(double place, double edge, const PatchGrid& grid, double finest) {
+  const double station = std::max(grid.dy, finest);
   const double across = station * std::ceil((0.5 * grid.ny * grid.dy + 2 * station + 0.5 * kPlace) / station);
   return {{.element = station,
            .fine_width = 2 * across,
@@ -53,7 +55,7 @@ SectionSizes sizes_in_full(double place, double edge, const PatchGrid& grid) {
            .largest = 12e-3,
            .to_sides = true},
           edge + station * std::round((place - edge) / station),
-          2 * std::numbers::pi / std::max(grid.dx, kFinest)};
+          2 * std::numbers::pi / std::max(grid.dx, finest)};
 }
 
 /// Does the layer's thickness vary between these places of the profile?
@@ -144,15 +146,15 @@ struct PlacedSizes {
 };
 
 /// The kept places on both sides of the contact; one where a layer ends or varies nearby.
-std::vector<PlacedSizes> places_of(const CaseSpec& spec, const Placement& placement, BodyId body,
-                                   const PatchGrid& grid) {
+std::vector<PlacedSizes> places_of(const CaseSpec& spec, const Placement& placement, BodyId body, const PatchGrid& grid,
+                                   double finest) {
   const bool wheel = body == BodyId::wheel;
   const Profile& profile = wheel ? placement.wheel : placement.rail;
   const double places = (wheel ? placement.contact.wheel_s : placement.contact.rail_s) / kPlace,
                half_width = 0.5 * grid.ny * grid.dy, nearest = kPlace * std::round(places);
   const double reach = 0.5 * smooth_sizes(nearest, half_width).mesh.fine_width;
   if (const auto side = nearest_side(spec, profile, body, nearest, reach))
-    return {{sizes_in_full(nearest, *side, grid), 1}};
+    return {{sizes_in_full(nearest, *side, grid, finest), 1}};
   const double before = std::floor(places);
   const double further = std::clamp((places - before - kOneAlone) / (1 - 2 * kOneAlone), 0.0, 1.0);
   std::vector<PlacedSizes> out;
@@ -195,22 +197,30 @@ SectionInterior interior_on(const MeshedSection& meshed, double radius, const Se
                           radius, wave_numbers(sizes.largest));
 }
 
-/// The same layers all over a block under a plane, so large that it is a half-space.
+/// The same layers all over a block under a plane, so large that it is a half-space; in full the same rows of elements,
+/// of the substrate alone.
 struct LargeBlock {
   CaseSpec spec;
   Placement placement;
 };
 
-LargeBlock large_block(const CaseSpec& spec, const Placement& placement, BodyId body) {
+LargeBlock large_block(const CaseSpec& spec, const Placement& placement, BodyId body, bool in_full, double place) {
   constexpr double kWidth = 2, kHeight = 1;  // m
-  LargeBlock out{case_at_contact(spec, placement), placement};
+  const double y = (body == BodyId::wheel ? placement.wheel : placement.rail).at(place).position.y;
+  LargeBlock out{in_full ? spec : case_at_contact(spec, placement), placement};
   std::erase_if(out.spec.layers, [body](const LayerSpec& layer) { return layer.on != body; });
+  if (body == BodyId::wheel) out.spec.rail_material = spec.wheel_material;
   for (LayerSpec& layer : out.spec.layers) {
     layer.on = BodyId::rail;
     layer.width = kWidth;
-    layer.thickness_table.clear();
+    if (!in_full) {
+      layer.thickness_table.clear();
+      continue;
+    }
+    layer.material = out.spec.rail_material;
+    layer.young_table.clear();
+    for (TablePoint& point : layer.thickness_table) point.at -= y;
   }
-  if (body == BodyId::wheel) out.spec.rail_material = spec.wheel_material;
   out.spec.geometry.rail_shape = RailShape::block;
   out.spec.geometry.block_width = kWidth;
   out.spec.geometry.block_height = kHeight;
@@ -219,12 +229,26 @@ LargeBlock large_block(const CaseSpec& spec, const Placement& placement, BodyId 
   return out;
 }
 
+/// columns: of a difference in full, else 0.
+void take_off(const SectionInterior& block, std::size_t columns, SectionInterior& from) {
+  for (std::size_t c = 0; c < columns; ++c)
+    from.block_strain.push_back(block.elements[c].material.young / from.elements[c].material.young);
+  for (std::size_t i = 0; i < from.at.size(); ++i)
+    for (Eigen::Index row = 0; row < from.at[i].rows(); ++row) {
+      const auto element = static_cast<std::size_t>(row / SectionInterior::kComponents);
+      const double scale = columns > 0 && row % SectionInterior::kComponents < SectionInterior::kStrains
+                               ? from.block_strain[element % columns]
+                               : 1;
+      from.at[i].row(row) -= scale * block.at[i].row(row);
+    }
+}
+
 }  // namespace
 
 std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placement& placement, BodyId body,
                                               const LayeredHalfSpace& half_space, const PatchGrid& grid) {
   std::vector<RemainderShare> out;
-  for (const PlacedSizes& at : places_of(spec, placement, body, grid))
+  for (const PlacedSizes& at : places_of(spec, placement, body, grid, kFinest))
     out.push_back({remainders_.get(key_of(spec, placement, body, half_space, at.sizes),
                                    [&] { return remainder_of(spec, placement, body, half_space, at.sizes); }),
                    at.share});
@@ -234,10 +258,11 @@ std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placem
 std::vector<InteriorShare> SectionStore::below(const CaseSpec& spec, const Placement& placement, BodyId body,
                                                const LayeredHalfSpace& half_space, const PatchGrid& grid) {
   const auto difference = [&](const SectionSizes& sizes) {
+    const bool in_full = sizes.largest > SectionRemainder::kSmoothTo;
     const MeshedSection meshed = meshed_section(spec, placement, body, sizes.place, sizes.mesh);
     SectionInterior out = interior_on(meshed, radius_at(spec, placement, body, sizes.place), sizes);
     const ContactBand& band = meshed.body.contact;
-    const LargeBlock block = large_block(spec, placement, body);
+    const LargeBlock block = large_block(spec, placement, body, in_full, sizes.place);
     SectionSizes alike = sizes;
     alike.place = block.placement.rail.s_at_y(0);
     alike.mesh.fine_width = band.s.back() - band.s.front();
@@ -248,16 +273,17 @@ std::vector<InteriorShare> SectionStore::below(const CaseSpec& spec, const Place
     };
     std::vector<double> key = key_of(block.spec, block.placement, BodyId::rail, half_space, alike);
     key.push_back(alike.mesh.fine_depth);
-    const auto flat = blocks_.get(key, of_block);
+    const auto flat = in_full ? std::make_shared<const SectionInterior>(of_block()) : blocks_.get(key, of_block);
     if (flat->at.front().size() != out.at.front().size())
       throw NumericalError("a section's rows of elements are not those of a block");
-    for (std::size_t i = 0; i < out.at.size(); ++i) out.at[i] -= flat->at[i];
+    take_off(*flat, in_full ? out.columns.size() : 0, out);
     return out;
   };
   std::vector<InteriorShare> out;
-  for (const PlacedSizes& at : places_of(spec, placement, body, grid)) {
+  for (const PlacedSizes& at : places_of(spec, placement, body, grid, kFinestBelow)) {
     SectionSizes sizes = at.sizes;
-    sizes.mesh.fine_depth = std::max(sizes.mesh.fine_depth, kDepthBelow);
+    sizes.mesh.fine_depth =
+        std::max(sizes.mesh.fine_depth, sizes.largest > SectionRemainder::kSmoothTo ? kFullDepthBelow : kDepthBelow);
     out.push_back({interiors_.get(key_of(spec, placement, body, half_space, sizes), [&] { return difference(sizes); }),
                    at.share});
   }

@@ -107,11 +107,14 @@ Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plan
 Subsurface::~Subsurface() = default;
 Subsurface::Subsurface(Subsurface&&) noexcept = default;
 
-void Subsurface::stand_on(std::unique_ptr<const SectionBelow> section) { section_ = std::move(section); }
+void Subsurface::stand_on(std::unique_ptr<const SectionBelow> section) {
+  section_ = std::move(section);
+  if (section_->in_full()) layered_.reset();
+}
 
 void Subsurface::follow(const Subsurface& whole) {
   kernels_ = whole.kernels_;
-  if (whole.section_) section_ = whole.section_->on(grid_);
+  if (whole.section_) stand_on(whole.section_->on(grid_));
 }
 
 bool Subsurface::gives_at(double depth) const {
@@ -223,8 +226,24 @@ HalfSpaceMaterial Subsurface::material_at(double depth, bool below_interface) co
   return body_.substrate;
 }
 
+HalfSpaceMaterial Subsurface::material_at(double y, double depth, bool below_interface) const {
+  const bool own = section_ && section_->in_full();
+  return own ? section_->element_at(y, depth, below_interface).material : material_at(depth, below_interface);
+}
+
+std::vector<int> Subsurface::layers_of_rows(double depth, bool below_interface) const {
+  std::vector<int> out;
+  for (int j = 0; section_ && section_->in_full() && j < grid_.ny; ++j)
+    out.push_back(section_->element_at(grid_.y(j), depth, below_interface).layer);
+  return out;
+}
+
+double Subsurface::bottom_of(int layer) const {
+  return section_ && section_->in_full() ? section_->bottom_of(layer) : 0;
+}
+
 Sym3 Subsurface::stress(const StatePlane& plane, std::size_t k, bool below_interface) const {
-  return stress_of(plane.side(below_interface).at(k), material_at(plane.depth, below_interface));
+  return stress_of(plane.side(below_interface).at(k), material_at(grid_.y_of(k), plane.depth, below_interface));
 }
 
 }  // namespace railstrata

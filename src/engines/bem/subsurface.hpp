@@ -106,7 +106,8 @@ class Subsurface {
   /// Takes the influence of its planes, and of bodies made from it, from these; they must outlive it.
   void share(InteriorKernels* kernels) { kernels_ = kernels; }
 
-  /// Adds what the body's section changes to the states, here and in bodies made from it.
+  /// Adds what the body's section changes to the states, here and in bodies made from it. Where layers end or vary
+  /// across, materials and zones are then those of the section.
   void stand_on(std::unique_ptr<const SectionBelow> section);
 
   const PatchGrid& grid() const { return grid_; }
@@ -116,6 +117,11 @@ class Subsurface {
   Sym3 stress(const StatePlane& plane, std::size_t k, bool below_interface = false) const;
   /// The material at a depth, of a graded layer its own there.
   HalfSpaceMaterial material_at(double depth, bool below_interface = false) const;
+  HalfSpaceMaterial material_at(double y, double depth, bool below_interface) const;
+  /// The layer (0: the substrate) in each row of cells, where they differ; empty: all as material_at has it.
+  std::vector<int> layers_of_rows(double depth, bool below_interface) const;
+  /// m, how deep a layer reaches below any row; 0 where they do not differ.
+  double bottom_of(int layer) const;
   /// Displacements and stresses at any points (x, y, depth >= 0) [m], in the order given: bicubic between cells, on a
   /// wider grid where points lie outside. A plane is computed per depth: give points of a depth together. On an
   /// interface the stresses of the layer above, or below if asked. Throws std::out_of_range for a point above the

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "bem/subsurface.hpp"
@@ -16,6 +18,10 @@ bool lies_in(const PatchGrid& g, double x, double y) {
   return x >= g.x0 && x <= g.x(g.nx - 1) && y >= g.y0 && y <= g.y(g.ny - 1);
 }
 
+constexpr int kAnyLayer = -1;
+/// A cell that does not belong to the layer that is asked for.
+constexpr double kElsewhere = -std::numeric_limits<double>::infinity();
+
 /// without: a grid whose cells do not count; may be null.
 StressPeak peak_of(const Plane& v, const PatchGrid& g, double depth, const PatchGrid* without) {
   std::size_t k = 0;
@@ -24,6 +30,7 @@ StressPeak peak_of(const Plane& v, const PatchGrid& g, double depth, const Patch
   const int i = static_cast<int>(k) / g.ny, j = static_cast<int>(k) % g.ny;
   StressPeak peak{v[k], g.x(i), g.y(j), depth, largest_at_rim(v, g)};
   const auto refine = [&](std::size_t before, std::size_t after, double size, double& place) {
+    if (v[before] == kElsewhere || v[after] == kElsewhere) return;
     if (v[before] > v[k] || v[after] > v[k]) return;  // a slope that goes on within the other grid
     const ParabolaTop t = parabola_top(v[before], v[k], v[after]);
     place += t.at * size;
@@ -31,6 +38,7 @@ StressPeak peak_of(const Plane& v, const PatchGrid& g, double depth, const Patch
   };
   if (i > 0 && i + 1 < g.nx) refine(g.index(i - 1, j), g.index(i + 1, j), g.dx, peak.x);
   if (j > 0 && j + 1 < g.ny) refine(k - 1, k + 1, g.dy, peak.y);
+  if (peak.value == kElsewhere) return {};
   return peak;
 }
 
@@ -62,12 +70,18 @@ class GridSearch {
   explicit GridSearch(const Subsurface& body, const PatchGrid* without = nullptr)
       : body_(body), grid_(body.grid()), without_(without) {}
 
-  ZonePeaks at(double depth, bool below) {
-    const auto key = std::make_pair(depth, below);
+  /// layer: of the cells that count.
+  ZonePeaks at(double depth, bool below, int layer) {
+    const auto key = std::make_tuple(depth, below, layer);
     if (const auto found = known_.find(key); found != known_.end()) return found->second;
     if (!(plane_.depth == depth && !plane_.s_zz.empty())) plane_ = body_.plane(depth);
     Plane mises(grid_.size()), sigma1(grid_.size());
+    const std::vector<int> layers = layer == kAnyLayer ? std::vector<int>{} : body_.layers_of_rows(depth, below);
     for (std::size_t k = 0; k < mises.size(); ++k) {
+      if (!layers.empty() && layers[k % layers.size()] != layer) {
+        mises[k] = sigma1[k] = kElsewhere;
+        continue;
+      }
       const Sym3 s = body_.stress(plane_, k, below);
       mises[k] = von_mises(s);
       sigma1[k] = principal_stresses(s).x;
@@ -76,24 +90,24 @@ class GridSearch {
   }
 
   /// Largest values for depths in [top, bottom] of one material; at the top its own (lower) side is taken.
-  ZonePeaks zone(double top, double bottom, Wanted wanted) {
+  ZonePeaks zone(double top, double bottom, int layer, Wanted wanted) {
     const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / (2 * grid_.finest()))), 2, 16);
     std::vector<double> depth;
     for (int i = 0; i <= pieces; ++i) depth.push_back(i == pieces ? bottom : top + (bottom - top) * i / pieces);
     ZonePeaks best;
-    for (double z : depth) keep_larger(best, at(z, z == top));
-    if (wanted.von_mises) refine(depth, top, best, &ZonePeaks::von_mises);
-    if (wanted.sigma1) refine(depth, top, best, &ZonePeaks::sigma1);
+    for (double z : depth) keep_larger(best, at(z, z == top, layer));
+    if (wanted.von_mises) refine(depth, top, layer, best, &ZonePeaks::von_mises);
+    if (wanted.sigma1) refine(depth, top, layer, best, &ZonePeaks::sigma1);
     return best;
   }
 
  private:
   /// Successive parabolas through the largest value and its neighbours; every depth tried joins the list. No golden
   /// section: a plane costs a convolution, and near its top the curve is a parabola.
-  void refine(std::vector<double> depth, double top, ZonePeaks& best, StressPeak ZonePeaks::*which) {
+  void refine(std::vector<double> depth, double top, int layer, ZonePeaks& best, StressPeak ZonePeaks::*which) {
     for (int pass = 0; pass < 6; ++pass) {
       std::size_t m = 0;
-      const auto value = [&](std::size_t i) { return (at(depth[i], depth[i] == top).*which).value; };
+      const auto value = [&](std::size_t i) { return (at(depth[i], depth[i] == top, layer).*which).value; };
       for (std::size_t i = 1; i < depth.size(); ++i)
         if (value(i) > value(m)) m = i;
       if (m == 0 ||
@@ -101,7 +115,7 @@ class GridSearch {
         const double inner = m == 0 ? 0.5 * (depth[0] + depth[1]) : 0.5 * (depth[m] + depth[m - 1]);
         if (std::abs(inner - depth[m]) < 0.05 * grid_.finest()) return;
         depth.insert(m == 0 ? depth.begin() + 1 : depth.end() - 1, inner);
-        keep_larger(best, at(inner, false));
+        keep_larger(best, at(inner, false, layer));
         continue;
       }
       const double a = depth[m - 1], b = depth[m], c = depth[m + 1], fa = value(m - 1), fb = value(m),
@@ -110,7 +124,7 @@ class GridSearch {
                    denominator = (b - a) * (fb - fc) - (b - c) * (fb - fa);
       const double next = denominator != 0 ? b - 0.5 * numerator / denominator : b;
       if (!(next > a && next < c) || std::abs(next - b) < 0.01 * grid_.finest()) return;
-      keep_larger(best, at(next, false));
+      keep_larger(best, at(next, false, layer));
       depth.insert(depth.begin() + static_cast<std::ptrdiff_t>(next < b ? m : m + 1), next);
     }
   }
@@ -119,7 +133,7 @@ class GridSearch {
   const PatchGrid& grid_;
   const PatchGrid* without_;
   StatePlane plane_;
-  std::map<std::pair<double, bool>, ZonePeaks> known_;
+  std::map<std::tuple<double, bool, int>, ZonePeaks> known_;
 };
 
 /// Goes outside of the grid where its rim has a good share of a maximum, and deeper where one lies at the lower end.
@@ -127,23 +141,24 @@ class PeakSearch {
  public:
   explicit PeakSearch(const Subsurface& body) : body_(body), near_(body) {}
 
-  ZonePeaks at(double depth, bool below) {
-    return widening([&](GridSearch& grid, Wanted) { return grid.at(depth, below); });
+  ZonePeaks at(double depth, bool below, int layer) {
+    return widening([&](GridSearch& grid, Wanted) { return grid.at(depth, below, layer); });
   }
 
-  ZonePeaks zone(double top, double bottom) {
-    return widening([&](GridSearch& grid, Wanted wanted) { return grid.zone(top, bottom, wanted); });
+  ZonePeaks zone(double top, double bottom, int layer) {
+    return widening([&](GridSearch& grid, Wanted wanted) { return grid.zone(top, bottom, layer, wanted); });
   }
 
-  /// A zone without a floor, looked at from `top` to `bottom` and, while a maximum lies there, to twice that depth.
+  /// The substrate, a zone without a floor, looked at from `top` to `bottom` and, while a maximum lies there, to twice
+  /// that depth.
   ZonePeaks zone_without_floor(double top, double bottom) {
     constexpr int kDeepenings = 3;
-    ZonePeaks best = zone(top, bottom);
+    ZonePeaks best = zone(top, bottom, 0);
     const auto at_floor = [&] { return best.von_mises.depth >= bottom || best.sigma1.depth >= bottom; };
     for (int i = 0; i < kDeepenings && at_floor(); ++i) {
       top = bottom;
       bottom *= 2;
-      keep_larger(best, zone(top, bottom));
+      keep_larger(best, zone(top, bottom, 0));
     }
     for (StressPeak* peak : {&best.von_mises, &best.sigma1})
       if (peak->depth >= bottom) peak->at_rim = peak->value;
@@ -181,18 +196,22 @@ class PeakSearch {
 SubsurfacePeaks Subsurface::peaks(SearchDepths depths) const {
   PeakSearch search(*this);
   SubsurfacePeaks out;
-  out.surface = search.at(0, true);
+  out.surface = search.at(0, true, kAnyLayer);
   double top = 0;
+  int number = 0;
   for (const LayerExtent& layer : layer_extents(body_)) {
-    const double from = top == 0 ? std::min(depths.from, 0.5 * layer.bottom) : top;
-    out.layers.push_back(search.zone(from, layer.bottom));
+    const double varied = bottom_of(++number),
+                 from = top == 0 || varied > 0 ? std::min(depths.from, 0.5 * layer.bottom) : top;
+    out.layers.push_back(search.zone(from, std::max(layer.bottom, varied), number));
     if (layer.bottom > depths.from) keep_larger(out.subsurface, out.layers.back());
-    out.above_interface.push_back(search.at(layer.bottom, false));
-    out.below_interface.push_back(search.at(layer.bottom, true));
+    out.above_interface.push_back(search.at(layer.bottom, false, number));
+    out.below_interface.push_back(search.at(layer.bottom, true, kAnyLayer));
     top = layer.bottom;
   }
-  out.matrix =
-      search.zone_without_floor(std::max(top, depths.from), std::max(depths.deepest, top + 4 * grid_.finest()));
+  const double floor = top + 4 * grid_.finest();
+  if (!layers_of_rows(0, false).empty()) top = 0;  // the substrate beside the layers
+  out.matrix = search.zone_without_floor(std::max(top, depths.from), std::max(depths.deepest, floor));
+  if (!out.below_interface.empty()) keep_larger(out.matrix, search.at(layer_extents(body_).back().bottom, true, 0));
   keep_larger(out.subsurface, out.matrix);
   return out;
 }

@@ -121,7 +121,7 @@ Sym3 Subsurface::stress_at(const StatePlane& plane, const Vec3& at, bool below_i
   const Around near(grid_, at);
   const auto of = [&](const Plane& v) { return near.of(grid_, v); };
   return stress_of({of(s.e_xx), of(s.e_yy), of(s.e_xy), of(s.s_xz), of(s.s_yz), of(s.s_zz)},
-                   material_at(s.depth, below_interface));
+                   material_at(at.y, s.depth, below_interface));
 }
 
 std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {

@@ -1,5 +1,6 @@
 #include "section/section_interior.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "core/parallel.hpp"
@@ -40,20 +41,50 @@ struct Sampling {
   Rows b0, b1;
 };
 
+int first_element(const SweptBody& body) {
+  int first = 0;
+  for (int b = 0; b < body.contact.block; ++b) first += static_cast<int>(body.blocks[b].section.quads.size());
+  return first;
+}
+
+SurfaceAxes axes_of_column(const QuadraticSection& mesh, int column, bool revolved) {
+  return axes_between(mesh.nodes[mesh.surface[2 * column]], mesh.nodes[mesh.surface[2 * column + 2]], revolved);
+}
+
+std::vector<BandElement> elements_of(const SweptBody& body, const QuadraticSection& mesh,
+                                     const std::vector<Elastic>& materials, bool revolved) {
+  const ContactBand& band = body.contact;
+  const int first = first_element(body);
+  std::vector<BandElement> out;
+  std::vector<double> top(static_cast<std::size_t>(band.columns), 0.0);
+  for (int r = 0; r < band.rows; ++r)
+    for (int c = 0; c < band.columns; ++c) {
+      const int element = first + r * band.columns + c, material = mesh.material[element];
+      const std::array<int, 8>& nodes = mesh.elements[element];
+      const Vec2 surface = mesh.nodes[mesh.surface[2 * c + 1]], into = axes_of_column(mesh, c, revolved).into;
+      double bottom = 0;
+      for (std::size_t n = 4; n < 8; ++n) bottom = std::max(bottom, dot(mesh.nodes[nodes[n]] - surface, into));
+      out.push_back({0.5 * (top[c] + bottom),
+                     bottom,
+                     body.layer_of(material),
+                     {young(materials[material]), poisson(materials[material])}});
+      top[c] = bottom;
+    }
+  return out;
+}
+
 Sampling sampling_of(const SweptBody& body, const QuadraticSection& mesh, const std::vector<Elastic>& materials,
                      double radius) {
   const ContactBand& band = body.contact;
-  int first = 0;
-  for (int b = 0; b < band.block; ++b) first += static_cast<int>(body.blocks[b].section.quads.size());
+  const int first = first_element(body);
   std::array<std::vector<Eigen::Triplet<double>>, 2> entries;
   for (int r = 0; r < band.rows; ++r)
     for (int c = 0; c < band.columns; ++c) {
       const int point = r * band.columns + c, element = first + point;
       std::array<Vec2, 8> x;
       for (std::size_t n = 0; n < 8; ++n) x[n] = mesh.nodes[mesh.elements[element][n]];
-      const SurfaceAxes axes =
-          axes_between(mesh.nodes[mesh.surface[2 * c]], mesh.nodes[mesh.surface[2 * c + 2]], radius > 0);
-      const Eigen::Matrix<double, 6, 6> state = state_of_strains(axes, materials[mesh.material[element]]);
+      const Eigen::Matrix<double, 6, 6> state =
+          state_of_strains(axes_of_column(mesh, c, radius > 0), materials[mesh.material[element]]);
       const PointStrains strains = point_strains(x, 0, 0, radius);
       const std::array<Eigen::Matrix<double, 6, 24>, 2> parts{state * strains.b0, state * strains.b1};
       for (int i = 0; i < 24; ++i)
@@ -80,7 +111,7 @@ SectionInterior section_interior(const SweptBody& body, const QuadraticSection& 
   out.k = k;
   out.at.resize(k.size());
   for (int c = 0; c < band.columns; ++c) out.columns.push_back(mesh.nodes[mesh.surface[2 * c + 1]]);
-  for (int r = 0; r < band.rows; ++r) out.depth.push_back(0.5 * (band.depth[r] + band.depth[r + 1]));
+  out.elements = elements_of(body, mesh, materials, radius > 0);
   Eigen::MatrixXd loads = hat_loads(mesh, 1, count);
   for (int m = 0; m < count; ++m) {
     const int corner = 2 * (m + 1);
