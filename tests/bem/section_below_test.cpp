@@ -85,6 +85,41 @@ TEST_P(SectionBelowTest, OfASlabIsThatOfALayerOnARigidBase) {
   }
 }
 
+TEST(SectionBelow, OfANarrowLayerIsThatOfTheLayerInItsMiddleAndOfSteelBeside) {
+  CaseSpec spec = slab_case();
+  spec.geometry.block_height = 0.2;
+  LayerSpec layer;
+  layer.thickness = 3e-3;
+  layer.material.young *= 4;
+  layer.width = 18e-3;
+  spec.layers = {layer};
+  const Placement placement = place(spec, ".");
+  const PatchGrid grid = centred_grid(14, 14, 0.5e-3, 0.5e-3);
+  const HalfSpaceMaterial steel{spec.rail_material.young, spec.rail_material.poisson},
+      clad{4 * steel.young, steel.poisson};
+  const LayeredHalfSpace body{{{.thickness = layer.thickness, .material = clad}}, steel};
+  SectionStore store;
+  Subsurface section = below(body, grid);
+  section.stand_on(std::make_unique<const SectionBelow>(
+      std::make_shared<const LoadedSection>(
+          LoadedSection{store.below(spec, placement, BodyId::rail, body, grid), Vec2{}, 0, grid, loads_on(grid)}),
+      grid));
+  const Subsurface endless = below(body, grid);
+  const std::size_t middle = grid.index(14, 14);
+  for (const double depth : {0.5e-3, 1e-3, 2e-3, 3e-3, 4e-3, 6e-3}) {
+    const StatePlane found = section.plane(depth), wanted = endless.plane(depth);
+    EXPECT_NEAR(found.e_xx[middle], wanted.e_xx[middle], 1e-5) << depth << ": of 7e-4, with what its sides change";
+    EXPECT_NEAR(found.s_zz[middle], wanted.s_zz[middle], 5e6) << depth << ": of 1000 MPa";
+    EXPECT_NEAR(found.s_xz[middle], wanted.s_xz[middle], 2e6) << depth << ": of 300 MPa";
+  }
+  EXPECT_EQ(section.layers_of_rows(1e-3, false)[14], 1);
+  EXPECT_EQ(section.layers_of_rows(4e-3, false)[14], 0);
+  EXPECT_NEAR(section.material_at(8.5e-3, 1e-3, false).young, clad.young, 1e-3 * clad.young);
+  EXPECT_NEAR(section.material_at(9.5e-3, 1e-3, false).young, steel.young, 1e-3 * steel.young);
+  EXPECT_NEAR(section.material_at(0, layer.thickness, false).young, clad.young, 1e-3 * clad.young);
+  EXPECT_NEAR(section.material_at(0, layer.thickness, true).young, steel.young, 1e-3 * steel.young);
+}
+
 INSTANTIATE_TEST_SUITE_P(Bodies, SectionBelowTest, testing::Values(BodyId::rail, BodyId::wheel));
 
 }  // namespace

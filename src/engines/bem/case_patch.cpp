@@ -281,8 +281,7 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   if (!patch.influence->stretches()) return;
   const Plane stretch = patch.influence->stretch_by_rotation(contact.speed);
   patch.notes.push_back(fmt::format(
-      "the contact has the sections of rail and wheel; stresses below the surface are those of half-spaces; "
-      "centrifugal force widens the wheel by {:.1e} of its radius, by which creepages along the rail would "
+      "the contact has the sections of rail and wheel; centrifugal force widens the wheel by {:.1e} of its radius, by which creepages along the rail would "
       "be larger",
       -stretch[stretch.size() / 2]));
 }

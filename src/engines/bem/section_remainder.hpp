@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <vector>
 
 #include "bem/patch_grid.hpp"
@@ -36,19 +37,25 @@ struct InteriorShare {
   double share = 1;
 };
 
+inline std::size_t numbers_of(const SectionRemainder& of) { return 2 * of.k.size() * of.own.front().size(); }
+inline std::size_t numbers_of(const SectionInterior& of) { return of.k.size() * of.at.front().size(); }
+
 /// What was made before, by its key. Safe to share between threads.
 template <class Made>
 class KeptByKey {
  public:
   template <class Make>
   std::shared_ptr<const Made> get(const std::vector<double>& key, Make&& make) {
-    constexpr std::size_t kEntries = 64;
+    constexpr std::size_t kEntries = 64, kNumbers = 64 << 20;  // 512 MiB
     const std::lock_guard lock(mutex_);
     for (const Entry& entry : entries_)
       if (entry.key == key) return entry.made;
-    if (entries_.size() == kEntries) entries_.erase(entries_.begin());
     auto made = std::make_shared<const Made>(make());
     entries_.push_back({key, made});
+    const auto add = [](std::size_t sum, const Entry& entry) { return sum + numbers_of(*entry.made); };
+    while (entries_.size() > 1 && (entries_.size() > kEntries ||
+                                   std::accumulate(entries_.begin(), entries_.end(), std::size_t{0}, add) > kNumbers))
+      entries_.erase(entries_.begin());
     return made;
   }
 

@@ -68,10 +68,11 @@ Wanted beyond(const ZonePeaks& z) {
 class GridSearch {
  public:
   explicit GridSearch(const Subsurface& body, const PatchGrid* without = nullptr)
-      : body_(body), grid_(body.grid()), without_(without) {}
+      : body_(body), grid_(body.grid()), without_(without), varies_(!body.layers_of_rows(0, false).empty()) {}
 
   /// layer: of the cells that count.
   ZonePeaks at(double depth, bool below, int layer) {
+    if (!varies_) layer = kAnyLayer;
     const auto key = std::make_tuple(depth, below, layer);
     if (const auto found = known_.find(key); found != known_.end()) return found->second;
     if (!(plane_.depth == depth && !plane_.s_zz.empty())) plane_ = body_.plane(depth);
@@ -132,6 +133,7 @@ class GridSearch {
   const Subsurface& body_;
   const PatchGrid& grid_;
   const PatchGrid* without_;
+  bool varies_;  // layers, from row to row
   StatePlane plane_;
   std::map<std::tuple<double, bool, int>, ZonePeaks> known_;
 };

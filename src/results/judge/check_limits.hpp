@@ -136,8 +136,8 @@ inline constexpr std::array kCheckRows{
                       "a larger layer.width holds it", {.of_case = "layer.width"}, unit::kMillimetres, kTakesBack),
     CheckRow::warning("layer_varies_below_patch", "Layer varies below the patch",
                       "difference of a layer's thickness below the patch, of its largest thickness",
-                      "half-spaces have the layer as thick as it is at the contact; bem.bodies = \"sections\" follows "
-                      "it, but for the stresses below the surface",
+                      "half-spaces have the layer as thick as it is at the contact; pressure and stresses of bem.bodies = "
+                      "\"sections\" follow it; lives have its material down to that depth all across",
                       {.bem = kLargestOfLayer}, unit::kShare, kTakesBack),
     CheckRow::warning("patch_near_border_of_fine_zone", "Patch near the border of the fine mesh",
                       "the contact patch nearly fills the fine mesh", "a larger mesh.fine_width gives it room",
