@@ -280,10 +280,11 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   contact.speed = spec.drive.speed;
   if (!patch.influence->stretches()) return;
   const Plane stretch = patch.influence->stretch_by_rotation(contact.speed);
-  patch.notes.push_back(fmt::format(
-      "the contact has the sections of rail and wheel; centrifugal force widens the wheel by {:.1e} of its radius, by which creepages along the rail would "
-      "be larger",
-      -stretch[stretch.size() / 2]));
+  patch.notes.push_back(
+      fmt::format("the contact has the sections of rail and wheel; centrifugal force widens the wheel by {:.1e} of its "
+                  "radius, by which creepages along the rail would "
+                  "be larger",
+                  -stretch[stretch.size() / 2]));
 }
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,

@@ -134,11 +134,12 @@ inline constexpr std::array kCheckRows{
     CheckRow::warning("patch_wider_than_layer", "Patch beyond the layer",
                       "twice the distance of the patch's far edge from the layer's middle",
                       "a larger layer.width holds it", {.of_case = "layer.width"}, unit::kMillimetres, kTakesBack),
-    CheckRow::warning("layer_varies_below_patch", "Layer varies below the patch",
-                      "difference of a layer's thickness below the patch, of its largest thickness",
-                      "half-spaces have the layer as thick as it is at the contact; pressure and stresses of bem.bodies = "
-                      "\"sections\" follow it; lives have its material down to that depth all across",
-                      {.bem = kLargestOfLayer}, unit::kShare, kTakesBack),
+    CheckRow::warning(
+        "layer_varies_below_patch", "Layer varies below the patch",
+        "difference of a layer's thickness below the patch, of its largest thickness",
+        "half-spaces have the layer as thick as it is at the contact; pressure and stresses of bem.bodies = "
+        "\"sections\" follow it; lives have its material down to that depth all across",
+        {.bem = kLargestOfLayer}, unit::kShare, kTakesBack),
     CheckRow::warning("patch_near_border_of_fine_zone", "Patch near the border of the fine mesh",
                       "the contact patch nearly fills the fine mesh", "a larger mesh.fine_width gives it room",
                       {.of_case = "mesh.fine_width less two elements"}, unit::kMillimetres),
