@@ -161,30 +161,31 @@ void SectionBelow::add_part(const InteriorShare& kept) {
   parts_.push_back(std::move(part));
 }
 
-/// In full those of one material at the surface.
-LagrangeStencil SectionBelow::columns_at(const Part& part, double y) const {
-  const std::vector<double>& scale = part.of->block_strain;
-  if (scale.empty()) return within(part.y, y, 4);
+/// In full those of one material.
+LagrangeStencil SectionBelow::columns_at(const Part& part, double y, double depth) const {
+  if (!in_full()) return within(part.y, y, 4);
   const LagrangeStencil two = within(part.y, y, 2);
   const auto first = static_cast<std::size_t>(two.first);
-  return scale[first] == scale[first + 1] ? two : within(part.y, y, 1);
+  const bool alike = element_at(part.y[first], depth, false).layer == element_at(part.y[first + 1], depth, false).layer;
+  return alike ? two : within(part.y, y, 1);
 }
 
 void SectionBelow::add(StatePlane& plane) const {
   const auto waves = static_cast<Eigen::Index>(k_.size());
-  const std::vector<double>& scale = section_->kept.front().difference->block_strain;
-  for (int j = 0; in_full() && j < grid_.ny; ++j)
-    for (int component = 0; component < SectionInterior::kStrains; ++component) {
-      Plane& of = plane.*kOfState[static_cast<std::size_t>(component)];
-      for (int i = 0; i < grid_.nx; ++i) of[grid_.index(i, j)] *= scale[column_at(parts_.front().y, grid_.y(j))];
-    }
+  for (int j = 0; in_full() && j < grid_.ny; ++j) {
+    const double scale =
+        section_->kept.front().difference->block_young / element_at(grid_.y(j), plane.depth, false).material.young;
+    for (int component = 0; component < SectionInterior::kStrains; ++component)
+      for (int i = 0; i < grid_.nx; ++i)
+        (plane.*kOfState[static_cast<std::size_t>(component)])[grid_.index(i, j)] *= scale;
+  }
   for (const Part& part : parts_) {
     std::vector<RowsAt> rows;
     for (std::size_t c = 0; c < part.y.size(); ++c) rows.push_back(rows_at(*part.of, c, plane.depth));
     for (int component = 0; component < kComponents; ++component) {
       Matrix real = Matrix::Zero(grid_.ny, waves), imag = real;
       for (int j = 0; j < grid_.ny; ++j) {
-        const LagrangeStencil s = columns_at(part, grid_.y(j));
+        const LagrangeStencil s = columns_at(part, grid_.y(j), plane.depth);
         for (int i = 0; i < s.count; ++i) {
           const auto column = static_cast<std::size_t>(s.first + i);
           const RowsAt& at = rows[column];

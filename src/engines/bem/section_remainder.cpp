@@ -229,17 +229,14 @@ LargeBlock large_block(const CaseSpec& spec, const Placement& placement, BodyId 
   return out;
 }
 
-/// columns: of a difference in full, else 0.
-void take_off(const SectionInterior& block, std::size_t columns, SectionInterior& from) {
-  for (std::size_t c = 0; c < columns; ++c)
-    from.block_strain.push_back(block.elements[c].material.young / from.elements[c].material.young);
+void take_off(const SectionInterior& block, bool in_full, SectionInterior& from) {
+  if (in_full) from.block_young = block.elements.front().material.young;
   for (std::size_t i = 0; i < from.at.size(); ++i)
     for (Eigen::Index row = 0; row < from.at[i].rows(); ++row) {
       const auto element = static_cast<std::size_t>(row / SectionInterior::kComponents);
-      const double scale = columns > 0 && row % SectionInterior::kComponents < SectionInterior::kStrains
-                               ? from.block_strain[element % columns]
-                               : 1;
-      from.at[i].row(row) -= scale * block.at[i].row(row);
+      const bool scaled = in_full && row % SectionInterior::kComponents < SectionInterior::kStrains;
+      from.at[i].row(row) -=
+          (scaled ? from.block_young / from.elements[element].material.young : 1) * block.at[i].row(row);
     }
 }
 
@@ -276,7 +273,7 @@ std::vector<InteriorShare> SectionStore::below(const CaseSpec& spec, const Place
     const auto flat = in_full ? std::make_shared<const SectionInterior>(of_block()) : blocks_.get(key, of_block);
     if (flat->at.front().size() != out.at.front().size())
       throw NumericalError("a section's rows of elements are not those of a block");
-    take_off(*flat, in_full ? out.columns.size() : 0, out);
+    take_off(*flat, in_full, out);
     return out;
   };
   std::vector<InteriorShare> out;

@@ -24,9 +24,9 @@ struct SectionInterior {
   std::vector<Vec2> stations;         ///< m, in the section's plane
   std::vector<Vec2> columns;          ///< m, points of the surface above the middles of the elements
   std::vector<BandElement> elements;  ///< row * columns + column
-  /// Of a difference in full, which is from a block of the substrate alone: its strains are multiplied by this in each
-  /// column, those of the material at the surface; else empty.
-  std::vector<double> block_strain;
+  /// Pa, of a difference in full, which is from a block of this modulus, its strains over the modulus of each element;
+  /// else 0.
+  double block_young = 0;
   std::vector<double> k;            ///< 1/m, increasing
   std::vector<Eigen::MatrixXd> at;  ///< strains 1/(Pa m), tractions 1/m, of each k
 };
