@@ -218,7 +218,7 @@ LargeBlock large_block(const CaseSpec& spec, const Placement& placement, BodyId 
       continue;
     }
     layer.material = out.spec.rail_material;
-    layer.young_table.clear();
+    for (ModulusPoint& point : layer.young_table) point.young = out.spec.rail_material.young;
     for (TablePoint& point : layer.thickness_table) point.at -= y;
   }
   out.spec.geometry.rail_shape = RailShape::block;

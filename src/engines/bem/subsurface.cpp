@@ -109,7 +109,9 @@ Subsurface::Subsurface(Subsurface&&) noexcept = default;
 
 void Subsurface::stand_on(std::unique_ptr<const SectionBelow> section) {
   section_ = std::move(section);
-  if (section_->in_full()) layered_.reset();
+  if (!section_->in_full()) return;
+  layered_.reset();
+  extents_ = layer_extents(body_);
 }
 
 void Subsurface::follow(const Subsurface& whole) {
@@ -227,8 +229,11 @@ HalfSpaceMaterial Subsurface::material_at(double depth, bool below_interface) co
 }
 
 HalfSpaceMaterial Subsurface::material_at(double y, double depth, bool below_interface) const {
-  const bool own = section_ && section_->in_full();
-  return own ? section_->element_at(y, depth, below_interface).material : material_at(depth, below_interface);
+  if (!section_ || !section_->in_full()) return material_at(depth, below_interface);
+  const BandElement& element = section_->element_at(y, depth, below_interface);
+  const bool as_in_body = element.layer > 0 && depth <= extents_[static_cast<std::size_t>(element.layer - 1)].bottom &&
+                          depth >= extents_[static_cast<std::size_t>(element.layer - 1)].top;
+  return as_in_body ? material_at(depth, below_interface) : element.material;
 }
 
 std::vector<int> Subsurface::layers_of_rows(double depth, bool below_interface) const {

@@ -162,6 +162,7 @@ class Subsurface {
   std::unique_ptr<LayerCorrection> layered_;
   InteriorKernels* kernels_ = nullptr;
   std::unique_ptr<const SectionBelow> section_;  // null: a half-space
+  std::vector<LayerExtent> extents_;             // of a section in full
 };
 
 }  // namespace railstrata
