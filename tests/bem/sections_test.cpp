@@ -9,6 +9,7 @@
 #include "bem/transient.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "mesh/beam_section.hpp"
 
 namespace railstrata {
 namespace {
@@ -173,6 +174,50 @@ TEST_F(Sections, WidenUnderCentrifugalForce) {
   const double disc = -on(grid)->stretch_by_rotation(kSpeed)[4];
   EXPECT_NEAR(disc / (0.25 * (1 - m.poisson) * ring), 1, 0.15);
   EXPECT_NEAR(-on(grid)->stretch_by_rotation(2 * kSpeed)[4] / disc, 4, 1e-9);
+}
+
+/// Ballast by its stiffness per metre below pads that are stiff, at least vertically: the rail does not lean.
+SleeperTrack even_track(double stiffness, double pad_shear) {
+  SleeperTrack out;
+  out.pad_stiffness = 1e15 * out.spacing;
+  out.pad_shear = pad_shear;
+  out.ballast_stiffness = stiffness * out.spacing;
+  return out;
+}
+
+TEST_F(Sections, OnAStiffTrackAreThoseOfAHeldFoot) {
+  const BemResult held = solved(spec_, 1e-3);
+  spec_.track = {TrackSet::medium, even_track(1e15, 0.1)};
+  const BemResult stiff = solved(spec_, 1e-3);
+  EXPECT_NEAR(stiff.patch.largest_pressure / held.patch.largest_pressure, 1, 5e-4);
+  EXPECT_NEAR(stiff.rigid_slip.x / held.rigid_slip.x, 1, 3e-3);
+  EXPECT_NEAR(stiff.approach / held.approach, 1, 1e-3);
+}
+
+// A beam's running surface is stretched by -h M/(E I), M = P/(4 beta sqrt(1 + epsilon)), beta^4 = K/(4 E I),
+// epsilon = K/(4 beta² kappa G A): Timoshenko's beam on K. What a held foot leaves of it goes out between two supports.
+TEST_F(Sections, BendOnTheirTrackAsABeam) {
+  const SweptBody rail =
+      meshed_section(spec_, placement_, BodyId::rail, 0, {.element = 2e-3, .fine_width = 24e-3}).body;
+  const BeamSection beam = beam_section(rail);
+  constexpr double kHead = 94.7e-3;  // m, of the surface above the centroid of CN60
+  const double bending = spec_.rail_material.young * beam.inertia,
+               shear =
+                   beam.shear_share * beam.area * spec_.rail_material.young / (2 * (1 + spec_.rail_material.poisson));
+  double found = 0, expected = 0, approach = 0;
+  const BemResult held = solved(spec_, 1e-3);
+  EXPECT_TRUE(std::isnan(held.bending_stretch));
+  for (const auto& [stiffness, sign] : {std::pair{100e6, 1}, {10e6, -1}}) {
+    spec_.track = {TrackSet::medium, even_track(stiffness, 1e-8)};
+    const BemResult r = solved(spec_, 1e-3);
+    const double beta = std::pow(stiffness / (4 * bending), 0.25), epsilon = stiffness / (4 * beta * beta * shear);
+    found += sign * r.bending_stretch;
+    expected += sign * kHead * r.force.z / (4 * beta * std::sqrt(1 + epsilon) * bending);
+    approach = r.approach;
+    EXPECT_NEAR(r.rigid_slip.x - held.rigid_slip.x, -r.bending_stretch, 0.03 * std::abs(r.bending_stretch));
+  }
+  EXPECT_NEAR(found / expected, 1, 2e-2);
+  EXPECT_NEAR(approach / held.approach, 1, 1e-2) << "sinking as a whole is left out";
 }
 
 /// Creepage of free rolling over that of half-spaces.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "bem/wave_quadrature.hpp"
 #include "section/section_compliance.hpp"
 
 namespace railstrata {
@@ -20,10 +21,12 @@ namespace {
 
 constexpr double kStation = 2e-3;  // m, from one to the next of a smooth difference
 constexpr double kPlace = kSectionPlace;
-constexpr double kOneAlone = 0.25;   // of kPlace: so far on both sides of its middle a section is alone
-constexpr double kSmallestWave = 1;  // 1/m, of the wave numbers
-constexpr double kLogStep = 0.415;   // from one wave number to the next
-constexpr double kFinest = 0.25e-3;  // m, of stations
+constexpr double kOneAlone = 0.25;     // of kPlace: so far on both sides of its middle a section is alone
+constexpr double kSmallestWave = 1;    // 1/m, of the wave numbers of a body that is held
+constexpr double kBelowBending = 0.1;  // smallest wave number over (K/(E I))^1/4 of a rail on springs
+constexpr double kHeavyRail = 5e-5;    // m^4, I of the heaviest rails: of others the waves reach further down
+constexpr double kLogStep = 0.415;     // from one wave number to the next
+constexpr double kFinest = 0.25e-3;    // m, of stations
 
 SectionSizes smooth_sizes(double place, double half_width) {
   const double farthest = (1 - kOneAlone) * kPlace,
@@ -79,6 +82,11 @@ std::optional<double> nearest_side(const CaseSpec& spec, const Profile& profile,
   return nearest || !varies ? nearest : place;
 }
 
+/// Pads and ballast as a continuous support.
+RailSupport support_of(const SleeperTrack& t) {
+  return {t.pad_stiffness / t.spacing, t.pad_shear * t.pad_stiffness / t.spacing, t.ballast_stiffness / t.spacing};
+}
+
 /// What the section depends on: the case's numbers, and the profile by its points.
 std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, BodyId body,
                            const LayeredHalfSpace& half_space, const SectionSizes& sizes) {
@@ -101,6 +109,8 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
   } else {
     key.insert(key.end(), {static_cast<double>(g.rail_shape), static_cast<double>(section_below_head(g, profile)),
                            g.cant, g.block_width, g.block_height});
+    const RailSupport on = support_of(spec.track.support);
+    if (!spec.track.held()) key.insert(key.end(), {on.pad, on.pad_across, on.ballast});
   }
   for (const HalfSpaceLayer& layer : half_space.layers) key.push_back(layer.thickness);
   for (const LayerSpec& layer : spec.layers) {
@@ -117,10 +127,19 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
   return key;
 }
 
-std::vector<double> wave_numbers(double largest) {
-  const int last = static_cast<int>(std::ceil(std::log(largest / kSmallestWave) / kLogStep));
+/// Down to where a rail on springs K sinks as a rigid one: bending adds E I k^4 to K.
+double smallest_wave(const CaseSpec& spec, BodyId body) {
+  if (body == BodyId::wheel || spec.track.held()) return kSmallestWave;
+  const double bending = spec.rail_material.young * kHeavyRail;
+  return std::min(kSmallestWave, kBelowBending * std::pow(support_of(spec.track.support).vertical() / bending, 0.25));
+}
+
+/// Of a rail on springs at half the steps: its bending falls with k^4.
+std::vector<double> wave_numbers(double smallest, double largest) {
+  const double step = smallest < kSmallestWave ? 0.5 * kLogStep : kLogStep;
+  const int last = static_cast<int>(std::ceil(std::log(largest / smallest) / step));
   std::vector<double> k;
-  for (int i = 0; i <= last; ++i) k.push_back(kSmallestWave * std::pow(largest / kSmallestWave, 1.0 * i / last));
+  for (int i = 0; i <= last; ++i) k.push_back(smallest * std::pow(largest / smallest, 1.0 * i / last));
   return k;
 }
 
@@ -134,6 +153,23 @@ Eigen::MatrixXd by_direction(const Eigen::MatrixXd& by_station) {
   return out;
 }
 
+/// SectionRemainder::stretch_by_load: the strain -k U at x = 0 of u_x = i U e^{ikx} by a force downwards.
+double stretch_by_load(MeshedSection rail, const SectionCompliance& on_springs) {
+  std::swap(rail.body.on_pads, rail.body.prescribed);
+  const QuadraticSection mesh = quadratic_section(rail.body);
+  const std::vector<double>& k = on_springs.k;
+  const SectionCompliance held = section_compliance(mesh, section_stiffness(mesh, rail.materials, 0), 1, k);
+  const auto middle = static_cast<Eigen::Index>(3 * (held.stations.size() / 2));
+  std::vector<Eigen::MatrixXd> beyond;
+  for (std::size_t i = 0; i < k.size(); ++i)
+    beyond.emplace_back((on_springs.at[i] - held.at[i]).block(middle, middle + 2, 1, 1));
+  const WaveQuadrature waves(k.front(), k.back(), held.spacing);
+  const std::vector<Eigen::MatrixXd> at = at_waves(beyond, k, waves.k);
+  double sum = 0;
+  for (std::size_t q = 0; q < at.size(); ++q) sum += waves.weight[q] * waves.k[q] * at[q](0, 0);
+  return sum / std::numbers::pi;
+}
+
 std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const Placement& placement, BodyId body,
                                                      const LayeredHalfSpace& half_space, const SectionSizes& sizes) {
   const bool wheel = body == BodyId::wheel;
@@ -141,9 +177,11 @@ std::shared_ptr<const SectionRemainder> remainder_of(const CaseSpec& spec, const
   SectionRemainder out;
   out.radius = wheel ? spec.geometry.wheel_radius - placement.wheel.at(sizes.place).position.z : 0;
   out.in_full = sizes.largest > SectionRemainder::kSmoothTo;
-  const std::vector<double> k = wave_numbers(sizes.largest);
+  const std::vector<double> k = wave_numbers(smallest_wave(spec, body), sizes.largest);
   const QuadraticSection mesh = quadratic_section(meshed.body);
-  SectionCompliance section = section_compliance(mesh, section_stiffness(mesh, meshed.materials, out.radius), 1, k);
+  SectionCompliance section = section_compliance(
+      mesh, section_stiffness(mesh, meshed.materials, out.radius, support_of(spec.track.support)), 1, k);
+  if (!meshed.body.on_pads.empty()) out.stretch_by_load = stretch_by_load(meshed, section);
   out.half_space =
       half_space_compliance(half_space, wheel, section.spacing, static_cast<int>(section.stations.size()), k);
   out.own = std::move(section.at);
