@@ -63,22 +63,26 @@ bool varies_between(const LayerSpec& layer, double y0, double y1) {
          std::any_of(layer.thickness_table.begin(), layer.thickness_table.end(), other);
 }
 
-/// Arc length of the nearest side of a layer within the reach of the stations; the place itself where none is but the
-/// thickness of a layer varies below them.
+/// Arc length of the nearest side of a layer or of a block within the reach of the stations; the place itself where
+/// none is but the thickness of a layer varies below them.
 std::optional<double> nearest_side(const CaseSpec& spec, const Profile& profile, BodyId body, double place,
                                    double reach) {
   std::optional<double> nearest;
   bool varies = false;
   const auto y_at = [&](double s) { return profile.at(std::clamp(s, profile.s_min(), profile.s_max())).position.y; };
+  const auto offer = [&](double y) {
+    if (y <= profile.y_min() || y >= profile.y_max()) return;
+    const double s = profile.s_at_y(y), distance = std::abs(s - place);
+    if (distance < (nearest ? std::abs(*nearest - place) : reach)) nearest = s;
+  };
   for (const LayerSpec& layer : spec.layers) {
     if (layer.on != body) continue;
     varies = varies || varies_between(layer, y_at(place - reach), y_at(place + reach));
-    for (const double y : {layer.low(), layer.high()}) {
-      if (y <= profile.y_min() || y >= profile.y_max()) continue;
-      const double s = profile.s_at_y(y), distance = std::abs(s - place);
-      if (distance < (nearest ? std::abs(*nearest - place) : reach)) nearest = s;
-    }
+    offer(layer.low());
+    offer(layer.high());
   }
+  if (body == BodyId::rail && spec.geometry.rail_shape == RailShape::block)
+    for (const double side : {-0.5, 0.5}) offer(side * spec.geometry.block_width);
   return nearest || !varies ? nearest : place;
 }
 
