@@ -91,5 +91,22 @@ TEST(SectionStiffness, LetsAWheelTurnAndMoveAsARigidBody) {
   EXPECT_LT(forces(1 / kRadius, [](Vec2) { return Eigen::Vector3d(-1, 0, 1); }), 1e-10) << "up: u_x = sin, u_z = cos";
 }
 
+// Hanging nodes on sides that they do not stand on would resist.
+TEST(SectionStiffness, LetsARailLeanAsARigidBody) {
+  RailMeshSpec spec;
+  spec.x_end = 0.01;
+  SweptBody rail = mesh_rail(builtin_profile(ProfileKind::rail, "CN60"), {}, spec,
+                             {.element = 2e-3, .fine_width = 32e-3, .fine_depth = 8e-3, .coarse_ratio = 3});
+  rail.prescribed.clear();
+  const QuadraticSection mesh = quadratic_section(rail);
+  Eigen::VectorXd u(3 * mesh.free_nodes);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (const NodeShares& s = mesh.shares[n]; s.size() == 1 && s[0].second == 1)
+      u.segment<3>(3 * s[0].first) << 0, -mesh.nodes[n].z, mesh.nodes[n].y;
+  const Eigen::SparseMatrix<double> K = section_stiffness(mesh, {elastic_of(kSteel)}, 0).at(0);
+  const Eigen::VectorXd f = K.selfadjointView<Eigen::Lower>() * u;
+  EXPECT_LT(f.cwiseAbs().maxCoeff(), 1e-10 * K.diagonal().maxCoeff() * u.cwiseAbs().maxCoeff());
+}
+
 }  // namespace
 }  // namespace railstrata

@@ -242,7 +242,13 @@ void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spe
     throw CaseError(fmt::format("rail block wider than the rail's profile: {:g} mm", 1e3 * spec.block_width),
                     "reduce block_width");
   const double low = profile.s_at_y(-half), high = profile.s_at_y(half);
-  const double end = std::max(4e-3, sizes.element);
+  const double end = sizes.to_sides ? sizes.element : std::max(4e-3, sizes.element);
+  MeshSizes own = sizes;
+  double contact_s = spec.contact_s;
+  if (sizes.to_sides) {  // as many columns as there is room for, also beside the contact
+    own.fine_width = std::min(own.fine_width, own.element * std::floor((high - low - 2 * end) / own.element + 1e-9));
+    contact_s = std::clamp(contact_s, low + end + 0.5 * own.fine_width, high - end - 0.5 * own.fine_width);
+  }
 
   OffsetFrameSpec frame;
   frame.name = "block";
@@ -265,8 +271,8 @@ void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spe
   frame.right_top = [&](double) { return std::vector<Vec2>{profile.at(high).position}; };
   frame.left_side = side(low, -half);
   frame.right_side = side(high, half);
-  const FrameNodes nodes = add_offset_frame(body, profile, spec.contact_s, spec.layers, sizes, frame,
-                                            {stations.fine, false}, {stations.coarse, false}, stations);
+  const FrameNodes nodes = add_offset_frame(body, profile, contact_s, spec.layers, own, frame, {stations.fine, false},
+                                            {stations.coarse, false}, stations);
   for (int node : nodes.floor) body.prescribed.push_back({nodes.block, node});
 }
 

@@ -302,6 +302,11 @@ void refuse_layers_off_rail(const CaseSpec& spec, double rail_begin, double rail
   }
 }
 
+/// Frees the foot of a rail that has a track.
+void set_on_track(const TrackSpec& track, SweptBody& rail) {
+  if (!track.held() && rail.on_pads.empty()) rail.on_pads = std::exchange(rail.prescribed, {});
+}
+
 /// run.run_up, run.positions and where the run ends.
 void plan_path(Model& m) {
   constexpr double kFromRest = 0.3;  // m
@@ -368,6 +373,7 @@ MeshedSection meshed_section(const CaseSpec& spec, const Placement& placement, B
     rail.block_height = g.block_height;
     rail.layers = layers();
     out = {mesh_rail(placement.rail, placement.track, rail, sizes), materials_of(own, body, spec.rail_material)};
+    set_on_track(spec.track, out.body);
   } else {
     WheelMeshSpec wheel;
     wheel.shape = g.wheel_shape;
@@ -422,7 +428,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder, con
   m.rail = meshed_rail     ? *meshed_rail
            : g.rail_radius ? mesh_ring_rail(m.placement.rail, *g.rail_radius, rail, sizes)
                            : mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
-  if (!spec.track.held() && m.rail.on_pads.empty()) m.rail.on_pads = std::exchange(m.rail.prescribed, {});
+  set_on_track(spec.track, m.rail);
 
   WheelMeshSpec wheel;
   wheel.shape = g.wheel_shape;

@@ -90,7 +90,7 @@ OptionTable bem_table() {
           {choice_at<&C::bem, &BemSpec::bodies>(
                "bodies",
                "Elastic bodies of the contact. sections: the sections of rail and wheel with their layers, the foot "
-               "and the bore held",
+               "held or on [track], the bore held",
                {{"half_spaces", ContactBodies::half_spaces}, {"sections", ContactBodies::sections}}),
            choice_at<&C::bem, &BemSpec::leading_edge>(
                "leading_edge",

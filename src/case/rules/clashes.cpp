@@ -6,6 +6,7 @@
 
 #include "geometry/profile_names.hpp"
 #include "model/material_strength.hpp"
+#include "rules/feature_keys.hpp"
 #include "rules/support.hpp"
 #include "spec/case_spec.hpp"
 
@@ -24,22 +25,6 @@ namespace {
 constexpr double kLargestMeshedPoisson = 0.495;
 
 bool is_flat(const std::string& profile) { return profile == "flat" || profile == "Flat" || profile == "FLAT"; }
-
-Keys keys_of_layers(const C& c, const char* key, bool (*has)(const LayerSpec&)) {
-  Keys out;
-  for (std::size_t i = 0; i < c.layers.size(); ++i)
-    if (has(c.layers[i])) out.push_back("layer." + std::to_string(i) + "." + key);
-  return out;
-}
-
-/// Those of these keys that the text gives.
-Keys given_in_layers(const C& c, const CaseSource* text, std::initializer_list<const char*> keys) {
-  Keys out;
-  for (const char* key : keys)
-    for (const std::string& all : keys_of_layers(c, key, [](const LayerSpec&) { return true; }))
-      if (text && text->has(all)) out.push_back(all);
-  return out;
-}
 
 bool any_material(const C& c, bool (*has)(const MaterialSpec&)) {
   return has(c.rail_material) || has(c.wheel_material) ||
@@ -158,6 +143,13 @@ constexpr Feature kWheelProfile{"geometry.wheel_profile", [](const C&c) { return
     kUnreached{"life.until", [](const C&c) { return c.life.first_cracks.value_or(0) > c.life.until; },
                "a rail that is not followed so far"},
     kElastic{"run.plasticity = false", [](const C&c) { return !c.run.plasticity && c.life.until == 0; }},
+    kTrackOfHalfSpaces{"track.preset",
+                       [](const C&c) { return !c.track.held() && c.bem.bodies == ContactBodies::half_spaces; },
+                       "a track without bem.bodies = \"sections\""},
+    kSleepers{
+        "track.phase | track.pad_damping | track.pad_length | track.sleeper_mass | track.ballast_damping | "
+        "track.bays",
+        keys_of_sleepers},
     kVariesAcross{"layer.thickness_table"}, kSections{"bem.bodies = \"sections\""}, kLocal{"bem.normals = \"local\""},
     kGivingInterface{
         "layer.interface_normal_stiffness | layer.interface_shear_stiffness | layer.interface_shear_limit | "
@@ -399,7 +391,9 @@ constexpr Clash kClashes[] = {
     {"drive.spin", excludes, uses::kRollingElements, "spin follows from the geometry", kByBem},
 
     // Half-spaces
-    {"track.preset", excludes, uses::kHalfSpaces, "half-spaces have no inertia, and nothing below them", kByRun},
+    {kTrackOfHalfSpaces, excludes, uses::kHalfSpaces, "half-spaces have nothing below them",
+     "take it out, give bem.bodies = \"sections\", or roll over it with `railstrata run`"},
+    {kSleepers, idle_with, uses::kHalfSpaces, "pads and ballast of sections are even along the rail", ""},
     {"layer.from | layer.to | layer.unbonded | stretch", excludes, uses::kHalfSpaces,
      "half-spaces are the same all along", kByRun},
     {"irregularity", excludes, uses::kSteadyRolling,

@@ -285,6 +285,11 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
                   "radius, by which creepages along the rail would "
                   "be larger",
                   -stretch[stretch.size() / 2]));
+  if (const double bent = patch.influence->stretch_by_load(); bent != 0)
+    patch.notes.push_back(fmt::format(
+        "the rail bends on its track: by that its running surface is stretched by {:.2e} per kN of load, the lower are "
+        "creepages along the rail (bending_stretch)",
+        1e3 * bent));
 }
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,

@@ -260,6 +260,8 @@ Plane InfluenceOperator::stretch_by_rotation(double speed) const {
   return {stretch.begin(), stretch.end()};
 }
 
+double InfluenceOperator::stretch_by_load() const { return rows_ ? rows_->stretch_by_load() : 0; }
+
 PlanePair InfluenceOperator::tangential_from_pressure(const Plane& p, int rows) const {
   PlanePair u{plane_of(rows), plane_of(rows)};
   if (!spectra_->nx.empty())

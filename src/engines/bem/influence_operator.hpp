@@ -61,6 +61,8 @@ class InfluenceOperator {
   Plane stretch_of_wheel(const Plane& p, int rows) const;
   /// The same by centrifugal force at this speed [m/s], of each row of cells: below 0, the wheel widens.
   Plane stretch_by_rotation(double speed) const;
+  /// Of a rail's section on springs: strain of its running surface by bending under a vertical load, 1/N; else 0.
+  double stretch_by_load() const;
 
   /// Approximate inverses of `normal` and `tangential`: the inverses on the periodic grid, symmetric positive definite.
   void precondition_normal(const double* u_n, double* p) const;

@@ -125,6 +125,11 @@ std::vector<double> rows_of(const PatchGrid& grid) {
   return out;
 }
 
+/// Wave number of both, 1/m: that of a rail on springs is far below the wheel's.
+double lowest_of(const PlacedRemainder& rail, const PlacedRemainder& wheel) {
+  return std::min(rail.kept.front().remainder->k.front(), wheel.kept.front().remainder->k.front());
+}
+
 /// A kernel's own at the middle station; x couples with the others by waves that are odd in k.
 Eigen::Matrix3d in_the_middle(const Matrix& kernel) {
   const Eigen::Index n = kernel.rows() / 3;
@@ -154,7 +159,7 @@ void add_waves(const Kernel& kernel, Eigen::Index x_in, Eigen::Index x_out, Matr
 
 }  // namespace
 
-RowsDifference::Part RowsDifference::part_of(const PlacedRemainder& placed, const PatchGrid& grid) {
+RowsDifference::Part RowsDifference::part_of(const PlacedRemainder& placed, const PatchGrid& grid, double lowest) {
   constexpr double kStation = 3e-3;  // m
   const SectionRemainder& body = *placed.kept.front().remainder;
   const std::vector<double> rows = rows_of(grid);
@@ -166,7 +171,7 @@ RowsDifference::Part RowsDifference::part_of(const PlacedRemainder& placed, cons
   out.in_full = body.in_full;
   out.shares = shares_of(stations, rows);
   out.of_rows = out.shares.transpose();
-  const WaveQuadrature waves(body.k.front(), body.k.back(), (grid.nx + 1) * grid.dx);
+  const WaveQuadrature waves(lowest, body.k.back(), (grid.nx + 1) * grid.dx);
   Kernel kernel = at_waves(difference_at(placed, stations), body.k, waves.k);
   const auto count = static_cast<Eigen::Index>(waves.k.size());
   const auto smooth = std::upper_bound(waves.k.begin(), waves.k.end(), SectionRemainder::kSmoothTo) - waves.k.begin();
@@ -193,10 +198,11 @@ RowsDifference::RowsDifference(const PlacedRemainder& rail, const PlacedRemainde
     : nx_(grid.nx),
       ny_(grid.ny),
       cell_area_(grid.cell_area()),
-      pair_{part_of(rail, grid)},
-      wheel_(part_of(wheel, grid)),
+      pair_{part_of(rail, grid, lowest_of(rail, wheel))},
+      wheel_(part_of(wheel, grid, lowest_of(rail, wheel))),
       by_rotation_(by_rotation_at(wheel, rows_of(grid))),
       rigid_(pair_[0].rigid + wheel_.rigid) {
+  for (const RemainderShare& kept : rail.kept) stretch_by_load_ += kept.share * kept.remainder->stretch_by_load;
   if (rail.kept.front().remainder->in_full != wheel.kept.front().remainder->in_full) {
     pair_.push_back(wheel_);
     return;

@@ -42,6 +42,7 @@ class RowsDifference {
   }
   /// Displacement of the wheel's rows towards the axle by a squared angular velocity, m s².
   const Eigen::VectorXd& by_rotation() const { return by_rotation_; }
+  double stretch_by_load() const { return stretch_by_load_; }  ///< SectionRemainder's, of the rail
   /// Rows first_y to first_y + ny of the grid.
   std::shared_ptr<const RowsDifference> part(int first_y, int nx, int ny) const;
 
@@ -56,7 +57,8 @@ class RowsDifference {
     std::shared_ptr<const Kernel> kernel;             ///< with the weights of the quadrature and of a cell
     Eigen::Matrix3d rigid = Eigen::Matrix3d::Zero();  ///< m/N, motion of the body as a whole by forces
   };
-  static Part part_of(const PlacedRemainder& placed, const PatchGrid& grid);
+  /// lowest: wave number, 1/m
+  static Part part_of(const PlacedRemainder& placed, const PatchGrid& grid, double lowest);
   static void keep_stations(Part& part);  ///< that have shares of its rows
   void add(const Part& part, const In& in, const Out& out, int rows) const;
 
@@ -65,6 +67,7 @@ class RowsDifference {
   std::vector<Part> pair_;  ///< of both bodies, or of each
   Part wheel_;
   Eigen::VectorXd by_rotation_;
+  double stretch_by_load_ = 0;
   Eigen::Matrix3d rigid_;  ///< of both
 };
 

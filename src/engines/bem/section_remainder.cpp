@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "bem/wave_quadrature.hpp"
 #include "core/faults.hpp"
 #include "geometry/profile_names.hpp"
 #include "section/section_compliance.hpp"
@@ -23,7 +24,9 @@ namespace {
 constexpr double kStation = 2e-3;  // m, from one to the next of a smooth difference
 constexpr double kPlace = kSectionPlace;
 constexpr double kOneAlone = 0.25;         // of kPlace: so far on both sides of its middle a section is alone
-constexpr double kSmallestWave = 1;        // 1/m, of the wave numbers
+constexpr double kSmallestWave = 1;        // 1/m, of the wave numbers of a body that is held
+constexpr double kBelowBending = 0.1;      // smallest wave number over (K/(E I))^1/4 of a rail on springs
+constexpr double kHeavyRail = 5e-5;        // m^4, I of the heaviest rails: of others the waves reach further down
 constexpr double kLogStep = 0.415;         // from one wave number to the next
 constexpr double kDepthBelow = 16e-3;      // m, to which states are asked for
 constexpr double kFullDepthBelow = 8e-3;   // m, the same in full
@@ -66,23 +69,32 @@ bool varies_between(const LayerSpec& layer, double y0, double y1) {
          std::any_of(layer.thickness_table.begin(), layer.thickness_table.end(), other);
 }
 
-/// Arc length of the nearest side of a layer within the reach of the stations; the place itself where none is but the
-/// thickness of a layer varies below them.
+/// Arc length of the nearest side of a layer or of a block within the reach of the stations; the place itself where
+/// none is but the thickness of a layer varies below them.
 std::optional<double> nearest_side(const CaseSpec& spec, const Profile& profile, BodyId body, double place,
                                    double reach) {
   std::optional<double> nearest;
   bool varies = false;
   const auto y_at = [&](double s) { return profile.at(std::clamp(s, profile.s_min(), profile.s_max())).position.y; };
+  const auto offer = [&](double y) {
+    if (y <= profile.y_min() || y >= profile.y_max()) return;
+    const double s = profile.s_at_y(y), distance = std::abs(s - place);
+    if (distance < (nearest ? std::abs(*nearest - place) : reach)) nearest = s;
+  };
   for (const LayerSpec& layer : spec.layers) {
     if (layer.on != body) continue;
     varies = varies || varies_between(layer, y_at(place - reach), y_at(place + reach));
-    for (const double y : {layer.low(), layer.high()}) {
-      if (y <= profile.y_min() || y >= profile.y_max()) continue;
-      const double s = profile.s_at_y(y), distance = std::abs(s - place);
-      if (distance < (nearest ? std::abs(*nearest - place) : reach)) nearest = s;
-    }
+    offer(layer.low());
+    offer(layer.high());
   }
+  if (body == BodyId::rail && spec.geometry.rail_shape == RailShape::block)
+    for (const double side : {-0.5, 0.5}) offer(side * spec.geometry.block_width);
   return nearest || !varies ? nearest : place;
+}
+
+/// Pads and ballast as a continuous support.
+RailSupport support_of(const SleeperTrack& t) {
+  return {t.pad_stiffness / t.spacing, t.pad_shear * t.pad_stiffness / t.spacing, t.ballast_stiffness / t.spacing};
 }
 
 /// What the section depends on: the case's numbers, and the profile by its points.
@@ -107,6 +119,8 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
   } else {
     key.insert(key.end(), {static_cast<double>(g.rail_shape), static_cast<double>(section_below_head(g, profile)),
                            g.cant, g.block_width, g.block_height});
+    const RailSupport on = support_of(spec.track.support);
+    if (!spec.track.held()) key.insert(key.end(), {on.pad, on.pad_across, on.ballast});
   }
   for (const HalfSpaceLayer& layer : half_space.layers) key.push_back(layer.thickness);
   for (const LayerSpec& layer : spec.layers) {
@@ -123,10 +137,19 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
   return key;
 }
 
-std::vector<double> wave_numbers(double largest) {
-  const int last = static_cast<int>(std::ceil(std::log(largest / kSmallestWave) / kLogStep));
+/// Down to where a rail on springs K sinks as a rigid one: bending adds E I k^4 to K.
+double smallest_wave(const CaseSpec& spec, BodyId body) {
+  if (body == BodyId::wheel || spec.track.held()) return kSmallestWave;
+  const double bending = spec.rail_material.young * kHeavyRail;
+  return std::min(kSmallestWave, kBelowBending * std::pow(support_of(spec.track.support).vertical() / bending, 0.25));
+}
+
+/// Of a rail on springs at half the steps: its bending falls with k^4.
+std::vector<double> wave_numbers(double smallest, double largest) {
+  const double step = smallest < kSmallestWave ? 0.5 * kLogStep : kLogStep;
+  const int last = static_cast<int>(std::ceil(std::log(largest / smallest) / step));
   std::vector<double> k;
-  for (int i = 0; i <= last; ++i) k.push_back(kSmallestWave * std::pow(largest / kSmallestWave, 1.0 * i / last));
+  for (int i = 0; i <= last; ++i) k.push_back(smallest * std::pow(largest / smallest, 1.0 * i / last));
   return k;
 }
 
@@ -171,15 +194,34 @@ double radius_at(const CaseSpec& spec, const Placement& placement, BodyId body, 
   return body == BodyId::wheel ? spec.geometry.wheel_radius - placement.wheel.at(place).position.z : 0;
 }
 
+/// SectionRemainder::stretch_by_load: the strain -k U at x = 0 of u_x = i U e^{ikx} by a force downwards.
+double stretch_by_load(MeshedSection rail, const SectionCompliance& on_springs) {
+  std::swap(rail.body.on_pads, rail.body.prescribed);
+  const QuadraticSection mesh = quadratic_section(rail.body);
+  const std::vector<double>& k = on_springs.k;
+  const SectionCompliance held = section_compliance(mesh, section_stiffness(mesh, rail.materials, 0), 1, k);
+  const auto middle = static_cast<Eigen::Index>(3 * (held.stations.size() / 2));
+  std::vector<Eigen::MatrixXd> beyond;
+  for (std::size_t i = 0; i < k.size(); ++i)
+    beyond.emplace_back((on_springs.at[i] - held.at[i]).block(middle, middle + 2, 1, 1));
+  const WaveQuadrature waves(k.front(), k.back(), held.spacing);
+  const std::vector<Eigen::MatrixXd> at = at_waves(beyond, k, waves.k);
+  double sum = 0;
+  for (std::size_t q = 0; q < at.size(); ++q) sum += waves.weight[q] * waves.k[q] * at[q](0, 0);
+  return sum / std::numbers::pi;
+}
+
 SectionRemainder remainder_of(const CaseSpec& spec, const Placement& placement, BodyId body,
                               const LayeredHalfSpace& half_space, const SectionSizes& sizes) {
   const MeshedSection meshed = meshed_section(spec, placement, body, sizes.place, sizes.mesh);
   SectionRemainder out;
   out.radius = radius_at(spec, placement, body, sizes.place);
   out.in_full = sizes.largest > SectionRemainder::kSmoothTo;
-  const std::vector<double> k = wave_numbers(sizes.largest);
+  const std::vector<double> k = wave_numbers(smallest_wave(spec, body), sizes.largest);
   const QuadraticSection mesh = quadratic_section(meshed.body);
-  SectionCompliance section = section_compliance(mesh, section_stiffness(mesh, meshed.materials, out.radius), 1, k);
+  SectionCompliance section = section_compliance(
+      mesh, section_stiffness(mesh, meshed.materials, out.radius, support_of(spec.track.support)), 1, k);
+  if (!meshed.body.on_pads.empty()) out.stretch_by_load = stretch_by_load(meshed, section);
   out.half_space = half_space_compliance(half_space, body == BodyId::wheel, section.spacing,
                                          static_cast<int>(section.stations.size()), k);
   out.own = std::move(section.at);
@@ -191,10 +233,11 @@ SectionRemainder remainder_of(const CaseSpec& spec, const Placement& placement, 
   return out;
 }
 
-SectionInterior interior_on(const MeshedSection& meshed, double radius, const SectionSizes& sizes) {
+SectionInterior interior_on(const MeshedSection& meshed, double radius, const RailSupport& support,
+                            const std::vector<double>& k) {
   const QuadraticSection mesh = quadratic_section(meshed.body);
-  return section_interior(meshed.body, mesh, section_stiffness(mesh, meshed.materials, radius), meshed.materials,
-                          radius, wave_numbers(sizes.largest));
+  return section_interior(meshed.body, mesh, section_stiffness(mesh, meshed.materials, radius, support),
+                          meshed.materials, radius, k);
 }
 
 /// The same layers all over a block under a plane, so large that it is a half-space; in full the same rows of elements,
@@ -226,6 +269,7 @@ LargeBlock large_block(const CaseSpec& spec, const Placement& placement, BodyId 
   out.spec.geometry.block_height = kHeight;
   out.placement.rail = circular_profile(ProfileKind::rail, HUGE_VAL, 0.6 * kWidth);
   out.placement.track.cant = 0;
+  out.spec.track = {};
   return out;
 }
 
@@ -257,7 +301,9 @@ std::vector<InteriorShare> SectionStore::below(const CaseSpec& spec, const Place
   const auto difference = [&](const SectionSizes& sizes) {
     const bool in_full = sizes.largest > SectionRemainder::kSmoothTo;
     const MeshedSection meshed = meshed_section(spec, placement, body, sizes.place, sizes.mesh);
-    SectionInterior out = interior_on(meshed, radius_at(spec, placement, body, sizes.place), sizes);
+    const std::vector<double> k = wave_numbers(smallest_wave(spec, body), sizes.largest);
+    SectionInterior out =
+        interior_on(meshed, radius_at(spec, placement, body, sizes.place), support_of(spec.track.support), k);
     const ContactBand& band = meshed.body.contact;
     const LargeBlock block = large_block(spec, placement, body, in_full, sizes.place);
     SectionSizes alike = sizes;
@@ -266,10 +312,10 @@ std::vector<InteriorShare> SectionStore::below(const CaseSpec& spec, const Place
     alike.mesh.fine_depth = band.depth.back();
     alike.mesh.largest = kLargestOfBlock;
     const auto of_block = [&] {
-      return interior_on(meshed_section(block.spec, block.placement, BodyId::rail, alike.place, alike.mesh), 0, alike);
+      return interior_on(meshed_section(block.spec, block.placement, BodyId::rail, alike.place, alike.mesh), 0, {}, k);
     };
     std::vector<double> key = key_of(block.spec, block.placement, BodyId::rail, half_space, alike);
-    key.push_back(alike.mesh.fine_depth);
+    key.insert(key.end(), {alike.mesh.fine_depth, k.front()});
     const auto flat = in_full ? std::make_shared<const SectionInterior>(of_block()) : blocks_.get(key, of_block);
     if (flat->at.front().size() != out.at.front().size())
       throw NumericalError("a section's rows of elements are not those of a block");

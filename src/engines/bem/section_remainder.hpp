@@ -19,7 +19,9 @@ struct SectionRemainder {
   bool in_full = false;  ///< a layer ends near the patch: stations as near as rows of cells, waves as short as cells
   std::vector<Vec2> stations;       ///< m, in the axes of the model; of a wheel relative to its axle
   std::vector<double> by_rotation;  ///< SectionCompliance::by_rotation
-  std::vector<double> k;            ///< 1/m, wave numbers
+  /// 1/N, of a rail on springs: stretch of the running surface along x under a vertical load, over that of a held foot.
+  double stretch_by_load = 0;
+  std::vector<double> k;  ///< 1/m, wave numbers
   /// Compliance of the section and, in the contact plane, of the half-space at each k. Index direction * stations +
   /// station.
   std::vector<Eigen::MatrixXd> own, half_space;

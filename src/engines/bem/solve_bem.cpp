@@ -152,6 +152,7 @@ BemPatch patch_totals(const CaseSpec& spec, const PatchOnWheel& p) {
   fill_field(p.patch, p.solution, r.contact, spec.drive.speed, r.field);
   if (r.grid.line) spread_over_line(r.grid.dy, r.field);
   fill_totals(p.solution, spec.drive.speed, r);
+  if (const double bent = p.patch.influence->stretch_by_load(); bent != 0) r.bending_stretch = -r.force.z * bent;
   return r;
 }
 

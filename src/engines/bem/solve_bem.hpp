@@ -75,6 +75,8 @@ struct BemPatch {
   /// W, of the tractions in the rigid slip of the cells: creepages, spin and the rows' own rolling radii. In steady
   /// rolling the dissipation, as elastic displacements take no work round.
   double motion_power = std::numeric_limits<double>::quiet_NaN();
+  /// Of the running surface by the rail's bending on its track under this patch's load; NaN: no section on a track.
+  double bending_stretch = std::numeric_limits<double>::quiet_NaN();
   PatchSurroundings surroundings;
   std::shared_ptr<const SectionsBelowPatch> sections;  ///< null: half-spaces
 };

@@ -40,7 +40,9 @@ class MeshMaker {
     for (std::size_t n = 0; n < master.size(); ++n)
       if (master[n] >= 0) hang(static_cast<int>(n), {master[n], master[n]});
     number();
+    settle();
     add_surface();
+    add_base();
     return std::move(mesh_);
   }
 
@@ -115,6 +117,22 @@ class MeshMaker {
     }
   }
 
+  /// Hanging nodes stand on the sides that carry them, and middles between their ends: beside them a rotation would
+  /// strain the elements.
+  void settle() {
+    std::vector<const Side*> of_middle(mesh_.nodes.size(), nullptr);
+    for (const auto& [ends, side] : sides_) of_middle[side.middle] = &side;
+    const std::vector<Vec2> before = mesh_.nodes;
+    const auto place = [&](const auto& self, int node) -> Vec2 {
+      Vec2 sum{};
+      for (const auto& [carrier, share] : carriers_[node]) sum = sum + share * self(self, carrier);
+      if (!carriers_[node].empty()) return sum;
+      const Side* side = of_middle[node];
+      return side ? 0.5 * (self(self, side->from) + self(self, side->to)) : before[node];
+    };
+    for (std::size_t n = 0; n < before.size(); ++n) mesh_.nodes[n] = place(place, static_cast<int>(n));
+  }
+
   void add_surface() {
     const ContactBand& band = body_.contact;
     for (int c = 0; c <= band.columns; ++c) {
@@ -126,6 +144,14 @@ class MeshMaker {
       mesh_.surface.push_back(corner);
       mesh_.s.push_back(band.s[c]);
     }
+  }
+
+  void add_base() {
+    std::vector<char> rests(mesh_.nodes.size(), 0);
+    for (const SectionNode& n : body_.on_pads) rests[global(n.block, n.node)] = 1;
+    for (const auto& [ends, side] : sides_)
+      if (side.elements == 1 && rests[side.from] && rests[side.to])
+        mesh_.on_pads.push_back({side.from, side.middle, side.to});
   }
 
   const SweptBody& body_;

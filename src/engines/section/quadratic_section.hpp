@@ -17,8 +17,9 @@ struct QuadraticSection {
   std::vector<int> material;                 ///< of each element, into SweptBody::materials
   std::vector<NodeShares> shares;            ///< of each node, by free node
   int free_nodes = 0;
-  std::vector<int> surface;  ///< nodes of the band's running surface: corner, middle, corner, …
-  std::vector<double> s;     ///< m, their arc lengths
+  std::vector<int> surface;                 ///< nodes of the band's running surface: corner, middle, corner, …
+  std::vector<double> s;                    ///< m, their arc lengths
+  std::vector<std::array<int, 3>> on_pads;  ///< sides of elements that rest on pads: corner, middle, corner
 };
 
 /// Blocks are joined by their ties; prescribed nodes are held. Hanging nodes follow the quadratic sides of the elements

@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/faults.hpp"
+#include "crack/gauss.hpp"
 
 namespace railstrata {
 
@@ -102,6 +104,35 @@ ElementStiffness element_stiffness(const std::array<Vec2, 8>& x, const Elastic& 
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
+/// Terms of K0, the others have their places: pads over the width b, k/b ∫ N_i N_j ds, and less the force of the
+/// sleeper, which follows the mean height: k²/(k + ballast) m_i m_j, m_i = 1/b ∫ N_i ds.
+void add_support(const QuadraticSection& mesh, const RailSupport& support, std::array<Triplets, 3>& entries) {
+  const auto add = [&](int row, int column, double value) {
+    for (std::size_t j = 0; j < 3; ++j) entries[j].emplace_back(row, column, j == 0 ? value : 0);
+  };
+  const std::array<double, 3> pad{support.pad_across, support.pad_across, support.pad};
+  double width = 0;
+  for (const auto& side : mesh.on_pads) width += norm(mesh.nodes[side[2]] - mesh.nodes[side[0]]);
+  std::map<int, double> mean;  // of free nodes
+  for (const auto& side : mesh.on_pads)
+    for (const GaussPoint& g : kGauss8) {
+      const double w = g.node, share = g.weight * norm(mesh.nodes[side[2]] - mesh.nodes[side[0]]) / width;
+      const std::array<double, 3> shape{(1 - w) * (1 - 2 * w), 4 * w * (1 - w), w * (2 * w - 1)};
+      std::map<int, double> here;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (const auto& [node, part] : mesh.shares[side[i]]) here[node] += part * shape[i];
+      for (const auto& [row, a] : here) {
+        mean[row] += share * a;
+        for (auto b = here.begin(); b != here.end() && b->first <= row; ++b)
+          for (int d = 0; d < 3; ++d) add(3 * row + d, 3 * b->first + d, pad[d] * share * a * b->second);
+      }
+    }
+  const double follows = support.pad / (support.pad + support.ballast) * support.pad;
+  for (const auto& [row, a] : mean)
+    for (auto b = mean.begin(); b != mean.end() && b->first <= row; ++b)
+      add(3 * row + 2, 3 * b->first + 2, -follows * a * b->second);
+}
+
 }  // namespace
 
 Eigen::SparseMatrix<double> SectionStiffness::at(double k) const {
@@ -114,7 +145,8 @@ PointStrains point_strains(const std::array<Vec2, 8>& nodes, double a, double b,
   return strains_of(nodes, quadratic_shape(a, b), radius);
 }
 
-SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vector<Elastic>& materials, double radius) {
+SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vector<Elastic>& materials, double radius,
+                                   const RailSupport& support) {
   std::array<Triplets, 3> entries;
   SectionStiffness out;
   const int size = 3 * mesh.free_nodes;
@@ -138,6 +170,7 @@ SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vect
             entries[2].emplace_back(row, column, share * own.k2(a, b));
           }
   }
+  if (!mesh.on_pads.empty()) add_support(mesh, support, entries);
   const std::array<Eigen::SparseMatrix<double>*, 3> parts{&out.k0, &out.k1, &out.k2};
   for (std::size_t j = 0; j < 3; ++j) {
     parts[j]->resize(size, size);

@@ -29,7 +29,17 @@ struct SectionStiffness {
   Eigen::SparseMatrix<double> at(double k) const;  ///< k in 1/m
 };
 
-/// radius: R of a revolved body, m; 0: extruded. materials: as the mesh numbers them.
-SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vector<Elastic>& materials, double radius);
+/// Springs below a rail by its length, N/m²: pads, even over the underside of the foot, and below them a sleeper that
+/// is rigid and sinks alone.
+struct RailSupport {
+  double pad = 0;                                                      ///< vertical
+  double pad_across = 0;                                               ///< lateral, and along the rail
+  double ballast = 0;                                                  ///< below the sleeper
+  double vertical() const { return pad * ballast / (pad + ballast); }  ///< of both in series
+};
+
+/// radius: R of a revolved body, m; 0: extruded. materials: as the mesh numbers them. support: below a mesh on pads.
+SectionStiffness section_stiffness(const QuadraticSection& mesh, const std::vector<Elastic>& materials, double radius,
+                                   const RailSupport& support = {});
 
 }  // namespace railstrata

@@ -88,6 +88,7 @@ ContactSummary patch_numbers(const CaseSpec& spec, const BemPatch& r) {
   c.contact_angle = r.place.angle;
   c.spin_moment = 0.0 - r.force.moment;
   c.approach = r.approach;
+  c.bending_stretch = r.bending_stretch;
   if (spec.drive.friction_coefficient > 0) {
     c.creepage_x = r.rigid_slip.x;
     c.creepage_y = r.rigid_slip.y;

@@ -166,7 +166,8 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const P
   if (spec.bem.normals == ContactNormals::plane) out.above("patch_spans_angle", around.edges.angle_spanned);
   out.above("patch_large_against_radius",
             std::max(around.edges.half_width_over_radius, 0.5 * patch.length * around.curvature_rolling));
-  out.above("patch_near_edge", around.edges.edge_share, fmt::format(", here {}", around.edges.edge));
+  if (spec.bem.bodies == ContactBodies::half_spaces)  // sections have the edge
+    out.above("patch_near_edge", around.edges.edge_share, fmt::format(", here {}", around.edges.edge));
   warn_of_layers(spec, around, out);
   if (s.run.engine == Engine::fem)
     out.above("patch_near_border_of_fine_zone", patch.width,

@@ -94,6 +94,11 @@ std::vector<ResultNumber> motion_numbers() {
           "Approach of the bodies under the load; finite elements: descent of the axle in the static preload, "
           "including bending of rail and wheel. Null for a line contact, whose approach has no finite value",
           kColumn | kShown),
+      row("bending_stretch", kPerMille, contact<&C::bending_stretch>, "bending stretch",
+          "Strain of the running surface by the bending of a rail on its track",
+          "Beyond that of a rail whose foot is held; part of the creepage along x, which would be larger by it without "
+          "bending. Sections on [track]; else null",
+          kShown | kBem, kOfCreepage),
       row("penetration_max", kNanometres, contact<&C::penetration_max>, "penetration", "Largest penetration",
           "Largest overlap of the surfaces during the run", kShown | kFem),
       row("p_max_scatter", kShare, contact<&C::p_max_scatter>, "scatter of p_max", "Scatter of p_max",

@@ -37,10 +37,11 @@ struct ContactSummary {
   /// N, on the wheel: (F_y, F_z) along the contact plane's normal and along its lateral tangent
   double normal_force = kNotApplicable, lateral_force = kNotApplicable;
   double displacement_x = kNotApplicable,
-         displacement_y = kNotApplicable;  ///< m, of the wheel over the rail: a shift's
-  double friction_work = kNotApplicable;   ///< J, of a transient since its start
-  double spin_moment = kNotApplicable;     ///< N m, on the wheel about the normal at the rigid contact point
-  double motion_power = kNotApplicable;    ///< W, of the tractions in the cells' rigid slip; half-spaces
+         displacement_y = kNotApplicable;   ///< m, of the wheel over the rail: a shift's
+  double friction_work = kNotApplicable;    ///< J, of a transient since its start
+  double spin_moment = kNotApplicable;      ///< N m, on the wheel about the normal at the rigid contact point
+  double motion_power = kNotApplicable;     ///< W, of the tractions in the cells' rigid slip; half-spaces
+  double bending_stretch = kNotApplicable;  ///< of the running surface, by the bending of a rail on its track
   ContactErrors error;
 };
 

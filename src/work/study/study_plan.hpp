@@ -13,7 +13,7 @@ namespace railstrata {
 
 /// Raised whenever a change of the program alters the numbers of a result: results of an older version are computed
 /// anew.
-inline constexpr int kResultVersion = 14;
+inline constexpr int kResultVersion = 15;
 
 /// A case of a study by one engine.
 struct StudyCase {
