@@ -207,6 +207,10 @@ TEST_F(Sections, BendOnTheirTrackAsABeam) {
   double found = 0, expected = 0, approach = 0;
   const BemResult held = solved(spec_, 1e-3);
   EXPECT_TRUE(std::isnan(held.bending_stretch));
+  constexpr double kBelow = 5e-3;  // m
+  const auto strain_below = [](const BemResult& r) {
+    return rail_interior(r).plane(kBelow).e_xx[r.grid.index(r.grid.nx / 2, r.grid.ny / 2)];
+  };
   for (const auto& [stiffness, sign] : {std::pair{100e6, 1}, {10e6, -1}}) {
     spec_.track = {TrackSet::medium, even_track(stiffness, 1e-8)};
     const BemResult r = solved(spec_, 1e-3);
@@ -215,6 +219,8 @@ TEST_F(Sections, BendOnTheirTrackAsABeam) {
     expected += sign * kHead * r.force.z / (4 * beta * std::sqrt(1 + epsilon) * bending);
     approach = r.approach;
     EXPECT_NEAR(r.rigid_slip.x - held.rigid_slip.x, -r.bending_stretch, 0.03 * std::abs(r.bending_stretch));
+    EXPECT_NEAR(strain_below(r) - strain_below(held), r.bending_stretch * (1 - kBelow / kHead),
+                0.05 * std::abs(r.bending_stretch));
   }
   EXPECT_NEAR(found / expected, 1, 2e-2);
   EXPECT_NEAR(approach / held.approach, 1, 1e-2) << "sinking as a whole is left out";
