@@ -38,14 +38,15 @@ void add_displacement_by_pressure(const InfluenceOperator& influence, const Patc
   }
 }
 
-/// Adds half the stretch of the wheel at the end or, a cell ahead, the beginning of a step: mean over the step.
+/// Adds half the stretch of the wheel at the end and, a cell ahead, the beginning of a step: mean over the step.
 void add_half_stretch(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure,
-                      std::size_t ahead, PlanePair& slip) {
+                      std::initializer_list<std::size_t> places_ahead, PlanePair& slip) {
   if (!influence.stretches()) return;
   const Plane stretch = influence.stretch_of_wheel(pressure, grid.nx + 1);
   slip.x.resize(grid.size(), 0.0);
   slip.y.resize(grid.size(), 0.0);
-  for (std::size_t i = 0; i < grid.size(); ++i) slip.x[i] += 0.5 * stretch[i + ahead];
+  for (const std::size_t ahead : places_ahead)
+    for (std::size_t i = 0; i < grid.size(); ++i) slip.x[i] += 0.5 * stretch[i + ahead];
 }
 
 /// Flexibility of the film beyond the operator's, mean over the first cells of the rows [m/Pa].
@@ -107,8 +108,8 @@ TangentialProblem tangential_part(const InfluenceOperator& influence, const Patc
   TangentialProblem t{contact, traction_bound(contact, normal.pressure), films(contact, normal.pressure), {}};
   const auto row = static_cast<std::size_t>(grid.ny);
   if (influence.couples()) add_displacement_by_pressure(influence, grid, normal.pressure, t);
-  if (t.kind != RollingKind::shift) add_half_stretch(influence, grid, normal.pressure, 0, t.extra_slip);
-  if (t.kind == RollingKind::steady) add_half_stretch(influence, grid, normal.pressure, row, t.extra_slip);
+  if (t.kind == RollingKind::steady) add_half_stretch(influence, grid, normal.pressure, {0, row}, t.extra_slip);
+  if (t.kind == RollingKind::transient) add_half_stretch(influence, grid, normal.pressure, {0}, t.extra_slip);
   if (contact.leading_edge == LeadingEdge::sub_cell) cut_leading_cells(influence, grid, normal, t);
   return t;
 }
@@ -126,6 +127,11 @@ double largest_difference(const Plane& a, const Plane& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
   return most;
+}
+
+/// Over the maximum before.
+double relative_change(const Plane& pressure, const Plane& before) {
+  return largest_difference(pressure, before) / largest_of(before);
 }
 
 bool without_traction(const RollingSolution& s) { return s.tangential.state.empty(); }
@@ -155,6 +161,18 @@ void replace(Solution& old, Solution next) {
   old = std::move(next);
 }
 
+/// To a tolerance, from tractions that are known by one Newton step.
+TangentialOptions roughly(TangentialOptions options, double tolerance, bool one_step) {
+  options.tolerance = std::max(options.tolerance, tolerance);
+  if (one_step) {
+    options.max_outer = 1;
+    options.partial = true;
+  }
+  return options;
+}
+
+/// Sections couple little: after the first turn the tangential problem is solved to its end, and the change of pressure
+/// by that of the gap shows whether another turn would bring anything.
 RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
                               const RollingOptions& options, const RollingSolution* start) {
   // A third of the tangential solution is enough to see the pressure move.
@@ -170,37 +188,39 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
     s.tangential = start->tangential;
     s.tangential.iterations = 0;
   }
-  double change = kFirst;
+  double change = kFirst, by_gap = 0;  // by_gap: of sections, of the pressure by that of the gap
+  Plane gap =
+      without_traction(s) ? contact.gap : gap_with_displacement_by_traction(influence, contact.gap, s.tangential);
   const auto pressure = [&](const Plane& from) {
     NormalTarget target = contact.target;
     if (target.load && !without_traction(s)) *target.load += load_on_traction(grid, contact.turn, s.tangential.q_y);
     NormalOptions close_enough = options.normal;
     close_enough.tolerance = std::max(close_enough.tolerance, kGapPerPressure * kSharper * change);
-    return solve_normal(
-        influence, grid,
-        without_traction(s) ? contact.gap : gap_with_displacement_by_traction(influence, contact.gap, s.tangential),
-        target, close_enough, from, contact.turn);
+    return solve_normal(influence, grid, gap, target, close_enough, from, contact.turn);
   };
   s.normal = pressure(start ? start->normal.pressure : Plane{});
+  const double most_left =
+      start ? std::min(options.coupling_tolerance,
+                       options.normal.share_of_first * relative_change(s.normal.pressure, start->normal.pressure))
+            : options.coupling_tolerance;
   for (s.outer_iterations = 1; s.outer_iterations <= options.max_outer; ++s.outer_iterations) {
     const bool settled = change < options.coupling_tolerance, first = without_traction(s);
-    TangentialOptions further = options.tangential;
-    if (!settled) {
-      further.tolerance = std::max(further.tolerance, change);
-      if (!first && s.outer_iterations < kOneStepIterations) {
-        further.max_outer = 1;
-        further.partial = true;
-      }
-    }
-    replace(s.tangential, solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal),
-                                           further, first ? nullptr : &s.tangential));
-    if (settled) {
+    const bool to_its_end = settled || by_gap > 0, one_step = !first && s.outer_iterations < kOneStepIterations;
+    replace(s.tangential,
+            solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal),
+                             to_its_end ? options.tangential : roughly(options.tangential, change, one_step),
+                             first ? nullptr : &s.tangential));
+    const Plane before = gap;
+    if (!settled) gap = gap_with_displacement_by_traction(influence, contact.gap, s.tangential);
+    const double moved = largest_difference(gap, before);
+    if (settled || (by_gap > 0 && by_gap * moved < most_left)) {
       if (!contact.turn.empty()) set_resultants(grid, contact.turn, s);
       return s;
     }
     NormalSolution next = pressure(s.normal.pressure);
-    change = std::max(kSharper * change,
-                      largest_difference(next.pressure, s.normal.pressure) / largest_of(s.normal.pressure));
+    const double now = relative_change(next.pressure, s.normal.pressure);
+    if (influence.stretches() && moved > 0) by_gap = std::max(by_gap, now / moved);
+    change = std::max(kSharper * change, now);
     replace(s.normal, std::move(next));
   }
   throw NumericalError("the iteration between normal and tangential contact did not converge");
@@ -287,7 +307,7 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
                       RollingContact& contact) {
   roll_on_one_cell(influence, grid, before.tangential, contact);
   add_history_by_pressure(influence, grid, before.normal.pressure, static_cast<std::size_t>(grid.ny), contact.before);
-  add_half_stretch(influence, grid, before.normal.pressure, static_cast<std::size_t>(grid.ny), contact.extra_slip);
+  add_half_stretch(influence, grid, before.normal.pressure, {static_cast<std::size_t>(grid.ny)}, contact.extra_slip);
   if (contact.heat) contact.flux_before = flux_before(grid, before);
 }
 

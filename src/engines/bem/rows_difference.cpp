@@ -13,13 +13,38 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// What stands at `at` as shares of values at `nodes`; beyond their ends those of the ends.
+/// Of values at `nodes` what stands at each of `at`; beyond their ends that of the ends.
+std::vector<LagrangeStencil> stencils_of(const std::vector<double>& nodes, const std::vector<double>& at) {
+  std::vector<LagrangeStencil> out;
+  for (const double t : at)
+    out.push_back(
+        lagrange_stencil(nodes.data(), static_cast<int>(nodes.size()), std::clamp(t, nodes.front(), nodes.back())));
+  return out;
+}
+
+/// The same as shares: nodes x places.
 Matrix shares_of(const std::vector<double>& nodes, const std::vector<double>& at) {
   Matrix out = Matrix::Zero(static_cast<Eigen::Index>(nodes.size()), static_cast<Eigen::Index>(at.size()));
-  for (std::size_t j = 0; j < at.size(); ++j) {
-    const double t = std::clamp(at[j], nodes.front(), nodes.back());
-    const LagrangeStencil s = lagrange_stencil(nodes.data(), static_cast<int>(nodes.size()), t);
-    for (int i = 0; i < s.count; ++i) out(s.first + i, static_cast<Eigen::Index>(j)) = s.weight[i];
+  Eigen::Index column = 0;
+  for (const LagrangeStencil& s : stencils_of(nodes, at)) {
+    for (int i = 0; i < s.count; ++i) out(s.first + i, column) = s.weight[i];
+    ++column;
+  }
+  return out;
+}
+
+/// Between the places of the stencils, of values between nodes from `first` on.
+Matrix between(const std::vector<LagrangeStencil>& places, const Matrix& nodes, int first) {
+  const auto count = static_cast<Eigen::Index>(places.size());
+  Matrix across = Matrix::Zero(count, nodes.cols()), out = Matrix::Zero(count, count);
+  for (Eigen::Index j = 0; j < nodes.cols(); ++j)
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const LagrangeStencil& s = places[static_cast<std::size_t>(i)];
+      for (int n = 0; n < s.count; ++n) across(i, j) += s.weight[n] * nodes(s.first - first + n, j);
+    }
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const LagrangeStencil& s = places[static_cast<std::size_t>(j)];
+    for (int n = 0; n < s.count; ++n) out.col(j) += s.weight[n] * across.col(s.first - first + n);
   }
   return out;
 }
@@ -55,52 +80,57 @@ void add_block(Matrix& to, double share, const Matrix& of, Eigen::Index row, Eig
   }
 }
 
-/// D of a body at its wave numbers, between the stations t of the contact plane.
+/// own less half_space, SectionRemainder's or at other waves, between the stations t of the contact plane.
 std::vector<Matrix> difference_at(const PlacedRemainder& placed, const SectionRemainder& body,
+                                  const std::vector<Matrix>& own, const std::vector<Matrix>& half_space,
                                   const std::vector<double>& t) {
-  const std::size_t count = body.k.size();
   const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)}, down{along.z, -along.y};
-  std::vector<double> own;
-  for (const Vec2 p : body.stations) own.push_back(dot(p - placed.contact, along));
-  const Matrix shares = shares_of(own, t);
-  Eigen::Index first = 0, last = shares.rows() - 1;  // of the stations that count
-  while (shares.row(first).isZero(0)) ++first;
-  while (shares.row(last).isZero(0)) --last;
-  const Eigen::Index n = last - first + 1, m = shares.cols();
-  const Matrix near = shares.middleRows(first, n);  // four to a station
-  Eigen::Matrix3d axes;                             // rows: the plane's in those of the section
+  std::vector<double> at;
+  for (const Vec2 p : body.stations) at.push_back(dot(p - placed.contact, along));
+  const std::vector<LagrangeStencil> places = stencils_of(at, t);
+  int first = static_cast<int>(at.size()), last = 0;  // of the stations that count
+  for (const LagrangeStencil& s : places) {
+    first = std::min(first, s.first);
+    last = std::max(last, s.first + s.count);
+  }
+  const auto n = static_cast<Eigen::Index>(last - first), m = static_cast<Eigen::Index>(t.size()),
+             all = static_cast<Eigen::Index>(at.size());
+  Eigen::Matrix3d axes;  // rows: the plane's in those of the section
   axes << 1, 0, 0, 0, along.y, along.z, 0, down.y, down.z;
-  std::vector<Matrix> out(count, Matrix::Zero(3 * m, 3 * m));
-  for (std::size_t k = 0; k < count; ++k)
+  std::vector<Matrix> out(own.size(), Matrix(3 * m, 3 * m));
+  for (std::size_t k = 0; k < own.size(); ++k)
     for (Eigen::Index a = 0; a < 3; ++a)
       for (Eigen::Index b = a; b < 3; ++b) {
-        Matrix turned = Matrix::Zero(n, n), across = Matrix::Zero(n, m);
+        Matrix turned = Matrix::Zero(n, n);
         const auto add = [&](double share, const Matrix& of, Eigen::Index c, Eigen::Index d) {
-          if (share != 0) add_block(turned, share, of, c * shares.rows() + first, d * shares.rows() + first);
+          if (share != 0) add_block(turned, share, of, c * all + first, d * all + first);
         };
-        add(-1, body.half_space[k], a, b);
+        add(-1, half_space[k], a, b);
         for (Eigen::Index c = 0; c < 3; ++c)
-          for (Eigen::Index d = 0; d < 3; ++d) add(axes(a, c) * axes(b, d), body.own[k], c, d);
-        add_product(turned, near, across);
-        auto mirrored = out[k].block(b * m, a * m, m, m);
-        add_product(across.transpose().eval(), near, mirrored);
-        if (a != b) out[k].block(a * m, b * m, m, m) = mirrored.transpose();
+          for (Eigen::Index d = 0; d < 3; ++d) add(axes(a, c) * axes(b, d), own[k], c, d);
+        const Matrix block = between(places, turned, first);
+        out[k].block(a * m, b * m, m, m) = block;
+        out[k].block(b * m, a * m, m, m) = block.transpose();
       }
-  if (body.in_full) return out;
-  Matrix limit = out.back();  // but of the coupling of x with the others, which is odd in k
-  limit.topRightCorner(m, 2 * m).setZero();
-  limit.bottomLeftCorner(2 * m, m).setZero();
-  for (Matrix& rest : out) rest -= limit;
   return out;
 }
 
-/// Of the sections that are kept on both sides of the contact.
-std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& t) {
+/// Of the sections that are kept on both sides of the contact, at these waves.
+std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vector<double>& waves,
+                                  const std::vector<double>& t) {
   std::vector<Matrix> sum;
-  for (const RemainderShare& kept : placed.kept) {
-    const std::vector<Matrix> own = difference_at(placed, *kept.remainder, t);
+  const auto add = [&](double share, const std::vector<Matrix>& own) {
     sum.resize(own.size(), Matrix::Zero(own.front().rows(), own.front().cols()));
-    for (std::size_t k = 0; k < own.size(); ++k) sum[k] += kept.share * own[k];
+    for (std::size_t k = 0; k < own.size(); ++k) sum[k] += share * own[k];
+  };
+  for (const RemainderShare& kept : placed.kept) {
+    const SectionRemainder& body = *kept.remainder;
+    if (body.in_full) {
+      add(kept.share, at_waves(difference_at(placed, body, body.own, body.half_space, t), body.k, waves));
+      continue;
+    }
+    const auto smooth = body.at(waves);
+    add(kept.share, difference_at(placed, body, smooth->own, smooth->half_space, t));
   }
   return sum;
 }
@@ -172,7 +202,7 @@ RowsDifference::Part RowsDifference::part_of(const PlacedRemainder& placed, cons
   out.shares = shares_of(stations, rows);
   out.of_rows = out.shares.transpose();
   const WaveQuadrature waves(lowest, body.k.back(), (grid.nx + 1) * grid.dx);
-  Kernel kernel = at_waves(difference_at(placed, stations), body.k, waves.k);
+  Kernel kernel = difference_at(placed, waves.k, stations);
   const auto count = static_cast<Eigen::Index>(waves.k.size());
   const auto smooth = std::upper_bound(waves.k.begin(), waves.k.end(), SectionRemainder::kSmoothTo) - waves.k.begin();
   Eigen::Matrix3d local = Eigen::Matrix3d::Zero();

@@ -284,7 +284,27 @@ void take_off(const SectionInterior& block, bool in_full, SectionInterior& from)
     }
 }
 
+std::vector<Eigen::MatrixXd> without_limit(std::vector<Eigen::MatrixXd> values, Eigen::MatrixXd limit) {
+  const Eigen::Index n = limit.rows() / 3;
+  limit.topRightCorner(n, 2 * n).setZero();
+  limit.bottomLeftCorner(2 * n, n).setZero();
+  for (Eigen::MatrixXd& value : values) value -= limit;
+  return values;
+}
+
 }  // namespace
+
+std::shared_ptr<const SectionRemainder::AtWaves> SectionRemainder::at(const std::vector<double>& waves) const {
+  constexpr std::size_t kMost = 8;
+  const std::lock_guard lock(kept_->mutex);
+  for (const auto& one : kept_->all)
+    if (one->k == waves) return one;
+  if (kept_->all.size() == kMost) kept_->all.erase(kept_->all.begin());
+  kept_->all.push_back(
+      std::make_shared<const AtWaves>(AtWaves{waves, without_limit(at_waves(own, k, waves), own.back()),
+                                              without_limit(at_waves(half_space, k, waves), half_space.back())}));
+  return kept_->all.back();
+}
 
 std::vector<RemainderShare> SectionStore::get(const CaseSpec& spec, const Placement& placement, BodyId body,
                                               const LayeredHalfSpace& half_space, const PatchGrid& grid) {

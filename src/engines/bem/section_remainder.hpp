@@ -25,6 +25,20 @@ struct SectionRemainder {
   /// Compliance of the section and, in the contact plane, of the half-space at each k. Index direction * stations +
   /// station.
   std::vector<Eigen::MatrixXd> own, half_space;
+
+  /// Both at other wave numbers, less themselves at the largest k but for the coupling of x, which is odd in k.
+  struct AtWaves {
+    std::vector<double> k;
+    std::vector<Eigen::MatrixXd> own, half_space;
+  };
+  std::shared_ptr<const AtWaves> at(const std::vector<double>& waves) const;  ///< kept from the first time on
+
+ private:
+  struct KeptWaves {
+    std::mutex mutex;
+    std::vector<std::shared_ptr<const AtWaves>> all;
+  };
+  std::shared_ptr<KeptWaves> kept_ = std::make_shared<KeptWaves>();
 };
 
 /// One of the sections that are kept on both sides of a place, and its share there.
