@@ -288,7 +288,7 @@ void set_problem(const CaseSpec& spec, const Placement& placement, const NormalT
   if (const double bent = patch.influence->stretch_by_load(); bent != 0)
     patch.notes.push_back(fmt::format(
         "the rail bends on its track: by that its running surface is stretched by {:.2e} per kN of load, the lower are "
-        "creepages along the rail (bending_stretch)",
+        "creepages along the rail",
         1e3 * bent));
 }
 
