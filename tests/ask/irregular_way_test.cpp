@@ -144,7 +144,7 @@ TEST(IrregularWay, WhatCannotBeComputedIsRefused) {
   EXPECT_NE(refusal(rolling + kHollow, 4e-3).find("fewer than 6"), std::string::npos);
   const std::string track = "[track]\npreset = \"delft\"\n";
   for (const std::string& more : {track, rolling + track})
-    EXPECT_NE(refusal(more, 1e-3).find("track.preset is not supported by half-spaces"), std::string::npos) << more;
+    EXPECT_NE(refusal(more, 1e-3).find("(track.preset) is not supported by half-spaces"), std::string::npos) << more;
   EXPECT_NE(
       refusal(rolling + "start = \"steady\"\n[[irregularity]]\nat = \"2 mm\"\nlength = \"20 mm\"\ndepth = \"0.1 mm\"\n",
               1e-3)
