@@ -111,7 +111,8 @@ std::vector<double> key_of(const CaseSpec& spec, const Placement& placement, Bod
                           sizes.mesh.fine_width,
                           sizes.largest,
                           m.young,
-                          m.poisson};
+                          m.poisson,
+                          m.density};
   if (wheel) {
     const WheelSection& w = g.wheel_section;
     key.insert(key.end(), {static_cast<double>(g.wheel_shape), g.wheel_radius, w.rim_thickness, w.web_thickness,
