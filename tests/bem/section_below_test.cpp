@@ -63,8 +63,9 @@ TEST_P(SectionBelowTest, OfASlabIsThatOfALayerOnARigidBase) {
   Subsurface section = below({{}, steel}, grid);
   section.stand_on(std::make_unique<const SectionBelow>(
       std::make_shared<const LoadedSection>(LoadedSection{store.below(spec, placement, GetParam(), {{}, steel}, grid),
-                                                          GetParam() == BodyId::rail ? Vec2{} : Vec2{0, -kRadius}, 0,
-                                                          grid, loads_on(grid)}),
+                                                          {GetParam() == BodyId::rail ? Vec2{} : Vec2{0, -kRadius}, 0},
+                                                          grid,
+                                                          loads_on(grid)}),
       grid));
   const Subsurface exact = slab_on(1e6), alike = slab_on(1 + 1e-9), half_space = below({{}, steel}, grid);
   for (const double depth : {2e-3, 5e-3, 9e-3}) {
@@ -102,7 +103,7 @@ TEST(SectionBelow, OfANarrowLayerIsThatOfTheLayerInItsMiddleAndOfSteelBeside) {
   Subsurface section = below(body, grid);
   section.stand_on(std::make_unique<const SectionBelow>(
       std::make_shared<const LoadedSection>(
-          LoadedSection{store.below(spec, placement, BodyId::rail, body, grid), Vec2{}, 0, grid, loads_on(grid)}),
+          LoadedSection{store.below(spec, placement, BodyId::rail, body, grid), {Vec2{}, 0}, grid, loads_on(grid)}),
       grid));
   const Subsurface endless = below(body, grid);
   const std::size_t middle = grid.index(14, 14);

@@ -21,9 +21,8 @@ Option of_sleepers(std::string_view key, std::string_view doc, const Dimension& 
 OptionTable track_table() {
   return {
       "track",
-      "Pads, sleepers and ballast below one rail (docs/track.md); with bem.bodies = \"sections\" an even support of "
-      "their "
-      "stiffness",
+      "Pads, sleepers and ballast below one rail (docs/track.md); with bem.bodies = \"sections\" an even "
+      "support of their stiffness",
       {choice_at<&C::track, &TrackSpec::preset>(
            "preset",
            "Preset that supplies the defaults of the keys below; held: no track, the foot's base is fixed. "

@@ -334,16 +334,12 @@ std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSp
                                                              const LayeredHalfSpace& rail, const PatchGrid& g,
                                                              double film, const SectionsAsked& sections) {
   const auto& [spec, placement] = sections;
-  const RigidContact& contact = placement.contact;
   const PlacedRemainder of_rail{sections_->get(spec, placement, BodyId::rail, rail, g),
-                                rail_to_model(placement.track, placement.rail.at(contact.rail_s).position),
-                                contact.angle},
-      of_wheel{sections_->get(spec, placement, BodyId::wheel, wheel, g),
-               placement.wheel.at(contact.wheel_s).position - Vec2{0, spec.geometry.wheel_radius},
-               contact.angle - contact.roll};
+                                section_plane(spec, placement, BodyId::rail)},
+      of_wheel{sections_->get(spec, placement, BodyId::wheel, wheel, g), section_plane(spec, placement, BodyId::wheel)};
   return std::make_shared<const InfluenceOperator>(
       flat(wheel, &rail, g, film), std::make_shared<const RowsDifference>(of_rail, of_wheel, g),
-      flat(wheel, nullptr, g, 0), std::cos(of_wheel.angle) / contact.rolling_radius);
+      flat(wheel, nullptr, g, 0), std::cos(of_wheel.plane.angle) / placement.contact.rolling_radius);
 }
 
 }  // namespace railstrata

@@ -84,9 +84,8 @@ void add_block(Matrix& to, double share, const Matrix& of, Eigen::Index row, Eig
 std::vector<Matrix> difference_at(const PlacedRemainder& placed, const SectionRemainder& body,
                                   const std::vector<Matrix>& own, const std::vector<Matrix>& half_space,
                                   const std::vector<double>& t) {
-  const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)}, down{along.z, -along.y};
-  std::vector<double> at;
-  for (const Vec2 p : body.stations) at.push_back(dot(p - placed.contact, along));
+  const Vec2 along{std::cos(placed.plane.angle), std::sin(placed.plane.angle)}, down{along.z, -along.y};
+  const std::vector<double> at = placed.plane.along(body.stations);
   const std::vector<LagrangeStencil> places = stencils_of(at, t);
   int first = static_cast<int>(at.size()), last = 0;  // of the stations that count
   for (const LagrangeStencil& s : places) {
@@ -138,11 +137,9 @@ std::vector<Matrix> difference_at(const PlacedRemainder& placed, const std::vect
 /// The wheel's SectionCompliance::by_rotation at t, downwards.
 Eigen::VectorXd by_rotation_at(const PlacedRemainder& placed, const std::vector<double>& t) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(t.size()));
-  const Vec2 along{std::cos(placed.angle), std::sin(placed.angle)};
   for (const RemainderShare& kept : placed.kept) {
     const SectionRemainder& section = *kept.remainder;
-    std::vector<double> own;
-    for (const Vec2 p : section.stations) own.push_back(dot(p - placed.contact, along));
+    const std::vector<double> own = placed.plane.along(section.stations);
     out += kept.share * shares_of(own, t).transpose() *
            Eigen::Map<const Eigen::VectorXd>(section.by_rotation.data(), static_cast<Eigen::Index>(own.size()));
   }

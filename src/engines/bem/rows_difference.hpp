@@ -20,8 +20,7 @@ namespace railstrata {
 /// A body in the contact plane.
 struct PlacedRemainder {
   std::vector<RemainderShare> kept;
-  Vec2 contact;      ///< m, the origin of the contact plane where the stations are given
-  double angle = 0;  ///< rad, of the plane
+  SectionPlane plane;
 };
 
 class RowsDifference {

@@ -19,14 +19,6 @@ constexpr std::array<Plane StatePlane::*, kComponents> kOfState{
     &StatePlane::e_xx, &StatePlane::e_yy, &StatePlane::e_xy, &StatePlane::s_xz, &StatePlane::s_yz, &StatePlane::s_zz};
 constexpr bool is_imaginary(int component) { return component == 2 || component == 3; }
 
-/// Places along the plane.
-std::vector<double> along_plane(const std::vector<Vec2>& points, const LoadedSection& section) {
-  const Vec2 along{std::cos(section.angle), std::sin(section.angle)};
-  std::vector<double> out;
-  for (const Vec2 p : points) out.push_back(dot(p - section.contact, along));
-  return out;
-}
-
 LagrangeStencil within(const std::vector<double>& at, double t, int most) {
   return lagrange_stencil(at.data(), static_cast<int>(at.size()), std::clamp(t, at.front(), at.back()), most);
 }
@@ -132,8 +124,8 @@ void SectionBelow::add_part(const InteriorShare& kept) {
   const SectionInterior& of = *kept.difference;
   Part part;
   part.of = &of;
-  part.y = along_plane(of.columns, *section_);
-  const std::vector<double> stations = along_plane(of.stations, *section_);
+  part.y = section_->plane.along(of.columns);
+  const std::vector<double> stations = section_->plane.along(of.stations);
   const auto count = static_cast<Eigen::Index>(k_.size());
   std::vector<double> log;
   for (const double k : of.k) log.push_back(std::log(k));

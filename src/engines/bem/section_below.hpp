@@ -19,8 +19,7 @@ namespace railstrata {
 /// A body in its contact plane and what acts on it, in its own axes.
 struct LoadedSection {
   std::vector<InteriorShare> kept;
-  Vec2 contact;      ///< m, the origin of the contact plane where the stations are given
-  double angle = 0;  ///< rad, of the plane
+  SectionPlane plane;
   PatchGrid grid;
   PlaneLoads loads;
 };

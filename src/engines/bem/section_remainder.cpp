@@ -12,14 +12,14 @@
 
 namespace railstrata {
 
+namespace {
+
 /// How fine a section is looked at: elements are as wide as its stations.
 struct SectionSizes {
   MeshSizes mesh;
   double place = 0;    ///< m, arc length of the middle of the stations
   double largest = 0;  ///< 1/m, of the wave numbers
 };
-
-namespace {
 
 constexpr double kStation = 2e-3;  // m, from one to the next of a smooth difference
 constexpr double kPlace = kSectionPlace;
@@ -294,6 +294,21 @@ std::vector<Eigen::MatrixXd> without_limit(std::vector<Eigen::MatrixXd> values, 
 }
 
 }  // namespace
+
+std::vector<double> SectionPlane::along(const std::vector<Vec2>& points) const {
+  const Vec2 direction{std::cos(angle), std::sin(angle)};
+  std::vector<double> out;
+  for (const Vec2 p : points) out.push_back(dot(p - contact, direction));
+  return out;
+}
+
+SectionPlane section_plane(const CaseSpec& spec, const Placement& placement, BodyId body) {
+  const RigidContact& contact = placement.contact;
+  if (body == BodyId::rail)
+    return {rail_to_model(placement.track, placement.rail.at(contact.rail_s).position), contact.angle};
+  return {placement.wheel.at(contact.wheel_s).position - Vec2{0, spec.geometry.wheel_radius},
+          contact.angle - contact.roll};
+}
 
 std::shared_ptr<const SectionRemainder::AtWaves> SectionRemainder::at(const std::vector<double>& waves) const {
   constexpr std::size_t kMost = 8;

@@ -41,6 +41,14 @@ struct SectionRemainder {
   std::shared_ptr<KeptWaves> kept_ = std::make_shared<KeptWaves>();
 };
 
+/// The contact plane in the axes of a body's section.
+struct SectionPlane {
+  Vec2 contact;                                                      ///< m, its origin, where the stations are given
+  double angle = 0;                                                  ///< rad
+  std::vector<double> along(const std::vector<Vec2>& points) const;  ///< m, places of points along it
+};
+SectionPlane section_plane(const CaseSpec& spec, const Placement& placement, BodyId body);
+
 /// One of the sections that are kept on both sides of a place, and its share there.
 struct RemainderShare {
   std::shared_ptr<const SectionRemainder> remainder;

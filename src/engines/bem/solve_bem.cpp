@@ -252,13 +252,9 @@ Subsurface interior(BodyId id, const LayeredHalfSpace& body, const BemPatch& pat
   Subsurface out(body, patch.grid, loads.p, loads.q_x, loads.q_y);
   if (!patch.sections) return out;
   const auto& [store, spec, placement] = *patch.sections;
-  const RigidContact& contact = placement.contact;
-  const bool wheel = id == BodyId::wheel;
   const auto section = std::make_shared<const LoadedSection>(
-      LoadedSection{store->below(spec, placement, id, body, patch.grid),
-                    wheel ? placement.wheel.at(contact.wheel_s).position - Vec2{0, spec.geometry.wheel_radius}
-                          : rail_to_model(placement.track, placement.rail.at(contact.rail_s).position),
-                    contact.angle - (wheel ? contact.roll : 0), patch.grid, std::move(loads)});
+      LoadedSection{store->below(spec, placement, id, body, patch.grid), section_plane(spec, placement, id), patch.grid,
+                    std::move(loads)});
   out.stand_on(std::make_unique<const SectionBelow>(section, patch.grid));
   return out;
 }

@@ -88,12 +88,11 @@ class MeshMaker {
       }
     }
     assert(best.side);
-    const double w = best.at;
+    const std::array<double, 3> shape = shape_on_side(best.at);
+    const std::array<int, 3> nodes{best.side->from, best.side->middle, best.side->to};
     NodeShares& on = carriers_[node];
-    for (const auto& [carrier, share] :
-         {std::pair{best.side->from, (1 - w) * (1 - 2 * w)}, std::pair{best.side->middle, 4 * w * (1 - w)},
-          std::pair{best.side->to, w * (2 * w - 1)}})
-      if (std::abs(share) > 1e-12) on.emplace_back(carrier, share);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (std::abs(shape[i]) > 1e-12) on.emplace_back(nodes[i], shape[i]);
   }
 
   /// Carriers may hang themselves.

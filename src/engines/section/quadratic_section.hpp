@@ -11,6 +11,11 @@ namespace railstrata {
 /// A node's displacement as a sum over free nodes: itself; those that carry a hanging node; nothing where it is held.
 using NodeShares = std::vector<std::pair<int, double>>;
 
+/// Shape functions on a side of three nodes, w from 0 at its beginning to 1.
+inline std::array<double, 3> shape_on_side(double w) {
+  return {(1 - w) * (1 - 2 * w), 4 * w * (1 - w), w * (2 * w - 1)};
+}
+
 struct QuadraticSection {
   std::vector<Vec2> nodes;                   ///< m
   std::vector<std::array<int, 8>> elements;  ///< corners anticlockwise seen from +x, then the middles of their sides

@@ -25,10 +25,10 @@ Eigen::MatrixXd hat_loads(const QuadraticSection& mesh, int columns, int count) 
   for (std::size_t first = 0; first + 2 < mesh.surface.size(); first += 2) {
     const double from = mesh.s[first], length = mesh.s[first + 2] - from;
     for (const GaussPoint& g : kGauss8) {
-      const double place = (from + g.node * length - mesh.s.front()) / spacing, w = g.node;
+      const double place = (from + g.node * length - mesh.s.front()) / spacing;
       const int left = static_cast<int>(place) - 1;  // station m stands at m + 1 spacings
       const double right_share = place - std::floor(place), weight = g.weight * length / spacing;
-      const std::array<double, 3> shape{(1 - w) * (1 - 2 * w), 4 * w * (1 - w), w * (2 * w - 1)};
+      const std::array<double, 3> shape = shape_on_side(g.node);
       for (std::size_t i = 0; i < 3; ++i) {
         add(first + i, left, weight * shape[i] * (1 - right_share));
         add(first + i, left + 1, weight * shape[i] * right_share);

@@ -116,8 +116,8 @@ void add_support(const QuadraticSection& mesh, const RailSupport& support, std::
   std::map<int, double> mean;  // of free nodes
   for (const auto& side : mesh.on_pads)
     for (const GaussPoint& g : kGauss8) {
-      const double w = g.node, share = g.weight * norm(mesh.nodes[side[2]] - mesh.nodes[side[0]]) / width;
-      const std::array<double, 3> shape{(1 - w) * (1 - 2 * w), 4 * w * (1 - w), w * (2 * w - 1)};
+      const double share = g.weight * norm(mesh.nodes[side[2]] - mesh.nodes[side[0]]) / width;
+      const std::array<double, 3> shape = shape_on_side(g.node);
       std::map<int, double> here;
       for (std::size_t i = 0; i < 3; ++i)
         for (const auto& [node, part] : mesh.shares[side[i]]) here[node] += part * shape[i];
